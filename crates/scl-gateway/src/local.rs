@@ -9,7 +9,8 @@ mod mirroring;
 mod neighbours;
 mod routes;
 
-use crate::pump::Counts;
+pub use crate::pump::Counts;
+
 use crate::route::Route;
 use crate::slot::Slot;
 use crate::wire::{Announced, Wire};
@@ -55,19 +56,6 @@ pub struct Gateway {
     tasks: JoinSet<()>,
 }
 
-/// What a route has carried so far.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct RouteFigures {
-    /// The route's key.
-    pub key: String,
-    /// Messages or requests that the far side has taken or answered.
-    pub carried: u64,
-    /// Messages or requests of which it is unknown whether the far side has taken them.
-    pub given_up: u64,
-    /// Messages or requests that are in this gateway now.
-    pub held: u64,
-}
-
 impl Gateway {
     /// Starts the gateway. Called inside a tokio runtime. Returns at once; other hosts and components may come later.
     pub fn start(options: GatewayOptions, wire: Wire) -> Self {
@@ -98,15 +86,9 @@ impl Gateway {
         Self { wire, routes, stop, pumps, tasks }
     }
 
-    /// What the routes have carried so far, in the order of the options.
-    pub fn figures(&self) -> Vec<RouteFigures> {
-        let figures = |(key, counts): &(String, Arc<Counts>)| RouteFigures {
-            key: key.clone(),
-            carried: counts.carried(),
-            given_up: counts.given_up(),
-            held: counts.held(),
-        };
-        self.routes.iter().map(figures).collect()
+    /// The keys of the routes, and what they have carried so far, in the order of the options.
+    pub fn figures(&self) -> &[(String, Arc<Counts>)] {
+        &self.routes
     }
 
     /// Ends the gateway: what is on its way is delivered if that takes no longer than a second or two, components of other

@@ -42,7 +42,7 @@ mod replying;
 mod requesting;
 mod sending;
 
-pub(crate) use counts::Counts;
+pub use counts::Counts;
 pub(crate) use receiving::Receiving;
 pub(crate) use replying::Replying;
 pub(crate) use requesting::Requesting;

@@ -3,7 +3,7 @@
 //! Every host computes them alone and all must get the same, so nothing here depends on the host that asks.
 
 use crate::deployment::Deployment;
-use scl_plan::{ConnectionPlan, GateKind, GatePlan, Plan, SystemPlan, WhenFull};
+use scl_plan::{ConnectionPlan, GateKind, GatePlan, Plan, SystemPlan};
 
 /// One way between two hosts. For `pub` and `sub` a connection; for `pull` and `rep`, whose socket serves many peers,
 /// everything that one host sends to that gate.
@@ -17,20 +17,14 @@ pub struct Route {
     pub to: RouteEnd,
     /// The name of the socket, in the folder of the system on either host.
     pub endpoint: String,
-    /// The contract of the connection.
-    pub contract: String,
     /// The receiving gate's queue, in messages.
     pub queue: u32,
-    /// What happens when it is full.
-    pub when_full: WhenFull,
     /// Whether a sender waits for slow receivers instead of dropping messages.
     pub lossless: bool,
     /// Whether the publisher keeps its last message for subscribers that join.
     pub latched: bool,
     /// The longest message that an end of the route accepts, in bytes; for requests, the longest request or reply.
     pub max_size: u64,
-    /// Whether only the newest message matters to the receiving gate.
-    pub newest_only: bool,
     /// The zenoh key: `scl/<system>/<component>/<gate>/<component>/<gate>/<contract>`, and for `pull` and `rep` with
     /// `host:<name>/push` or `host:<name>/req` as the sender.
     pub key: String,
@@ -105,7 +99,6 @@ fn route(
         false => format!("host:{from_host}/{}", gate.kind.word()),
     };
     let replies = if pattern == Pattern::Requests { gate.options.max_size } else { 0 };
-    let newest_only = pattern != Pattern::Requests && *queue == 1 && *when_full == WhenFull::DropOldest;
     Route {
         pattern,
         from: RouteEnd {
@@ -119,13 +112,10 @@ fn route(
             gate: Some(peer_gate.clone()),
         },
         endpoint: endpoint.clone(),
-        contract: contract.clone(),
         queue: *queue,
-        when_full: *when_full,
         lossless: gate.options.waits_for(*when_full),
         latched: gate.options.latched,
         max_size: connection.max_size.max(replies),
-        newest_only,
         key: format!("scl/{}/{sender}/{peer_component}/{peer_gate}/{contract}", system.system),
     }
 }

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Counts of one route since the gateway started.
 #[derive(Debug, Default)]
-pub(crate) struct Counts {
+pub struct Counts {
     /// Messages that the far component has taken, where they leave; messages that the component here has taken, where they
     /// arrive; replies.
     carried: AtomicU64,
@@ -29,17 +29,17 @@ impl Counts {
     }
 
     /// Number of messages carried so far.
-    pub(crate) fn carried(&self) -> u64 {
+    pub fn carried(&self) -> u64 {
         self.carried.load(Ordering::Relaxed)
     }
 
     /// Number of messages whose fate is unknown.
-    pub(crate) fn given_up(&self) -> u64 {
+    pub fn given_up(&self) -> u64 {
         self.given_up.load(Ordering::Relaxed)
     }
 
     /// Number of messages in this gateway now.
-    pub(crate) fn held(&self) -> u64 {
+    pub fn held(&self) -> u64 {
         self.held.load(Ordering::Relaxed)
     }
 }

@@ -36,13 +36,10 @@ fn expected(pattern: Pattern, from: RouteEnd, to: RouteEnd, endpoint: &str, key:
         to,
         endpoint: endpoint.to_owned(),
         key: format!("{key}/{contract}"),
-        contract,
         queue: 100,
-        when_full: WhenFull::DropOldest,
         lossless: false,
         latched: false,
         max_size: 64 << 20,
-        newest_only: false,
     }
 }
 
@@ -69,7 +66,6 @@ fn each_connection_of_a_publisher_is_a_route() {
     let publisher = || end("board", Some(("sensor", "fix")));
     let pilot = Route {
         queue: 1,
-        newest_only: true,
         max_size: 1024,
         ..expected(
             PUBLISHED,
@@ -80,7 +76,6 @@ fn each_connection_of_a_publisher_is_a_route() {
         )
     };
     let logger = Route {
-        when_full: WhenFull::Wait,
         lossless: true,
         latched: false,
         ..expected(
@@ -142,7 +137,6 @@ fn the_pushers_of_a_host_share_a_route_to_each_puller() {
     let hosts =
         deployment(&[("board", &["camera", "planner"]), ("ground", &["worker", "helper"]), ("office", &["archive"])]);
     let worker = |host: &str| Route {
-        when_full: WhenFull::Wait,
         queue: 7,
         lossless: true,
         latched: false,

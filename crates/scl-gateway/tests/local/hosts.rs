@@ -122,9 +122,9 @@ impl Hosts {
     pub(super) fn figures(&self, part: &str) -> [(u64, u64, u64); 2] {
         [&self.board, &self.ground].map(|host| {
             let figures = host.gateway.as_ref().map(Gateway::figures).unwrap_or_default();
-            let figures = figures.iter().filter(|route| route.key.contains(part));
-            figures.fold((0, 0, 0), |(carried, given_up, held), route| {
-                (carried + route.carried, given_up + route.given_up, held + route.held)
+            let figures = figures.iter().filter(|(key, _)| key.contains(part));
+            figures.fold((0, 0, 0), |(carried, given_up, held), (_, counts)| {
+                (carried + counts.carried(), given_up + counts.given_up(), held + counts.held())
             })
         })
     }

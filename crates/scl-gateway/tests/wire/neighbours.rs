@@ -87,7 +87,7 @@ async fn a_second_gateway_of_a_host_is_refused_until_the_first_ends() {
 async fn another_contract_is_reported_on_both_sides() {
     let (board, ground) = two_hosts().await;
     let ours = route("board", "ground", "pose");
-    let theirs = Route { key: ours.key.replace("/c0", "/c1"), contract: "c1".to_owned(), ..ours.clone() };
+    let theirs = Route { key: ours.key.replace("/c0", "/c1"), ..ours.clone() };
     let (mut sender, mut receiver) = (board.sender(&ours), ground.receiver(&theirs));
     sender.set_open(true);
     receiver.set_open(true);

@@ -9,7 +9,6 @@ use scl_gateway::wire::{
     Neighbour, Peer, ReceiverEvent, ReplierEvent, RequesterEvent, SenderEvent, Wire, WireOptions, WireReceiver,
     WireReplier, WireRequester, WireSender,
 };
-use scl_plan::WhenFull;
 
 /// A message route of 100 messages between components that are named like their hosts.
 pub(super) fn route(from: &str, to: &str, gate: &str) -> Route {
@@ -23,13 +22,10 @@ pub(super) fn route(from: &str, to: &str, gate: &str) -> Route {
         from: end(from),
         to: end(to),
         endpoint: String::new(),
-        contract: "c0".to_owned(),
         queue: 100,
-        when_full: WhenFull::Wait,
         lossless: true,
         latched: false,
         max_size: 4 << 20,
-        newest_only: false,
         key: format!("scl/system/{from}_program/{gate}/{to}_program/{gate}/c0"),
     }
 }

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-use scl_plan::WhenFull;
 use zenoh::liveliness::LivelinessToken;
 use zenoh::matching::MatchingStatus;
 use zenoh::pubsub::{Publisher, Subscriber};
@@ -15,8 +14,8 @@ use self::certificates::Authority;
 use super::*;
 use crate::keys::HostFiles;
 use crate::route::RouteEnd;
-use crate::wire::config::config;
 use crate::wire::Peer;
+use crate::wire::config::config;
 
 #[path = "../../../tests/wire/certificates.rs"]
 mod certificates;
@@ -28,13 +27,10 @@ fn route(from: &str, to: &str, pattern: Pattern) -> Route {
         from: end(from),
         to: end(to),
         endpoint: String::new(),
-        contract: "c0".to_owned(),
         queue: 1,
-        when_full: WhenFull::Wait,
         lossless: false,
         latched: false,
         max_size: 1,
-        newest_only: false,
         key: format!("scl/system/{from}/out/{to}/in/c0"),
     }
 }
