@@ -1,9 +1,9 @@
 //! The arguments of `topology!(..)`.
 
 use proc_macro2::{Span, TokenStream, TokenTree};
+use scl_text::size::{self, SizeError};
 use scl_topology::diagnostic::Diagnostic;
 use scl_topology::external::BAD_ARGUMENTS;
-use scl_topology::size::{self, SizeError};
 use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Ident, LitBool, LitStr, Token, bracketed};

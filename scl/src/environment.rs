@@ -4,6 +4,9 @@ use crate::error::OpenError;
 use std::ffi::OsString;
 use std::time::Duration;
 
+/// The shortest duration that a variable accepts.
+const SHORTEST: Duration = Duration::from_micros(1);
+
 /// The longest duration that a variable accepts: a day.
 const LONGEST: Duration = Duration::from_secs(86_400);
 
@@ -33,22 +36,9 @@ pub(crate) fn read<T>(
     }
 }
 
-/// A duration as in a topology file: a decimal number and one of the units `us`, `ms`, `s`; from 1 us to a day.
+/// A duration as in a topology file, from 1 us to a day.
 pub(crate) fn duration(text: &str) -> Option<Duration> {
-    let digits = text.find(|letter: char| letter.is_ascii_alphabetic())?;
-    let (number, unit) = text.split_at(digits);
-    let number = number.trim_end();
-    if !number.starts_with(|digit: char| digit.is_ascii_digit()) {
-        return None;
-    }
-    let seconds_per_unit = match unit {
-        "us" => 1e-6,
-        "ms" => 1e-3,
-        "s" => 1.0,
-        _ => return None,
-    };
-    let duration = Duration::try_from_secs_f64(number.parse::<f64>().ok()? * seconds_per_unit).ok()?;
-    (Duration::from_micros(1)..=LONGEST).contains(&duration).then_some(duration)
+    scl_text::duration::parse(text).ok().filter(|duration| (SHORTEST..=LONGEST).contains(duration))
 }
 
 /// For tests: a value that was read, or the refused variable with its value.

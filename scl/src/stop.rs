@@ -277,12 +277,12 @@ mod tests {
             ("2000 us", millis(2)),
             ("0.5s", millis(500)),
             ("1us", Ok(Duration::from_micros(1))),
+            ("3m", millis(180_000)),
+            ("+3s", millis(3000)),
             ("86400s", millis(86_400_000)),
         ];
-        let bad = [
-            "3", "s", "3 ", "3m", "-3s", "+3s", "3s ", "1e3s", "infs", "nans", "0s", "0.1us", "86401s", "1.2.3s",
-            "many",
-        ];
+        let bad =
+            ["3", "s", "3 ", "3d", "-3s", "3s ", "1e3s", "infs", "nans", "0s", "0.1us", "86401s", "1.2.3s", "many"];
         let cases = cases.into_iter().chain(bad.into_iter().map(|value| (value, refuses(value))));
         for (value, expected) in cases {
             let variables = |name: &str| (name == "SCL_STOP_WITHIN").then(|| value.into());

@@ -183,7 +183,7 @@ fn note_where_seen(system: &System, selection: &Selection, names: &[String]) {
     let named = names.iter().filter_map(|name| system.gate(name).ok());
     for gate in named.filter(|gate| gate.taps.first().is_some_and(|tap| tap.component != gate.component)) {
         let senders: Vec<String> = at_taps(std::slice::from_ref(&gate)).iter().map(ObservedGate::name).collect();
-        let senders = quoted_list(senders.iter().map(String::as_str));
+        let senders = quoted_list(&senders);
         print_err(&format!("note: the messages of `{}` are shown where they are seen: {senders}\n", gate.name()));
     }
 }
@@ -217,7 +217,7 @@ fn check_field<E: Into<Problem>>(gates: &[Watched], check: impl Fn(&Watched) -> 
 }
 
 fn report_silence(arguments: &EchoArguments, shown: u64) -> ExitCode {
-    let gates = quoted_list(arguments.gates.iter().map(String::as_str));
+    let gates = quoted_list(&arguments.gates);
     let waited = arguments.timeout.unwrap_or_default();
     let (more, matching) = (
         if shown > 0 { " more" } else { "" },

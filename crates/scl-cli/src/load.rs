@@ -4,9 +4,9 @@ use anstream::{AutoStream, ColorChoice};
 use clap::Args;
 use scl_loader::{Loaded, Request, load, load_bytes};
 use scl_terminal::print_err;
+use scl_text::size;
 use scl_topology::diagnostic::{Diagnostic, Severity, render, render_styled};
 use scl_topology::external::UNREADABLE_FILE;
-use scl_topology::size;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 

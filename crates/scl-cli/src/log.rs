@@ -5,8 +5,8 @@ use crate::load::system_of_folder;
 use clap::{Args, ValueEnum};
 use scl_run::{LogEntry, LogFolder, LogReader, LogStream, running_systems};
 use scl_terminal::{
-    Problem, choose_system, closest_name, escape, escape_json, output_is_closed, output_is_terminal, parse_duration,
-    print_err, print_out, quoted_list, timestamp,
+    Problem, choose_system, escape, escape_json, output_is_closed, output_is_terminal, parse_duration, print_err,
+    print_out, quoted_list, timestamp,
 };
 use std::collections::VecDeque;
 use std::env;
@@ -191,7 +191,7 @@ fn find_system(name: Option<&str>) -> Result<String, Problem> {
         [] => Err(Problem::new("no system has logs").help("`scl run` writes them")),
         several => Err(Problem::new("several systems have logs")
             .help(format!("name one: `--system {}`, or set `SCL_SYSTEM`", several[0]))
-            .note(format!("systems: {}", quoted_list(several.iter().map(String::as_str))))),
+            .note(format!("systems: {}", quoted_list(several)))),
     }
 }
 
@@ -205,10 +205,9 @@ fn no_log(system: &str, folder: &LogFolder, component: &str) -> Problem {
     let problem = Problem::new(format!("there is no log of component `{}` of system `{system}`", escape(component)));
     let components = folder.components();
     let names = || components.iter().map(String::as_str);
-    let problem = match closest_name(component, names()) {
-        Some(close) => problem.help(format!("did you mean `{close}`?")),
-        None => problem.help("`scl run` writes logs of the components that it starts"),
-    };
+    let problem = problem.did_you_mean_or(component, names(), |problem| {
+        problem.help("`scl run` writes logs of the components that it starts")
+    });
     let problem = problem.note(format!("looked in `{}`", folder.path().display()));
     if components.is_empty() { problem } else { problem.note(format!("logs: {}", quoted_list(names()))) }
 }

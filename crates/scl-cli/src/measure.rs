@@ -82,7 +82,7 @@ async fn run<M: Shown + 'static>(
         for gate in gates.iter().filter(|gate| gate.taps.first().is_some_and(|tap| tap.component != gate.component)) {
             let senders = at_taps(std::slice::from_ref(gate));
             let senders: Vec<_> = senders.iter().map(ObservedGate::name).collect();
-            let senders = quoted_list(senders.iter().map(String::as_str));
+            let senders = quoted_list(&senders);
             print_err(&format!("note: `{}` is measured where its messages come from: {senders}\n", gate.name()));
         }
         Measurement::of(&system, &gates, new_meter)

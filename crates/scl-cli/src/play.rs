@@ -67,11 +67,7 @@ impl Plans {
             Source::Topology { plans, file } => plans.component(name).cloned().map_err(|_| {
                 let names = || plans.components.iter().map(|plan| plan.component.as_str());
                 let problem = Problem::new(format!("system `{}` has no component `{}`", plans.system, escape(name)));
-                match closest_name(name, names()) {
-                    Some(near) => problem.help(format!("did you mean `{near}`?")),
-                    None => problem,
-                }
-                .note(format!("components in `{file}`: {}", quoted_list(names())))
+                problem.did_you_mean(name, names()).note(format!("components in `{file}`: {}", quoted_list(names())))
             }),
         }
     }
@@ -149,13 +145,10 @@ impl Plans {
         let full: Vec<String> = names().map(|name| format!("{}.{name}", plan.component)).collect();
         match (&self.source, full.is_empty()) {
             (_, true) => problem.note("it has no gates"),
-            (Source::Topology { .. }, false) => {
-                problem.note(format!("its gates: {}", quoted_list(full.iter().map(String::as_str))))
+            (Source::Topology { .. }, false) => problem.note(format!("its gates: {}", quoted_list(&full))),
+            (Source::Announcements(_), false) => {
+                problem.note(format!("gates that it or its running peers know: {}", quoted_list(&full)))
             }
-            (Source::Announcements(_), false) => problem.note(format!(
-                "gates that it or its running peers know: {}",
-                quoted_list(full.iter().map(String::as_str))
-            )),
         }
     }
 }

@@ -152,7 +152,7 @@ fn check_kind(plan: &Plan, gate: &GatePlan) -> Result<(), Problem> {
     let problem = Problem::new(format!("`{name}` is a `{}` gate and sends no messages by itself", gate.kind.word()));
     let peers: Vec<String> =
         gate.connections.iter().map(|peer| format!("{}.{}", peer.peer_component, peer.peer_gate)).collect();
-    let peers_text = quoted_list(peers.iter().map(String::as_str));
+    let peers_text = quoted_list(&peers);
     Err(match gate.kind {
         GateKind::Rep => problem.help(format!("`scl call {name} REQUEST` sends it a request")),
         GateKind::Req => match peers.first() {

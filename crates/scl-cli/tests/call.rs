@@ -141,9 +141,10 @@ fn mistakes_say_what_to_write() {
     check(
         &["controller.commands", "{target: 0.5}"],
         expect![[r#"
-        error: message `rover.Command` has no field `target`
-          = note: its fields: `target_speed`
-    "#]],
+            error: message `rover.Command` has no field `target`
+              = help: did you mean `target_speed`?
+              = note: its fields: `target_speed`
+        "#]],
     );
     check(
         &["controller.commands", "{}", "--as", "sensor"],

@@ -63,7 +63,7 @@ pub(crate) fn check(name: &str, programs: &[&str]) -> Result<(), Problem> {
         return reserved(format!("`{code}` is a type of Rust, which the module of the messages would hide"));
     }
     if programs.contains(&code.as_str()) {
-        return reserved(format!("its components are called {}", quoted_list(programs.iter().copied())));
+        return reserved(format!("its components are called {}", quoted_list(programs)));
     }
     Ok(())
 }

@@ -103,22 +103,21 @@ fn no_system(runtime_dir: &RuntimeDir) -> Problem {
     let stopped = all_systems(runtime_dir).unwrap_or_default();
     match stopped.is_empty() {
         true => problem,
-        false => problem.note(format!("stopped: {}", quoted_list(stopped.iter().map(String::as_str)))),
+        false => problem.note(format!("stopped: {}", quoted_list(&stopped))),
     }
 }
 
 fn unknown_system(runtime_dir: &RuntimeDir, name: &str) -> Problem {
     let all = all_systems(runtime_dir).unwrap_or_default();
     let problem = Problem::new(format!("there is no system `{}`", scl_terminal::escape(name)));
-    let problem = match closest_name(name, all.iter().map(String::as_str)) {
-        Some(close) => problem.help(format!("did you mean `{close}`?")),
-        None => problem.help("start it, for example with `scl run`"),
-    };
+    let problem = problem.did_you_mean_or(name, all.iter().map(String::as_str), |problem| {
+        problem.help("start it, for example with `scl run`")
+    });
     let problem = problem.note(looked_in(runtime_dir));
     let running = running_systems(runtime_dir).unwrap_or_default();
     match running.is_empty() {
         true => problem.note("no system is running there"),
-        false => problem.note(format!("running: {}", quoted_list(running.iter().map(String::as_str)))),
+        false => problem.note(format!("running: {}", quoted_list(&running))),
     }
 }
 

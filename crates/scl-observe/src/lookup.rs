@@ -119,10 +119,7 @@ fn elsewhere(system: &System, name: &str, host: &str) -> Problem {
 pub(crate) fn unknown_component(system: &System, all: &[Component], name: &str) -> Problem {
     let problem = Problem::new(format!("system `{}` has no component `{}`", system.name(), escape(name)));
     let names = || all.iter().map(|component| component.name.as_str());
-    let problem = match closest_name(name, names()) {
-        Some(close) => problem.help(format!("did you mean `{close}`?")),
-        None => problem.help(LIST),
-    };
+    let problem = problem.did_you_mean_or(name, names(), |problem| problem.help(LIST));
     if all.is_empty() { problem } else { problem.note(format!("known components: {}", quoted_list(names()))) }
 }
 
@@ -140,7 +137,7 @@ fn not_a_gate(system: &System, all: &[Component], name: &str) -> Problem {
     let gates: Vec<String> = gate_names(component).collect();
     match gates.is_empty() {
         true => problem.help(format!("write `{name}.gate`")),
-        false => problem.help(format!("write one of its gates: {}", quoted_list(gates.iter().map(String::as_str)))),
+        false => problem.help(format!("write one of its gates: {}", quoted_list(&gates))),
     }
 }
 
@@ -170,7 +167,7 @@ fn unknown_gate(all: &[Component], component: &Component, gate: &str) -> Problem
     let names: Vec<String> = gate_names(component).collect();
     match names.is_empty() {
         true => problem.note(format!("component `{}` has no gates", component.name)),
-        false => problem.note(format!("its gates: {}", quoted_list(names.iter().map(String::as_str)))),
+        false => problem.note(format!("its gates: {}", quoted_list(&names))),
     }
 }
 
@@ -180,7 +177,7 @@ fn no_taps(name: &str, plan: &GatePlan) -> Problem {
     problem.help(LIST).note(format!(
         "messages of a `{}` gate are seen at its peers: {}",
         plan.kind.word(),
-        quoted_list(peers.iter().map(String::as_str))
+        quoted_list(&peers)
     ))
 }
 

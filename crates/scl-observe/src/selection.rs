@@ -119,10 +119,7 @@ impl Lookup<'_> {
         let Some(plan) = self.planned() else { return Ok(()) };
         let unknown = |text: String, wrong: &str, names: Vec<&str>| {
             let problem = Problem::new(text);
-            let problem = match closest_name(wrong, names.iter().copied()) {
-                Some(close) => problem.help(format!("did you mean `{close}`?")),
-                None => problem,
-            };
+            let problem = problem.did_you_mean(wrong, names.iter().copied());
             Err(problem.note(format!("known in `{file}`: {}", quoted_list(names))))
         };
         let Ok(planned) = plan.component(component) else {

@@ -39,7 +39,6 @@ mod error;
 #[cfg(feature = "json")]
 mod json;
 mod kind;
-mod nearest;
 mod options;
 mod plan;
 mod system;
@@ -51,9 +50,9 @@ mod version;
 
 pub use error::{PlanError, UnknownComponent};
 pub use kind::{GateKind, Undecodable, WhenFull};
-pub use nearest::nearest;
 pub use options::{GateOptions, OptionAccess, OptionField};
 pub use plan::{ConnectionPlan, GatePlan, Payload, Plan, Schema};
+pub use scl_text::suggest::closest_name as nearest;
 pub use system::SystemPlan;
 #[cfg(feature = "json")]
 pub use version::VERSION;

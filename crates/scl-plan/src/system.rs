@@ -1,8 +1,8 @@
 //! The plans of all components of a system, which together are one JSON document.
 
 use crate::error::UnknownComponent;
-use crate::nearest::nearest;
 use crate::plan::Plan;
+use scl_text::suggest::closest_name;
 
 /// The plans of the components of one system, or of some of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,7 +22,7 @@ impl SystemPlan {
         self.components.iter().find(|plan| plan.component == name).ok_or_else(|| UnknownComponent {
             system: self.system.clone(),
             component: name.to_owned(),
-            nearest: nearest(name, self.components.iter().map(|plan| plan.component.as_str())).map(str::to_owned),
+            nearest: closest_name(name, self.components.iter().map(|plan| plan.component.as_str())).map(str::to_owned),
         })
     }
 }

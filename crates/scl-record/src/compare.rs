@@ -13,7 +13,7 @@ pub use report::{CompareReport, Difference, DifferenceKind, GateComparison};
 use crate::format::Topic;
 use crate::recording::{Recording, Survey};
 use align::Alignment;
-use scl_terminal::{Problem, closest_name, escape, quoted_list};
+use scl_terminal::{Problem, escape, quoted_list};
 use scl_value::FieldPath;
 use side::{Side, check_types};
 use std::collections::BTreeSet;
@@ -85,11 +85,12 @@ fn choose_topics(surveys: &[Survey; 2], options: &CompareOptions) -> Result<Vec<
     let names: BTreeSet<String> = all.iter().map(|topic| topic.gate_name()).collect();
     if let Some(gate) = options.gates.iter().find(|gate| !names.contains(*gate)) {
         let problem = Problem::new(format!("neither recording has messages of a gate `{}`", escape(gate)));
-        return Err(match closest_name(gate, names.iter().map(String::as_str)) {
-            Some(close) => problem.help(format!("did you mean `{close}`?")),
-            None if names.is_empty() => problem.help("record the gate, or compare other recordings"),
-            None => problem.note(format!("gates: {}", quoted_list(names.iter().map(String::as_str)))),
-        });
+        return Err(problem.did_you_mean_or(gate, names.iter().map(String::as_str), |problem| {
+            match names.is_empty() {
+                true => problem.help("record the gate, or compare other recordings"),
+                false => problem.note(format!("gates: {}", quoted_list(&names))),
+            }
+        }));
     }
     let is_chosen = |topic: &&Topic| options.gates.is_empty() || options.gates.contains(&topic.gate_name());
     Ok(all.into_iter().filter(is_chosen).cloned().collect())

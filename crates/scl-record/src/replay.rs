@@ -23,7 +23,7 @@ use participants::Participants;
 use players::Players;
 use routes::{Route, route};
 use scl_plan::{GateKind, SystemPlan};
-use scl_terminal::{Problem, closest_name, escape, quoted_list};
+use scl_terminal::{Problem, escape, quoted_list};
 use std::ops::Range;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
@@ -296,10 +296,9 @@ fn check_only(plan: &SystemPlan, options: &ReplayOptions) -> Result<(), Problem>
     let names: Vec<_> = gates().map(|(plan, gate)| format!("{}.{}", plan.component, gate.name)).collect();
     if let Some(name) = options.only.iter().find(|name| !names.contains(name)) {
         let problem = Problem::new(format!("there is no gate `{}`", escape(name)));
-        return Err(match closest_name(name, names.iter().map(String::as_str)) {
-            Some(close) => problem.help(format!("did you mean `{close}`?")),
-            None => problem.note(format!("gates: {}", quoted_list(names.iter().map(String::as_str)))),
-        });
+        return Err(problem.did_you_mean_or(name, names.iter().map(String::as_str), |problem| {
+            problem.note(format!("gates: {}", quoted_list(&names)))
+        }));
     }
     Ok(())
 }

@@ -49,5 +49,5 @@ pub(crate) fn check(plan: &RunPlan) -> Result<(), Problem> {
 
 fn shown(components: &[&str]) -> String {
     let noun = if components.len() == 1 { "component" } else { "each of the components" };
-    format!("{noun} {}", quoted_list(components.iter().copied()))
+    format!("{noun} {}", quoted_list(components))
 }

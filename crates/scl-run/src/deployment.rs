@@ -1,6 +1,6 @@
 //! Which host runs which components, and how the hosts reach each other: `hosts` and `gateway` of a launch file.
 
-use scl_terminal::{Problem, closest_name, quoted_list};
+use scl_terminal::{Problem, quoted_list};
 use std::net::IpAddr;
 use std::path::PathBuf;
 
@@ -41,10 +41,7 @@ impl Deployment {
     pub fn unknown_host(&self, name: &str) -> Problem {
         let names = || self.hosts.iter().map(|host| host.name.as_str());
         let problem = Problem::new(format!("unknown host `{name}`"));
-        let problem = match closest_name(name, names()) {
-            Some(close) => problem.help(format!("did you mean `{close}`?")),
-            None => problem,
-        };
+        let problem = problem.did_you_mean(name, names());
         problem.note(format!("the launch file has the hosts {}", quoted_list(names())))
     }
 

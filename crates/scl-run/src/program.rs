@@ -43,7 +43,7 @@ impl Build {
         match self.components.as_slice() {
             [] => "all components".to_owned(),
             [one] => format!("component `{one}`"),
-            several => format!("the components {}", quoted_list(several.iter().map(String::as_str))),
+            several => format!("the components {}", quoted_list(several)),
         }
     }
 

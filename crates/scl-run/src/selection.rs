@@ -1,7 +1,7 @@
 //! `--only` and `--without`: which components of the system are started here.
 
 use super::Options;
-use scl_terminal::{Problem, closest_name, quoted_list};
+use scl_terminal::{Problem, quoted_list};
 
 /// A choice of components.
 #[derive(Debug)]
@@ -43,9 +43,6 @@ impl<'a> Selection<'a> {
 
 fn unknown_name(option: &str, name: &str, names: &[&str], source: &str) -> Problem {
     let problem = Problem::new(format!("unknown component `{name}` in `{option}`"));
-    let problem = match closest_name(name, names.iter().copied()) {
-        Some(close) => problem.help(format!("did you mean `{close}`?")),
-        None => problem,
-    };
-    problem.note(format!("{source} has the components {}", quoted_list(names.iter().copied())))
+    let problem = problem.did_you_mean(name, names.iter().copied());
+    problem.note(format!("{source} has the components {}", quoted_list(names)))
 }

@@ -1,5 +1,6 @@
 //! What is wrong and what to do, worded like the checker's diagnostics, for everything that the checker does not read.
 
+use scl_text::suggest::closest_name;
 use std::fmt;
 
 /// One problem: what is wrong, where, and the way out.
@@ -39,6 +40,24 @@ impl Problem {
         self.notes.push(text.into());
         self
     }
+
+    /// Suggests the one of `names` that `wrong` probably means, if one is near enough.
+    pub fn did_you_mean<'n>(self, wrong: &str, names: impl IntoIterator<Item = &'n str>) -> Self {
+        self.did_you_mean_or(wrong, names, |problem| problem)
+    }
+
+    /// [`did_you_mean`](Self::did_you_mean); if no name is near enough, adds something else.
+    pub fn did_you_mean_or<'n>(
+        self,
+        wrong: &str,
+        names: impl IntoIterator<Item = &'n str>,
+        otherwise: impl FnOnce(Self) -> Self,
+    ) -> Self {
+        match closest_name(wrong, names) {
+            Some(name) => self.help(format!("did you mean `{name}`?")),
+            None => otherwise(self),
+        }
+    }
 }
 
 impl fmt::Display for Problem {
@@ -54,33 +73,5 @@ impl fmt::Display for Problem {
             writeln!(f, "  = note: {note}")?;
         }
         Ok(())
-    }
-}
-
-/// The one of `names` that `wrong` probably means, if one is close enough.
-pub fn closest_name<'a>(wrong: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let wrong = wrong.to_lowercase();
-    let limit = (wrong.chars().count() / 3).max(1);
-    let distance = |name: &str| strsim::damerau_levenshtein(&wrong, &name.to_lowercase());
-    names.into_iter().map(|name| (distance(name), name)).filter(|(far, _)| *far <= limit).min().map(|(_, name)| name)
-}
-
-/// `` `a`, `b`, `c` ``
-pub fn quoted_list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
-    names.into_iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_close_names_are_suggested() {
-        let names = ["command", "environment", "folder"];
-        for (wrong, expected) in
-            [("comand", Some("command")), ("FOLDER", Some("folder")), ("enviroment", Some("environment")), ("x", None)]
-        {
-            assert_eq!(closest_name(wrong, names), expected, "{wrong}");
-        }
     }
 }

@@ -24,7 +24,7 @@ pub fn choose_system(
             Some(here) => Ok(Some(here)),
             None => Err(Problem::new("several systems are running")
                 .help(format!("name one: `--system {}`, or set `SCL_SYSTEM`", several[0]))
-                .note(format!("running: {}", quoted_list(several.iter().map(String::as_str))))),
+                .note(format!("running: {}", quoted_list(several)))),
         },
     }
 }

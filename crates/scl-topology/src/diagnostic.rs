@@ -8,7 +8,7 @@ mod rule;
 mod testing;
 
 use crate::source::Span;
-use crate::wording::either;
+use scl_text::list::either;
 use std::borrow::Cow;
 
 pub use fix::Fix;

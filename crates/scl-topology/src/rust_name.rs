@@ -57,6 +57,15 @@ pub fn is_unescapable(name: &str) -> bool {
     UNESCAPABLE.contains(&name)
 }
 
+/// A type name that would suit a gate, for examples that can be pasted: `measurements` gives `Measurement`.
+pub(crate) fn example_type(gate: &str) -> String {
+    let name = component_type(gate);
+    match name.strip_suffix('s') {
+        Some(singular) if singular.len() > 1 && !singular.ends_with(['s', 'u', 'i']) => singular.to_owned(),
+        _ => name,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -89,6 +98,19 @@ mod tests {
         ];
         for (name, expected) in cases {
             assert_eq!(gate_field(name), expected);
+        }
+    }
+
+    #[test]
+    fn example_types_are_singular() {
+        for (gate, expected) in [
+            ("measurements", "Measurement"),
+            ("set-point", "SetPoint"),
+            ("pass", "Pass"),
+            ("status", "Status"),
+            ("s", "S"),
+        ] {
+            assert_eq!(example_type(gate), expected);
         }
     }
 }

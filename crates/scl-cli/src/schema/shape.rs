@@ -1,7 +1,7 @@
 //! The schema of a single value.
 
+use scl_text::{duration, size};
 use scl_topology::grammar::{Codec, CodecRow, Shape};
-use scl_topology::{duration, size};
 use serde_json::{Value, json};
 
 /// A path of at least two words.
@@ -19,7 +19,7 @@ pub(super) fn shape_schema(shape: Shape) -> Value {
         Shape::Number { least, most } => json!({ "type": "integer", "minimum": least, "maximum": most }),
         Shape::Duration { .. } => {
             let units = duration::UNITS.map(|(unit, _)| unit).join("|");
-            json!({ "type": "string", "pattern": format!("^\\+?[0-9]+(\\.[0-9]+)?\\s*({units})$") })
+            json!({ "type": "string", "pattern": format!("^\\s*\\+?([0-9]+\\.?[0-9]*|\\.[0-9]+)\\s*({units})$") })
         }
         Shape::Size { .. } => {
             let units = size::UNITS.map(|(unit, _)| unit).join("|");

@@ -1,7 +1,7 @@
 //! Reading JSON values whose errors say what was expected where.
 
 use crate::error::PlanError;
-use crate::nearest::nearest;
+use scl_text::suggest::closest_name;
 use serde_json::{Map, Value};
 use std::fmt::Display;
 
@@ -41,7 +41,7 @@ impl<'v> At<'v> {
             Some(field) => Err(PlanError::UnknownField {
                 at: object.shown_path(),
                 field: shortened(field),
-                nearest: nearest(field, known.iter().copied()),
+                nearest: closest_name(field, known.iter().copied()),
             }),
             None => Ok(object),
         }

@@ -3,7 +3,7 @@
 use super::client::{ControlledRun, NoAnswer, find_runs};
 use super::protocol::{Command, ComponentReport, Request, Response, VERSION};
 use scl::runtime_dir::{Announcement, ComponentProcess, ComponentState, RuntimeDir, SystemDir};
-use scl_terminal::{Problem, choose_system, closest_name, named_system, quoted_list};
+use scl_terminal::{Problem, choose_system, named_system, quoted_list};
 use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -204,10 +204,7 @@ fn not_run(wish: &Wish<'_>, name: &str, runs: &[Answering], folder: Option<&Syst
         return no_run(wish, folder);
     }
     let problem = Problem::new(format!("no `scl run` has a component `{name}`"));
-    let problem = match closest_name(name, names.iter().copied()) {
-        Some(close) => problem.help(format!("did you mean `{close}`?")),
-        None => problem,
-    };
+    let problem = problem.did_you_mean(name, names.iter().copied());
     problem.note(format!("it has the components {}", quoted_list(names)))
 }
 

@@ -5,7 +5,7 @@ use super::super::terminal::StandardInput;
 use super::keys;
 use super::reader::{KeyPath, Reader, joined, likely_key, scalar_text, shown};
 use super::settings::Settings;
-use scl_terminal::{Problem, closest_name, quoted_list};
+use scl_terminal::{Problem, quoted_list};
 use serde_yaml::{Mapping, Value};
 
 /// A component and the program that runs it.
@@ -223,11 +223,8 @@ impl Reader<'_> {
             return;
         }
         let problem = Problem::new(format!("unknown component `{name}`")).at(self.text.place(at));
-        let problem = match closest_name(name, known.iter().map(String::as_str)) {
-            Some(close) => problem.help(format!("did you mean `{close}`?")),
-            None => problem,
-        };
-        let names = quoted_list(known.iter().map(String::as_str));
+        let problem = problem.did_you_mean(name, known.iter().map(String::as_str));
+        let names = quoted_list(known);
         self.problems.push(problem.note(format!("{source} has the components {names}")));
     }
 }

@@ -4,7 +4,7 @@ use super::super::terminal::StandardInput;
 use super::LaunchFile;
 use super::entry::{Entry, LaunchComponent, Opens};
 use super::reader::{Reader, joined, shown};
-use scl_terminal::{Problem, closest_name, quoted_list};
+use scl_terminal::{Problem, quoted_list};
 use serde_yaml::Value;
 
 /// A named set of entries that replace or change those of `components`.
@@ -39,10 +39,7 @@ impl LaunchFile {
         if self.profiles.is_empty() {
             return problem.note("the launch file has no `profiles`");
         }
-        let problem = match closest_name(name, names()) {
-            Some(close) => problem.help(format!("did you mean `{close}`?")),
-            None => problem,
-        };
+        let problem = problem.did_you_mean(name, names());
         problem.note(format!("the launch file has the profiles {}", quoted_list(names())))
     }
 }

@@ -3,7 +3,7 @@
 use super::keys::{self, Form};
 use super::reader::{Reader, shown};
 use super::settings::likely;
-use scl_terminal::{Problem, closest_name, quoted_list};
+use scl_terminal::{Problem, quoted_list};
 use serde_yaml::Value;
 
 /// The key for single connections.
@@ -87,10 +87,7 @@ impl Reader<'_> {
         let Some(known) = self.known.filter(|known| !known.gates.iter().any(|gate| gate == name)) else { return };
         let gates: Vec<&str> = known.gates.iter().map(String::as_str).collect();
         let problem = Problem::new(format!("unknown gate `{name}`")).at(place);
-        let problem = match closest_name(name, gates.iter().copied()) {
-            Some(close) => problem.help(format!("did you mean `{close}`?")),
-            None => problem,
-        };
+        let problem = problem.did_you_mean(name, gates.iter().copied());
         let of_component = |gate: &&str| gate.split_once('.').is_some_and(|(owner, _)| owner == component);
         let own: Vec<&str> = gates.into_iter().filter(of_component).collect();
         self.problems.push(problem.note(if known.components.iter().any(|it| it == component) {
@@ -99,7 +96,7 @@ impl Reader<'_> {
                 false => format!("component `{component}` has the gates {}", quoted_list(own)),
             }
         } else {
-            let names = quoted_list(known.components.iter().map(String::as_str));
+            let names = quoted_list(&known.components);
             format!("the topology has the components {names}")
         }));
     }

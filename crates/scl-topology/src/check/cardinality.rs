@@ -4,7 +4,7 @@
 use super::draft::Draft;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::topology::GateKind;
-use crate::wording::listed;
+use scl_text::list::listed;
 
 /// SCL0511.
 pub(crate) const SEVERAL_PUBLISHERS: Rule = Rule {

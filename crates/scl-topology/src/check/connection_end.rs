@@ -4,7 +4,7 @@ use super::draft::Draft;
 use super::{unknown_component, unknown_gate};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::Spanned;
-use crate::wording::{either, listed};
+use scl_text::list::{either, listed};
 
 /// SCL0503.
 pub(crate) const RULE: Rule = Rule {
@@ -109,7 +109,7 @@ fn misshapen(draft: &mut Draft<'_>, text: &Spanned<String>) -> Diagnostic {
         return RULE.at(headline, text.span, "which gate?").note(format!(
             "gates of `{}`: {}",
             text.value,
-            crate::wording::shortened(&gates)
+            scl_text::list::shortened(&gates)
         ));
     }
     let (label, help) = oddity(&text.value);

@@ -54,7 +54,7 @@ fn poison_contradictions(draft: &mut Draft<'_>) {
 fn kinds() -> String {
     let pair = |pattern: &Pattern| {
         let ends = [pattern.source.word(), pattern.source.opposite().word()];
-        format!("{} ({})", crate::wording::all_of(&ends), pattern.summary)
+        format!("{} ({})", scl_text::list::all_of(&ends), pattern.summary)
     };
     format!("kinds: {}", PATTERNS.iter().map(pair).collect::<Vec<_>>().join(", "))
 }

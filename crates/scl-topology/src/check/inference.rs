@@ -3,8 +3,8 @@
 
 use super::draft::Draft;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::rust_name::example_type;
 use crate::topology::{GateKind, Payload};
-use crate::wording::example_type;
 use std::collections::VecDeque;
 
 /// SCL0402.

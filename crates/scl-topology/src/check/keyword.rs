@@ -7,7 +7,7 @@ use crate::keywords::{CPP, PYTHON};
 use crate::model::Model;
 use crate::rust_name::{component_type, gate_field, is_keyword, is_unescapable};
 use crate::source::Spanned;
-use crate::wording::all_of;
+use scl_text::list::all_of;
 
 /// SCL0306.
 pub(crate) const OF_RUST: Rule = Rule {
@@ -95,7 +95,7 @@ fn unusable(noun: Noun, name: &Spanned<String>) -> Diagnostic {
     UNUSABLE
         .at(headline, name.span, "")
         .help("choose another name")
-        .note(format!("not usable either: {}", crate::wording::listed(others)))
+        .note(format!("not usable either: {}", scl_text::list::listed(others)))
 }
 
 fn escaped(component: &str, name: &Spanned<String>) -> Diagnostic {

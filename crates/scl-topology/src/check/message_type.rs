@@ -4,7 +4,7 @@
 use super::draft::Draft;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::topology::{GateKind, Payload, TypeName};
-use crate::wording::listed;
+use scl_text::list::listed;
 use std::collections::BTreeMap;
 
 /// SCL0601.

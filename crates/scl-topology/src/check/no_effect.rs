@@ -4,7 +4,7 @@
 use super::draft::Draft;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::topology::{Payload, WhenFull};
-use crate::wording::listed;
+use scl_text::list::listed;
 
 /// SCL0413.
 pub(crate) const RULE: Rule = Rule {

@@ -5,7 +5,7 @@ use super::draft::Draft;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::grammar::{self, GateKind, GateOption, OutOfRange};
 use crate::model::OptionModel;
-use crate::wording::all_of;
+use scl_text::list::all_of;
 
 /// SCL0409.
 pub(crate) const VALUE: Rule = Rule {

@@ -4,7 +4,7 @@ use super::draft::{Draft, DraftGate};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::Span;
 use crate::topology::{Codec, Payload, TypeName};
-use crate::wording::listed;
+use scl_text::list::listed;
 use std::collections::BTreeMap;
 
 /// SCL0412.

@@ -8,7 +8,7 @@ use super::{Facts, SchemaMessages};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::suggest::{same_parts, similar};
 use crate::topology::TypeName;
-use crate::wording::listed;
+use scl_text::list::listed;
 use std::collections::{BTreeSet, HashMap};
 
 /// No message offers more names than this.

@@ -2,8 +2,8 @@
 
 use super::draft::Draft;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
-use crate::duration;
 use crate::topology::GateKind;
+use scl_text::duration;
 
 /// SCL0414.
 pub(crate) const RULE: Rule = Rule {

@@ -6,7 +6,7 @@ use super::draft::{Draft, DraftComponent};
 use super::fitting_sender::FittingSenders;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::topology::GateKind;
-use crate::wording::listed;
+use scl_text::list::listed;
 
 /// SCL0701.
 pub(crate) const NO_RECEIVER: Rule = Rule {

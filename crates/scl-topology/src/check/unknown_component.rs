@@ -4,7 +4,7 @@ use super::draft::Draft;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::Span;
 use crate::suggest::{MOST, nearest, similar};
-use crate::wording::listed;
+use scl_text::list::listed;
 
 /// SCL0501.
 pub const UNKNOWN: Rule = Rule {

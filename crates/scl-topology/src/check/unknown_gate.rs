@@ -5,7 +5,7 @@ use super::unknown_component::swap;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::Spanned;
 use crate::suggest::{MOST, nearest};
-use crate::wording::shortened;
+use scl_text::list::shortened;
 
 /// SCL0502.
 pub(crate) const RULE: Rule = Rule {

@@ -4,9 +4,9 @@
 
 use super::queue_policy::POLICIES;
 use super::shape::{self, OutOfRange, Shape, Word};
-use crate::{duration, size};
 use scl_plan::GateKind::{self, Pub, Pull, Push, Rep, Req, Sub};
 use scl_plan::{OptionAccess, Undecodable, WhenFull};
+use scl_text::{duration, size};
 use std::ops::{Deref, DerefMut};
 use std::time::Duration;
 

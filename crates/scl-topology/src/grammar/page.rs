@@ -2,8 +2,8 @@
 
 use super::queue_policy::POLICIES;
 use super::{COMPONENT_KEYS, Codec, CodecRow, GateKind, GateOption, Key, KindRow, OPTIONS, SECTIONS, WhenFull, Word};
-use crate::wording::all_of;
-use crate::{duration, size};
+use scl_text::list::all_of;
+use scl_text::{duration, size};
 
 /// A word of the grammar with its documentation.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! What the value of a key looks like, and its range.
 
-use crate::duration::{self, DurationError};
-use crate::size::{self, SizeError};
-use crate::wording::{either, listed};
+use scl_text::duration::{self, DurationError};
+use scl_text::list::{either, listed};
+use scl_text::size::{self, SizeError};
 use std::time::Duration;
 
 /// What a value looks like, and its range. The parser refuses another look, the checks another range.
@@ -119,7 +119,7 @@ impl Shape {
         match self {
             Shape::Number { .. } => is_plain && is_whole_number(text),
             Shape::Boolean => is_plain && matches!(text, "true" | "false"),
-            Shape::Duration { .. } => duration::parse(text) != Err(DurationError::Malformed),
+            Shape::Duration { .. } => duration::parse(text).map_or_else(DurationError::is_out_of_range, |_| true),
             Shape::Size { .. } => size::parse(text) != Err(SizeError::Malformed),
             Shape::Word(words) => words.iter().any(|known| known.word == text),
             Shape::Text | Shape::Name | Shape::Codec => true,
@@ -147,12 +147,16 @@ pub(super) fn number(text: &str, least: u32, most: u32) -> Result<u32, OutOfRang
     }
 }
 
+/// A shorter duration cannot be measured.
+const SHORTEST: Duration = Duration::from_micros(1);
+
 /// A duration in its range.
 pub(super) fn duration(text: &str, most: Duration) -> Result<Duration, OutOfRange> {
     match duration::parse(text) {
-        Ok(duration) if duration <= most => Ok(duration),
-        Err(DurationError::TooSmall | DurationError::Malformed) => Err(outside("more than 0".to_owned())),
-        Ok(_) | Err(DurationError::TooLarge) => Err(outside(format!("at most {}", duration::text(most)))),
+        Ok(duration) if (SHORTEST..=most).contains(&duration) => Ok(duration),
+        Ok(duration) if duration > most => Err(outside(format!("at most {}", duration::text(most)))),
+        Err(DurationError::TooLarge) => Err(outside(format!("at most {}", duration::text(most)))),
+        Ok(_) | Err(_) => Err(outside("more than 0".to_owned())),
     }
 }
 

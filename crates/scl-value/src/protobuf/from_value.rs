@@ -75,7 +75,7 @@ pub(super) fn known_fields(message: &MessageDescriptor) -> String {
     let names: Vec<String> = message.fields().map(|field| field.name().to_owned()).collect();
     match names.len() {
         0 => "it has no fields".to_owned(),
-        1..=LISTED => format!("its fields: {}", quoted_list(names.iter().map(String::as_str))),
+        1..=LISTED => format!("its fields: {}", quoted_list(&names)),
         count => {
             let first = quoted_list(names.iter().take(LISTED).map(String::as_str));
             format!("its fields: {first} and {} more", count - LISTED)

@@ -97,5 +97,5 @@ impl Reader<'_> {
 }
 
 fn list(names: &[String]) -> String {
-    quoted_list(names.iter().map(String::as_str))
+    quoted_list(names)
 }

@@ -5,7 +5,7 @@ use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::model::ControlModel;
 use crate::source::Span;
 use crate::suggest::one_edit_away;
-use crate::wording::listed;
+use scl_text::list::listed;
 
 /// SCL0901.
 pub(crate) const UNKNOWN_CODE: Rule = Rule {

@@ -6,7 +6,7 @@ use crate::check::draft::Draft;
 use crate::diagnostic::{Diagnostic, Rule};
 use crate::source::Span;
 use crate::topology::{GateKind, WhenFull};
-use crate::wording::listed;
+use scl_text::list::listed;
 use std::collections::BTreeSet;
 
 /// The headline of every deadlock, before the names.

@@ -4,9 +4,9 @@ use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::grammar::{self, Shape};
 use crate::parse::field::Field;
 use crate::parse::{is_plain, shape_word};
-use crate::size;
 use crate::suggest::similar;
 use crate::yaml::{Node, NodeKind};
+use scl_text::size;
 
 /// SCL0215.
 pub(crate) const RULE: Rule = Rule {

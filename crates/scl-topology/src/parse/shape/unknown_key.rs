@@ -9,7 +9,7 @@ use crate::parse::words::{COMPONENT_KEYS, SECTIONS};
 use crate::source::{SourceFile, Span};
 use crate::suggest::similar;
 use crate::topology::GateKind;
-use crate::wording::all_of;
+use scl_text::list::all_of;
 
 /// SCL0202.
 pub(crate) const SECTION: Rule = Rule {

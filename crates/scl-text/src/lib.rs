@@ -1,0 +1,8 @@
+//! Texts that people write and read: durations, sizes, names that were probably meant, lists of names.
+#![deny(missing_docs)]
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+pub mod duration;
+pub mod list;
+pub mod size;
+pub mod suggest;
