@@ -4,13 +4,12 @@ use crate::observed::{COULD_NOT_DO, exit_code};
 use crate::play::{Plans, PlayArguments, message_type, problem_of};
 use clap::{Args, ValueEnum};
 use scl::CallError;
+use scl_observe::{StopSignals, block_on};
 use scl_plan::{ConnectionPlan, GateKind, GatePlan, Payload, Plan};
 use scl_terminal::{Problem, escape, parse_duration, print_err, print_out, quoted_list};
 use scl_value::{MessageType, read_yaml, to_json, to_yaml};
 use std::process::ExitCode;
 use std::time::Duration;
-use tokio::runtime::Builder;
-use tokio::signal::unix::{SignalKind, signal};
 
 /// How long closing may take; nothing is left to be sent then.
 const CLOSE: Duration = Duration::from_secs(1);
@@ -60,9 +59,7 @@ enum ReplyFormat {
 
 /// The body of `scl call`.
 pub(crate) fn call(arguments: &CallArguments) -> ExitCode {
-    let runtime = Builder::new_current_thread().enable_all().build();
-    let runtime = runtime.map_err(|error| Problem::new(format!("cannot start: {error}")));
-    exit_code(runtime.and_then(|runtime| runtime.block_on(run(arguments))))
+    exit_code(block_on(run(arguments)))
 }
 
 async fn run(arguments: &CallArguments) -> Result<ExitCode, Problem> {
@@ -79,11 +76,10 @@ async fn run(arguments: &CallArguments) -> Result<ExitCode, Problem> {
     let requester = find_requester(arguments, &plans, &gate)?;
     let mut component = plans.open(&plans.component(&requester.peer_component)?).await?;
     let mut asks = component.requester(&requester.peer_gate).map_err(|error| problem_of(&error))?;
-    let interrupt = signal(SignalKind::interrupt());
-    let mut interrupt = interrupt.map_err(|error| Problem::new(format!("cannot watch for signals: {error}")))?;
+    let mut stop = StopSignals::watch()?;
     let reply = tokio::select! {
         reply = asks.call_within(&request, arguments.timeout) => reply,
-        _ = interrupt.recv() => return Ok(ExitCode::FAILURE),
+        () = stop.received() => return Ok(ExitCode::FAILURE),
     };
     drop(asks);
     // The reply is there; what becomes of the component's other gates does not matter.

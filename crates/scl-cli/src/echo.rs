@@ -8,7 +8,7 @@ use crate::observed::{SystemArgument, exit_code};
 use clap::{Args, ValueEnum};
 use output::Output;
 use scl::tap::TapEvent;
-use scl_observe::{ObservedGate, Selection, System, Taps, TapsEvent, at_taps};
+use scl_observe::{ObservedGate, Selection, StopSignals, System, Taps, TapsEvent, at_taps, block_on};
 use scl_terminal::{Problem, output_is_closed, parse_duration, print_err, quoted_list};
 use scl_value::{Condition, FieldPath, Value};
 use std::io::{self, IsTerminal};
@@ -16,8 +16,6 @@ use std::num::NonZeroU64;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
-use tokio::runtime::Builder;
-use tokio::signal::unix::{SignalKind, signal};
 use tokio::time::{Instant, sleep_until};
 use watched::Watched;
 
@@ -83,14 +81,11 @@ enum MessageFormat {
 
 /// The body of `scl echo`.
 pub(crate) fn echo(arguments: &EchoArguments) -> ExitCode {
-    let runtime = Builder::new_current_thread().enable_all().build();
-    let runtime = runtime.map_err(|error| Problem::new(format!("cannot start: {error}")));
-    exit_code(runtime.and_then(|runtime| runtime.block_on(run(arguments))))
+    exit_code(block_on(run(arguments)))
 }
 
 async fn run(arguments: &EchoArguments) -> Result<ExitCode, Problem> {
-    let interrupt = signal(SignalKind::interrupt());
-    let mut interrupt = interrupt.map_err(|error| Problem::new(format!("cannot watch for signals: {error}")))?;
+    let mut stop = StopSignals::watch()?;
     let system = arguments.system.find_or_await()?;
     let selection = Selection::new(&system, &arguments.gates, &[], Path::new(TOPOLOGY))?;
     note_where_seen(&system, &selection, &arguments.gates);
@@ -114,7 +109,7 @@ async fn run(arguments: &EchoArguments) -> Result<ExitCode, Problem> {
             }
         };
         let (gate, event) = tokio::select! {
-            _ = interrupt.recv() => break,
+            () = stop.received() => break,
             () = silence => {
                 watched.iter_mut().for_each(Watched::note_lost);
                 return Ok(report_silence(arguments, shown));

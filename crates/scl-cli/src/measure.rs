@@ -3,15 +3,13 @@
 use crate::format::FormatArgument;
 use crate::observed::{SystemArgument, exit_code};
 use clap::Args;
-use scl_observe::{GateReport, Measurement, Meter, ObservedGate, at_taps};
+use scl_observe::{GateReport, Measurement, Meter, ObservedGate, StopSignals, at_taps, block_on};
 use scl_terminal::{
     Problem, escape_json, output_is_closed, output_width, parse_duration, print_err, print_out, quoted_list, shorten,
 };
 use serde_json::{Map, Value, json};
 use std::process::ExitCode;
 use std::time::Duration;
-use tokio::runtime::Builder;
-use tokio::signal::unix::{Signal, SignalKind, signal};
 use tokio::time::{Instant, MissedTickBehavior, interval_at, sleep};
 
 /// How often a line is printed, and how long `--once` measures.
@@ -63,9 +61,7 @@ pub(crate) fn measure<M: Shown + 'static>(
     gates: &[String],
     new_meter: impl Fn() -> M + 'static,
 ) -> ExitCode {
-    let runtime = Builder::new_current_thread().enable_all().build();
-    let runtime = runtime.map_err(|error| Problem::new(format!("cannot start: {error}")));
-    exit_code(runtime.and_then(|runtime| runtime.block_on(run(arguments, gates, new_meter))))
+    exit_code(block_on(run(arguments, gates, new_meter)))
 }
 
 async fn run<M: Shown + 'static>(
@@ -101,7 +97,7 @@ async fn run<M: Shown + 'static>(
     let interrupted = loop {
         tokio::select! {
             () = measurement.run() => {}
-            () = stop.next() => break true,
+            () = stop.received() => break true,
             () = &mut until_deadline => break false,
             _ = ticks.tick(), if !arguments.once => {
                 let reports = measurement.take_interval();
@@ -116,25 +112,6 @@ async fn run<M: Shown + 'static>(
     output.print::<M>(&reports, true);
     let seen = reports.iter().any(|report| M::cells(&report.figures).is_some());
     Ok(if seen || interrupted { ExitCode::SUCCESS } else { ExitCode::FAILURE })
-}
-
-struct StopSignals {
-    interrupt: Signal,
-    terminate: Signal,
-}
-
-impl StopSignals {
-    fn watch() -> Result<Self, Problem> {
-        let watch = |kind| signal(kind).map_err(|error| Problem::new(format!("cannot watch for signals: {error}")));
-        Ok(Self { interrupt: watch(SignalKind::interrupt())?, terminate: watch(SignalKind::terminate())? })
-    }
-
-    async fn next(&mut self) {
-        tokio::select! {
-            _ = self.interrupt.recv() => {}
-            _ = self.terminate.recv() => {}
-        }
-    }
 }
 
 /// Prints tables, whose columns keep their widths from line to line.

@@ -7,16 +7,14 @@ use crate::observed::exit_code;
 use crate::play::{Plans, PlayArguments, message_type, problem_of};
 use clap::Args;
 use messages::Messages;
+use scl_observe::{StopSignals, block_on};
 use scl_plan::{GateKind, GatePlan, Plan};
 use scl_terminal::{Problem, parse_duration, print_err, quoted_list};
 use sender::Sender;
-use std::future::pending;
 use std::io::{self, IsTerminal};
 use std::num::NonZeroU64;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
-use tokio::runtime::Builder;
-use tokio::signal::unix::{Signal, SignalKind, signal};
 
 /// How long closing waits until the peers have taken all messages.
 const FLUSH: Duration = Duration::from_secs(5);
@@ -71,9 +69,7 @@ fn parse_rate(text: &str) -> Result<f64, String> {
 
 /// The body of `scl pub`.
 pub(crate) fn publish(arguments: &PubArguments) -> ExitCode {
-    let runtime = Builder::new_current_thread().enable_all().build();
-    let runtime = runtime.map_err(|error| Problem::new(format!("cannot start: {error}")));
-    exit_code(runtime.and_then(|runtime| runtime.block_on(run(arguments))))
+    exit_code(block_on(run(arguments)))
 }
 
 async fn run(arguments: &PubArguments) -> Result<ExitCode, Problem> {
@@ -86,12 +82,12 @@ async fn run(arguments: &PubArguments) -> Result<ExitCode, Problem> {
     let messages = message_type(&plan, &gate, gate.payload.types().next())?;
     let mut messages =
         Messages::new(&arguments.message, messages, arguments.rate.is_some() || arguments.count.is_some())?;
-    let mut stop = Stop::watch()?;
+    let mut stop = StopSignals::watch()?;
     let mut component = plans.open(&plan).await?;
     let mut sender = Sender::take(&mut component, &gate.name)?;
     tokio::select! {
         ready = sender.wait_for_peers(&component, &plans, &gate, arguments.ready) => ready?,
-        () = stop.requested() => return Ok(ExitCode::SUCCESS),
+        () = stop.received() => return Ok(ExitCode::SUCCESS),
     }
     let started = Instant::now();
     let sent = send_all(arguments, &mut messages, &mut sender, &mut stop).await;
@@ -111,7 +107,7 @@ async fn send_all(
     arguments: &PubArguments,
     messages: &mut Messages,
     sender: &mut Sender,
-    stop: &mut Stop,
+    stop: &mut StopSignals,
 ) -> Result<u64, Problem> {
     let rate = arguments.rate.or(arguments.count.filter(|_| !messages.are_from_input()).map(|_| DEFAULT_RATE));
     let timer = rate.map(|rate| scl::time::interval(Duration::from_secs_f64(1.0 / rate))).transpose();
@@ -121,18 +117,18 @@ async fn send_all(
         if let Some(timer) = timer.as_mut().filter(|_| sent > 0) {
             tokio::select! {
                 ticked = timer.tick() => ticked.map_err(|error| timer_problem(&error))?,
-                () = stop.requested() => break,
+                () = stop.received() => break,
             }
         }
         let message = tokio::select! {
             message = messages.next() => message?,
-            () = stop.requested() => break,
+            () = stop.received() => break,
         };
         let Some(message) = message else { break };
         tokio::select! {
             // With `when_full: wait`, a peer may make it wait.
             result = sender.send(&message) => result?,
-            () = stop.requested() => break,
+            () = stop.received() => break,
         }
         sent += 1;
     }
@@ -162,25 +158,4 @@ fn check_kind(plan: &Plan, gate: &GatePlan) -> Result<(), Problem> {
         _ if peers.is_empty() => problem,
         _ => problem.help(format!("it receives from {peers_text}: send there")),
     })
-}
-
-/// Ctrl-C and SIGTERM.
-struct Stop {
-    interrupt: Signal,
-    terminate: Signal,
-}
-
-impl Stop {
-    fn watch() -> Result<Self, Problem> {
-        let watch = |kind| signal(kind).map_err(|error| Problem::new(format!("cannot watch for signals: {error}")));
-        Ok(Self { interrupt: watch(SignalKind::interrupt())?, terminate: watch(SignalKind::terminate())? })
-    }
-
-    async fn requested(&mut self) {
-        tokio::select! {
-            Some(()) = self.interrupt.recv() => {}
-            Some(()) = self.terminate.recv() => {}
-            else => pending().await,
-        }
-    }
 }

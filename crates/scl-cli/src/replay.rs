@@ -127,10 +127,8 @@ fn run(files: &[PathBuf], options: &ReplayOptions) -> Result<ReplayReport, Probl
     if !survey.gaps.is_empty() && options.max_gap.is_none() && options.rate != Rate::Max {
         print_err("help: `--max-gap 1s` shortens pauses between messages\n");
     }
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
-    let runtime = runtime.map_err(|error| Problem::new(format!("cannot start: {error}")))?;
     let progress = Progress::new("replaying", survey.length);
-    runtime.block_on(play(&recording, &survey, options, &|position| progress.set(position)))
+    scl_observe::block_on(play(&recording, &survey, options, &|position| progress.set(position)))
 }
 
 fn parse_rate(text: &str) -> Result<Rate, String> {

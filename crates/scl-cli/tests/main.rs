@@ -94,6 +94,8 @@ mod run_terminal;
 mod run_transports;
 #[cfg(feature = "run")]
 mod run_twice;
+#[cfg(feature = "record")]
+mod stop_signals;
 mod system;
 #[cfg(feature = "run")]
 mod systemd;

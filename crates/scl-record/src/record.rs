@@ -29,7 +29,7 @@ pub use options::{Options, RingOptions};
 pub use report::Report;
 pub use trigger::trigger;
 
-use collector::{Collector, Signals};
+use collector::Collector;
 use contents::Contents;
 use continuous::Continuous;
 use file_names::{FileNames, Numbering};
@@ -37,12 +37,13 @@ use options::Notes;
 use plans::Plans;
 use queue::queue;
 use ring::Ring;
-use scl_observe::{Selection, System, Taps};
+use scl_observe::{Selection, StopSignals, System, Taps, block_on, watch_signal};
 use scl_terminal::{Problem, escape};
 use std::sync::Arc;
 use std::thread;
 use std::time::Instant;
 use storage::{Outcome, Progress, Store, store};
+use tokio::signal::unix::SignalKind;
 use tokio::sync::oneshot;
 use trigger::TriggerListener;
 
@@ -51,14 +52,12 @@ use trigger::TriggerListener;
 /// # Errors
 /// A gate is unknown, or the first file cannot be created. If recording ends early, there is a report that says so.
 pub fn record(system: &System, options: &Options) -> Result<Report, Problem> {
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
-    let runtime = runtime.map_err(|error| Problem::new(format!("cannot start: {error}")))?;
-    runtime.block_on(record_async(system, options))
+    block_on(record_async(system, options))
 }
 
 async fn record_async(system: &System, options: &Options) -> Result<Report, Problem> {
     // First, so that an early signal ends a recording and not the process.
-    let signals = Signals::listen()?;
+    let signals = (StopSignals::watch()?, watch_signal(SignalKind::user_defined1())?);
     let notes = Notes::new();
     let selection = Selection::new(system, &options.gates, &options.exclude, &options.topology)?;
     let (plans, plan) = Plans::of(system);

@@ -6,13 +6,12 @@ use super::screen::Screen;
 use super::view::{Action, View};
 use ratatui::crossterm::event::{self, Event};
 use rustix::process::{Signal, getpid, kill_process};
-use scl_observe::{ComponentRow, GateRow, Snapshot, Watch};
+use scl_observe::{ComponentRow, GateRow, Snapshot, StopSignals, Watch, block_on};
 use scl_terminal::{Problem, output_is_terminal};
 use std::io::{self, IsTerminal, stdin};
 use std::process::ExitCode;
 use std::thread;
 use std::time::Duration;
-use tokio::runtime::Builder;
 use tokio::signal::unix::{self, SignalKind};
 use tokio::sync::mpsc::{UnboundedReceiver, unbounded_channel};
 use tokio::time::{MissedTickBehavior, interval};
@@ -23,16 +22,15 @@ pub(super) fn run(watches: Vec<Watch>, period: Duration, order: Order) -> Result
         return Err(Problem::new("standard input and output are not a terminal").help("add `--once` for a table"));
     }
     let failed = |error: io::Error| Problem::new(format!("cannot use the terminal: {error}"));
-    let runtime = Builder::new_current_thread().enable_all().build().map_err(failed)?;
-    runtime.block_on(show(watches, period, order)).map_err(failed)?;
+    block_on(async {
+        let stop = StopSignals::watch()?;
+        show(watches, period, order, stop).await.map_err(failed)
+    })?;
     Ok(ExitCode::SUCCESS)
 }
 
-async fn show(mut watches: Vec<Watch>, period: Duration, order: Order) -> io::Result<()> {
-    let mut interrupt = unix::signal(SignalKind::interrupt())?;
-    let mut terminate = unix::signal(SignalKind::terminate())?;
-    let mut hang_up = unix::signal(SignalKind::hangup())?;
-    let mut stop = unix::signal(SignalKind::from_raw(Signal::TSTP.as_raw()))?;
+async fn show(mut watches: Vec<Watch>, period: Duration, order: Order, mut stop: StopSignals) -> io::Result<()> {
+    let mut suspend = unix::signal(SignalKind::from_raw(Signal::TSTP.as_raw()))?;
     let mut screen = Screen::enter()?;
     let mut view = View::new(look(&mut watches), order, has_colours());
     let mut events = read_events();
@@ -42,10 +40,8 @@ async fn show(mut watches: Vec<Watch>, period: Duration, order: Order) -> io::Re
     loop {
         screen.draw(|frame| draw(frame, &view))?;
         let action = tokio::select! {
-            _ = interrupt.recv() => Action::Quit,
-            _ = terminate.recv() => Action::Quit,
-            _ = hang_up.recv() => Action::Quit,
-            _ = stop.recv() => Action::Suspend,
+            () = stop.received() => Action::Quit,
+            _ = suspend.recv() => Action::Suspend,
             _ = ticks.tick() => {
                 view.update(look(&mut watches));
                 Action::Draw

@@ -11,11 +11,11 @@ use super::trigger::{TriggerListener, answer};
 use crate::format::{Part, sequence};
 use crate::record::file::WrittenFile;
 use scl::tap::{Observation, ObservedKind, TapEvent};
-use scl_observe::{ObservedGate, System, Taps, TapsEvent};
+use scl_observe::{ObservedGate, StopSignals, System, Taps, TapsEvent};
 use scl_terminal::Problem;
 use std::path::PathBuf;
 use std::time::Duration;
-use tokio::signal::unix::{Signal, SignalKind, signal};
+use tokio::signal::unix::Signal;
 use tokio::sync::oneshot;
 use tokio::time::{Instant, MissedTickBehavior, interval, sleep, timeout};
 
@@ -25,31 +25,6 @@ const SHOW: Duration = Duration::from_millis(500);
 /// At the end: how long nothing may arrive until nothing more is expected, and how long to look in any case.
 const ARRIVAL: Duration = Duration::from_millis(50);
 const LAST_LOOK: Duration = Duration::from_millis(500);
-
-/// The signals that concern a recorder.
-pub(crate) struct Signals {
-    stop: [Signal; 3],
-    save: Signal,
-}
-
-impl Signals {
-    /// Takes over SIGINT, SIGTERM, SIGHUP and SIGUSR1. Must be called inside a tokio runtime.
-    pub(crate) fn listen() -> Result<Self, Problem> {
-        let listen =
-            |kind| signal(kind).map_err(|error| Problem::new(format!("cannot install a signal handler: {error}")));
-        let stop = [listen(SignalKind::interrupt())?, listen(SignalKind::terminate())?, listen(SignalKind::hangup())?];
-        Ok(Self { stop, save: listen(SignalKind::user_defined1())? })
-    }
-
-    async fn stop(stop: &mut [Signal; 3]) {
-        let [interrupt, terminate, hangup] = stop;
-        tokio::select! {
-            _ = interrupt.recv() => {}
-            _ = terminate.recv() => {}
-            _ = hangup.recv() => {}
-        }
-    }
-}
 
 /// Collects messages until told to stop.
 pub(crate) struct Collector<'a> {
@@ -80,10 +55,10 @@ impl<'a> Collector<'a> {
         Self { system, taps, queue, trigger, notes, losses: Vec::new(), plans, unconnected: initial, initial }
     }
 
-    /// Collects until a signal, until `run_for` has passed, or until the storage stops. The queue ends with that.
+    /// Collects until a signal of `stop`, until `run_for` has passed, or until the storage stops. The queue ends with that.
     pub(crate) async fn run(
         mut self,
-        mut signals: Signals,
+        (mut stop, mut save): (StopSignals, Signal),
         run_for: Option<Duration>,
         progress: &Progress,
         mut stopped: oneshot::Receiver<()>,
@@ -101,11 +76,10 @@ impl<'a> Collector<'a> {
             self.notes.say("no gate to record is running yet; waiting");
         }
         let is_stored = loop {
-            let Signals { stop, save } = &mut signals;
             tokio::select! {
                 // Signals first: under load there always is a message.
                 biased;
-                () = Signals::stop(stop) => break true,
+                () = stop.received() => break true,
                 () = &mut end => break true,
                 _ = &mut stopped => break false,
                 _ = save.recv() => self.save_for_signal(),
