@@ -26,7 +26,7 @@ COMPILED_BY_LINTS = "--exclude-features default,nightly,libzmq,gateway,shm"
 ALL_TESTS = "--lib --bins --test '*'"
 # The packages with tests that `cargo test` does not run. Their features decide how dependencies are compiled, so stages that
 # share these share a build. What the tests build themselves shares it, too, where `SCL_TEST_PACKAGES` says so.
-NEED_MORE = " ".join(
+NEED_MORE = "--features scl-cli/bench " + " ".join(
     f"-p {package}"
     for package in ["scl-c", "scl-cli", "scl-generate", "scl-tests"]
     + ["any-language", "arcade", "ospecorr", "scl-bench", "scl-gateway", "scl-python", "tls-listener"]
@@ -84,7 +84,8 @@ CHECKS = [
     Stage("packaging", "cargo package --workspace --no-verify --locked --allow-dirty --quiet --exclude-lockfile"),
 ]
 
-BUSY = f".ci/packages stress-ng && .ci/busy {nextest('busy', '--workspace')}"
+WHOLE_WORKSPACE = "--workspace --features scl-cli/bench"
+BUSY = f".ci/packages stress-ng && .ci/busy {nextest('busy', WHOLE_WORKSPACE)}"
 ALLOCATIONS = Stage("allocations", f"cargo test --locked {NEED_MORE} --test allocations")
 
 GATE = [
@@ -115,5 +116,5 @@ FULL = [
     ALLOCATIONS,
     Stage("wheel", ".ci/wheel"),
     Stage("canaries", ".ci/canaries", 60),
-    *(Stage(f"busy {run}", BUSY, 120, {"SCL_TEST_PACKAGES": "--workspace"}) for run in (1, 2, 3)),
+    *(Stage(f"busy {run}", BUSY, 120, {"SCL_TEST_PACKAGES": WHOLE_WORKSPACE}) for run in (1, 2, 3)),
 ]

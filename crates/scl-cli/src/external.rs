@@ -31,9 +31,12 @@ pub(crate) fn run_external(words: &[OsString], command_line: &CommandLine) -> Ex
     ExitCode::from(COULD_NOT_RUN)
 }
 
-/// Commands of SCL that are programs of their own, and how to get them.
-const PARTS: &[(&str, &str)] =
-    &[("gateway", "install it: `cargo install scl-gateway`; in the repository of SCL: `cargo build -p scl-gateway`")];
+/// Commands of SCL that this program does not contain, and how to get them.
+const PARTS: &[(&str, &str)] = &[
+    #[cfg(not(feature = "bench"))]
+    ("bench", "build `scl` with it, in the repository of SCL: `cargo build --release -p scl-cli --features bench`"),
+    ("gateway", "install it: `cargo install scl-gateway`; in the repository of SCL: `cargo build -p scl-gateway`"),
+];
 
 enum Found {
     Program(PathBuf),

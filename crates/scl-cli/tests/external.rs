@@ -61,6 +61,19 @@ fn misspelt_commands_get_a_suggestion() {
     );
 }
 
+#[cfg(not(feature = "bench"))]
+#[test]
+fn commands_that_are_not_built_in_name_their_feature() {
+    check_error(
+        &["bench", "roundtrip", "--bytes", "20"],
+        &expect![[r#"
+            error: there is no command `bench`
+              = help: build `scl` with it, in the repository of SCL: `cargo build --release -p scl-cli --features bench`
+              = note: nor is there a program `scl-bench` beside `scl` or in PATH
+        "#]],
+    );
+}
+
 #[test]
 fn programs_that_cannot_run_are_errors() {
     check_error(

@@ -3,8 +3,6 @@
 
 #[cfg(feature = "observe")]
 mod bandwidth;
-#[cfg(feature = "bench")]
-mod bench;
 #[cfg(feature = "observe")]
 mod call;
 mod check;

@@ -377,6 +377,16 @@ fn histograms_follow_the_ratios() {
 }
 
 #[test]
+fn a_full_disk_is_an_error() {
+    let full_disk = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_scl"));
+    let output = command.args(["bench", "--quick", "codecs"]).stdout(full_disk).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let expected = "error: cannot write to standard output: No space left on device (os error 28)\n";
+    assert_eq!(String::from_utf8_lossy(&output.stderr), expected);
+}
+
+#[test]
 fn the_worker_command_is_internal() {
     let output = Command::new(env!("CARGO_BIN_EXE_scl")).args(["bench-worker", "rover"]).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
