@@ -179,7 +179,7 @@ enum Benchmark {
     },
     /// Measure the time to encode and decode a record, and its size, for every codec.
     ///
-    /// Baselines: the libraries `prost` and `serde_json` without SCL, and XML, which SCL does not support.
+    /// Baselines: the libraries `prost` and `serde_json` without SCL.
     Codecs {
         /// The number of records that each codec encodes and decodes.
         #[arg(long, default_value_t = 100_000, value_parser = within(MESSAGES))]
