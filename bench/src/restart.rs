@@ -1,6 +1,6 @@
 //! The time until messages flow again after one side of a connection was killed and started again.
 
-pub(crate) mod components;
+mod components;
 mod restarted;
 mod survivor;
 

@@ -1,7 +1,7 @@
 //! What worker processes do: one role per benchmark, selected by the first argument.
 
 use crate::worker::{exit_when_input_closes, unknown_arguments};
-use crate::{allocations, delay, fanout, fresh, one_way, open, restart, roundtrip, strangers};
+use crate::{allocations, delay, fanout, fresh, one_way, restart, roundtrip};
 use std::io::ErrorKind;
 
 /// Runs a role with the arguments that follow its name.
@@ -23,10 +23,8 @@ pub fn run_worker(arguments: &[String]) -> scl::Result<()> {
         #[cfg(feature = "gateway")]
         ["gateway-growth", rest @ ..] => (crate::gateway_growth::run_far_host, rest),
         ["one-way", rest @ ..] => (one_way::run_receiver, rest),
-        ["open", rest @ ..] => (open::run_station, rest),
         ["restart", rest @ ..] => (restart::run_restarted, rest),
         ["roundtrip", rest @ ..] => (roundtrip::run_echo, rest),
-        ["strangers", rest @ ..] => (strangers::run_stranger, rest),
         _ => return Err(unknown_arguments(&arguments)),
     };
     exit_when_input_closes();

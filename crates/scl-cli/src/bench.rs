@@ -3,10 +3,10 @@
 mod limits;
 
 use clap::{Args, Subcommand, ValueEnum};
-use limits::{MESSAGES, REPETITIONS, STARTS, parse_seconds, within};
+use limits::{MESSAGES, REPETITIONS, parse_seconds, within};
 use scl_bench::{
-    CodecsOptions, Cores, DelayOptions, FanoutOptions, FreshOptions, GatewayGrowthOptions, OpenOptions, RateOptions,
-    Report, RestartOptions, RoundtripOptions, StrangersOptions, Transport,
+    CodecsOptions, Cores, DelayOptions, FanoutOptions, FreshOptions, GatewayGrowthOptions, RateOptions, Report,
+    RestartOptions, RoundtripOptions, Transport,
 };
 use scl_terminal::{print_err, print_out};
 use std::process::ExitCode;
@@ -149,17 +149,6 @@ enum Benchmark {
         #[arg(long, default_value_t = 30, value_parser = within(REPETITIONS))]
         restarts: usize,
     },
-    /// Measure what others on the machine cost a component over TCP: users whose connections are refused, and a killed peer.
-    ///
-    /// Needs root, to start a process of another user, and `setpriv` (util-linux). Baseline: the same calls without them.
-    Strangers {
-        /// Refused connections per second, one line each.
-        #[arg(long, value_delimiter = ',', default_values_t = [100, 1000], value_parser = within(StrangersOptions::CONNECTIONS))]
-        connections: Vec<usize>,
-        /// How long each line is measured.
-        #[arg(long, default_value_t = 10.0, value_parser = parse_seconds)]
-        seconds: f64,
-    },
     /// Measure the delay of 20 bytes at 1000 Hz: idle, under load, and with real-time priority if permitted.
     ///
     /// The load is one thread per core that computes, and one that writes to the disk. Real-time priority is set by
@@ -184,14 +173,6 @@ enum Benchmark {
         /// The number of records that each codec encodes and decodes.
         #[arg(long, default_value_t = 100_000, value_parser = within(MESSAGES))]
         messages: usize,
-    },
-    /// Measure the time to open a component with ten gates, its memory, and its wake-ups per second when idle.
-    ///
-    /// Baselines: ten sockets of `zeromq`, and a process with nothing but the async runtime.
-    Open {
-        /// How often each process is started.
-        #[arg(long, default_value_t = 30, value_parser = within(STARTS))]
-        starts: usize,
     },
     /// Measure how the cost of a gateway grows with its connections: time until all are matched, memory, processor time,
     /// round trip.
@@ -266,9 +247,6 @@ fn measure(benchmark: &Benchmark, quick: bool) -> scl_bench::Result<Report> {
             scl_bench::measure_fresh(&FreshOptions { repetitions: few(*repetitions, 2), pause: short(*pause) })
         }
         Benchmark::Restart { restarts } => scl_bench::measure_restart(&RestartOptions { restarts: few(*restarts, 1) }),
-        Benchmark::Strangers { connections, seconds } => {
-            scl_bench::measure_strangers(&StrangersOptions { connections: connections.clone(), time: short(*seconds) })
-        }
         Benchmark::Delay { seconds } => scl_bench::measure_delay(&DelayOptions { time: short(*seconds) }),
         Benchmark::Fanout { seconds } => scl_bench::measure_fanout(&FanoutOptions { time: short(*seconds) }),
         Benchmark::Codecs { messages } => scl_bench::measure_codecs(&CodecsOptions { messages: few(*messages, 50) }),
@@ -279,10 +257,6 @@ fn measure(benchmark: &Benchmark, quick: bool) -> scl_bench::Result<Report> {
                 time: short(*seconds),
                 messages: few(*messages, 50),
             })
-        }
-        Benchmark::Open { starts } => {
-            let idle = Duration::from_millis(if quick { 50 } else { 1000 });
-            scl_bench::measure_open(&OpenOptions { starts: few(*starts, 1), idle })
         }
     }
 }

@@ -23,7 +23,7 @@ const OTHER_FILES: [(&str, &str); 9] = [
     ("twins", include_str!("../../../tests/topologies/twins.yaml")),
     ("limits", include_str!("../../../tests/topologies/limits.yaml")),
     ("exits", include_str!("../../../tests/topologies/exits.yaml")),
-    ("open", include_str!("../../../bench/open.yaml")),
+    ("ten_gates", include_str!("../../../tests/topologies/ten_gates.yaml")),
     ("fanout", include_str!("../../../bench/fanout.yaml")),
 ];
 

@@ -9,8 +9,6 @@ pub(super) const MESSAGES: RangeInclusive<usize> = 1..=10_000_000;
 
 pub(super) const REPETITIONS: RangeInclusive<usize> = 1..=10_000;
 
-pub(super) const STARTS: RangeInclusive<usize> = 1..=10_000;
-
 /// Parses a whole number within a range.
 pub(super) fn within(range: RangeInclusive<usize>) -> impl Fn(&str) -> Result<usize, String> + Clone {
     move |text| match text.trim().parse() {

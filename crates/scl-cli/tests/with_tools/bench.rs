@@ -1,7 +1,6 @@
 //! `scl bench`: every benchmark runs for next to nothing and prints values that programs can read. No value is judged.
 
 use serde_json::Value;
-use std::os::unix::fs::MetadataExt;
 use std::process::{Command, Output};
 
 fn bench(arguments: &[&str]) -> Output {
@@ -172,22 +171,6 @@ fn fresh_measures_every_call() {
     }
 }
 
-/// Root alone can start a process of another user.
-#[test]
-fn strangers_measures_calls_and_a_dead_peer() {
-    if std::fs::metadata("/proc/self").unwrap().uid() != 0 {
-        let output = bench(&["strangers", "--quick"]);
-        assert!(String::from_utf8_lossy(&output.stderr).contains("only root"), "{output:?}");
-        return;
-    }
-    let report = report(&["strangers"]);
-    let flooded = ["100 connections/s refused", "1000 connections/s refused"];
-    assert_eq!(names(&report), ["no other user", flooded[0], flooded[1], "tcp", "ipc"]);
-    for ours in flooded {
-        assert_compared(&report["tables"][0], "calls_per_s", ours, &["no other user"]);
-    }
-}
-
 #[test]
 fn restart_measures_every_role() {
     let report = report(&["restart"]);
@@ -260,7 +243,6 @@ fn errors_say_what_an_option_accepts() {
         (["fresh", "--pause", "1ns"], "1ns' for '--pause <PAUSE>", seconds.to_owned()),
         (["restart", "--restarts", "-1"], "-1' for '--restarts <RESTARTS>", format!("{number} 1 to 10000")),
         (["codecs", "--messages", "1e6"], "1e6' for '--messages <MESSAGES>", format!("{number} 1 to 10000000")),
-        (["open", "--starts", "99999"], "99999' for '--starts <STARTS>", format!("{number} 1 to 10000")),
         (["delay", "--seconds", "2h"], "2h' for '--seconds <SECONDS>", seconds.to_owned()),
         (["fanout", "--seconds", "0"], "0' for '--seconds <SECONDS>", seconds.to_owned()),
     ] {
@@ -330,15 +312,6 @@ fn codecs_are_compared_with_their_libraries() {
     assert_compared_everywhere(&report, "decode_ns", "protobuf", &["prost alone"]);
 }
 
-#[test]
-fn open_measures_components_and_sockets() {
-    let report = report(&["open"]);
-    let expected = ["SCL, 10 gates, alone", "SCL, 10 gates, connected", "10 zeromq sockets", "async runtime only"];
-    assert_eq!(names(&report), expected);
-    assert_compared_everywhere(&report, "memory_kib", "SCL, 10 gates, alone", &["10 zeromq sockets"]);
-    assert_compared_everywhere(&report, "memory_kib", "SCL, 10 gates, connected", &["10 zeromq sockets"]);
-}
-
 /// The output for people.
 fn text(arguments: &[&str]) -> String {
     String::from_utf8(bench(arguments).stdout).unwrap()
@@ -346,7 +319,7 @@ fn text(arguments: &[&str]) -> String {
 
 #[test]
 fn tables_fit_into_100_columns() {
-    for benchmark in ["roundtrip", "rate", "fresh", "restart", "delay", "fanout", "codecs", "open"] {
+    for benchmark in ["roundtrip", "rate", "fresh", "restart", "delay", "fanout", "codecs"] {
         for line in text(&[benchmark, "--quick", "--histogram", "--cores", "one"]).lines() {
             assert!(line.chars().count() <= 100, "{benchmark}: {line}");
         }

@@ -14,7 +14,6 @@ const TOPOLOGIES: [&str; 20] = [
     "bench/fanout.yaml",
     "bench/fresh.yaml",
     "bench/one_way.yaml",
-    "bench/open.yaml",
     "bench/restart.yaml",
     "bench/roundtrip.yaml",
     "examples/quickstart/topology.yaml",
@@ -29,6 +28,7 @@ const TOPOLOGIES: [&str; 20] = [
     "tests/topologies/shapes/extended.yaml",
     "tests/topologies/six_kinds.yaml",
     "tests/topologies/sizes.yaml",
+    "tests/topologies/ten_gates.yaml",
     "tests/topologies/twins.yaml",
 ];
 
