@@ -13,7 +13,6 @@ pub(crate) use peer::run_peer;
 use crate::report::{Column, Report, Row, Table};
 use crate::runtime::start_runtime;
 use crate::scratch::ScratchFolder;
-use crate::worker::Worker;
 use near::Near;
 
 /// Enough to fill all queues, so that no buffer grows afterwards.
@@ -62,12 +61,9 @@ pub fn measure_allocations(messages: usize, counter: AllocationCounter) -> scl::
 fn count_allocations(role: &Role, is_blocking: bool, messages: usize, counter: AllocationCounter) -> scl::Result<u64> {
     let folder = ScratchFolder::new()?;
     let runtime = start_runtime()?;
-    let peer = Worker::start(&["allocations", role.id, folder.path()])?;
     let mut near = Near::open(&runtime, role.id, is_blocking, folder.path())?;
     near.exchange(&runtime, WARM_UP)?;
     let before = counter();
     near.exchange(&runtime, messages)?;
-    let allocations = counter() - before;
-    drop(peer);
-    Ok(allocations)
+    Ok(counter() - before)
 }

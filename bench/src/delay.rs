@@ -7,10 +7,11 @@ mod source;
 pub(crate) use source::run_source;
 
 use crate::durations::Durations;
-use crate::one_way::{BatchReport, SCL_PUB, UNIX, Variant, ZEROMQ_PUB};
+use crate::one_way::{BatchReport, SCL_PUB, ZEROMQ_PUB};
 use crate::report::{Column, Report, Row, Table};
 use crate::runtime::start_runtime;
 use crate::scratch::ScratchFolder;
+use crate::variant::{UNIX, Variant};
 use crate::worker::Worker;
 use load::Load;
 use std::process::{Command, Stdio};
@@ -117,7 +118,7 @@ async fn collect(source: &mut Worker, rounds: usize, all: &mut [Durations]) -> s
 fn row(variant: &Variant, situation: Situation, delays: &Durations) -> Row {
     let name_in = |variant: &Variant, situation: Situation| format!("{}, {}", variant.name, situation.name);
     let mut baselines = Vec::new();
-    if *variant == SCL_PUB {
+    if variant.id == SCL_PUB.id {
         baselines.extend([UNIX, ZEROMQ_PUB].map(|baseline| name_in(&baseline, situation)));
     }
     if situation.name != IDLE.name {

@@ -1,6 +1,5 @@
 //! One publisher and eight subscribers, one of which is stopped from time to time: how it affects the other seven.
 
-mod components;
 mod message;
 mod publisher;
 mod subscriber;

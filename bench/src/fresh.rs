@@ -2,18 +2,21 @@
 //!
 //! A control loop that was busy must not act on old values: with `queue: 1` the first value is to be the newest.
 
-mod components;
-mod publishers;
 mod subscriber;
 
 pub(crate) use subscriber::run_subscriber;
 
+use crate::components::fresh::Publisher;
 use crate::durations::Durations;
+use crate::link::{CONNECT_TIMEOUT, connect, open};
+use crate::message::{Frame, Message};
+use crate::raw::SocketPaths;
 use crate::report::{Column, Report, Row, Table};
 use crate::runtime::start_runtime;
 use crate::scratch::ScratchFolder;
+use crate::sender::{Calls, Sender};
+use crate::variant::Variant;
 use crate::worker::Worker;
-use publishers::Publishers;
 use scl::time::interval;
 use std::time::Duration;
 
@@ -21,13 +24,6 @@ const PERIOD: Duration = Duration::from_millis(1);
 
 /// The size of a message: the time at which it was sent, padded to the size that the other benchmarks use.
 const BYTES: usize = 20;
-
-/// A way to receive: its name between the processes and in the report, and what it is compared with.
-struct Variant {
-    id: &'static str,
-    name: &'static str,
-    baselines: &'static [&'static str],
-}
 
 const LIBZMQ: &str = "libzmq SUB (ZMQ_CONFLATE)";
 const ZEROMQ: &str = "zeromq SUB";
@@ -58,8 +54,10 @@ pub struct FreshOptions {
     pub pause: Duration,
 }
 
-/// What was measured of a variant.
+/// The publisher and the subscriber of a variant, and what was measured.
 struct Measurement {
+    publisher: Sender,
+    subscriber: Worker,
     /// From sending the first value after a pause to receiving it.
     ages: Durations,
     /// How long the call took that received it.
@@ -85,33 +83,55 @@ pub fn measure_fresh(options: &FreshOptions) -> scl::Result<Report> {
 }
 
 async fn run(folder: &str, options: &FreshOptions) -> scl::Result<Vec<Measurement>> {
-    let mut publishers = Publishers::open(folder).await?;
     let [repetitions, pause] =
         [options.repetitions as u128, options.pause.as_micros()].map(|number| number.to_string());
-    let mut subscribers = Vec::new();
+    let mut measurements = Vec::new();
     for (index, variant) in VARIANTS.iter().enumerate() {
-        let arguments = ["fresh", variant.id, folder, &repetitions, &pause, &index.to_string()];
-        subscribers.push((Worker::start(&arguments)?, Measurement::new()?));
+        let subscriber = ["fresh", variant.id, folder, &repetitions, &pause, &index.to_string()];
+        measurements.push(Measurement::start(variant, folder, &subscriber).await?);
     }
-    publishers.ready().await?;
     let mut interval = interval(PERIOD)?;
-    while subscribers.iter().any(|(_, measurement)| measurement.repetitions < options.repetitions) {
+    while measurements.iter().any(|measurement| measurement.repetitions < options.repetitions) {
         interval.tick().await?;
-        publishers.send().await?;
-        for (subscriber, measurement) in &mut subscribers {
+        for measurement in &mut measurements {
+            let Message { payload, .. } = Message::sent_now(BYTES);
+            measurement.publisher.send(Frame::Bytes(payload)).await?;
+        }
+        for measurement in &mut measurements {
             if measurement.repetitions < options.repetitions
-                && let Some(line) = subscriber.try_next_line()?
+                && let Some(line) = measurement.subscriber.try_next_line()?
             {
                 measurement.record(&line)?;
             }
         }
     }
-    Ok(subscribers.into_iter().map(|(_, measurement)| measurement).collect())
+    Ok(measurements)
 }
 
 impl Measurement {
-    fn new() -> scl::Result<Self> {
-        Ok(Self { ages: Durations::new()?, calls: Durations::new()?, repetitions: 0 })
+    /// Opens the publisher and starts the subscriber. The publishers of SCL wait for theirs; the others drop values until they
+    /// have connected.
+    async fn start(variant: &Variant, folder: &str, subscriber: &[&str]) -> scl::Result<Self> {
+        let paths = SocketPaths::new(folder, variant.id);
+        let raw = match variant.id {
+            "zeromq" => Some(Sender::Zeromq(Box::new(paths.bind_pub("position").await?))),
+            #[cfg(feature = "libzmq")]
+            "libzmq" => {
+                let mark = crate::libzmq::HighWaterMark::Default;
+                Some(Sender::Libzmq(paths.bind_libzmq("position", zmq2::PUB, mark)?))
+            }
+            _ => None,
+        };
+        let subscriber = Worker::start(subscriber)?;
+        let publisher = match raw {
+            Some(publisher) => publisher,
+            None => {
+                let options = scl::OpenOptions::new().runtime_dir(folder).system(variant.id);
+                Sender::Pub(connect!(Publisher, options, false).position, Calls::default())
+            }
+        };
+        let (ages, calls) = (Durations::new()?, Durations::new()?);
+        Ok(Self { publisher, subscriber, ages, calls, repetitions: 0 })
     }
 
     /// Records what a subscriber prints: the age and the time of the call, in nanoseconds.

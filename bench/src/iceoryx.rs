@@ -11,6 +11,7 @@ use iceoryx2::port::subscriber::Subscriber;
 use iceoryx2::prelude::{Config, SignalHandlingMode, ipc};
 use iceoryx2::sample::Sample;
 use std::mem::MaybeUninit;
+use std::rc::Rc;
 use std::time::Duration;
 
 /// Messages that a subscriber's buffer holds.
@@ -32,34 +33,42 @@ pub(crate) struct Participant(Node<ipc::Service>);
 pub(crate) struct Sending {
     publisher: Publisher<ipc::Service, Payload, u64>,
     notifier: Notifier<ipc::Service>,
+    /// What is copied, unless messages are loaned.
+    copied: Option<Vec<MaybeUninit<u8>>>,
+    /// Dropped last, because it cleans up.
+    _participant: Rc<Participant>,
 }
 
 /// The receiving end of a channel.
 pub(crate) struct Receiving {
     subscriber: Subscriber<ipc::Service, Payload, u64>,
     listener: Listener<ipc::Service>,
+    _participant: Rc<Participant>,
 }
 
 impl Participant {
-    pub(crate) fn join() -> scl::Result<Self> {
+    pub(crate) fn join() -> scl::Result<Rc<Self>> {
         // Without files of settings, and cleaning up at the end only: two workers that start at once would both do it.
         let mut config = Config::default();
         config.global.node.cleanup_dead_nodes_on_creation = false;
         config.global.service.cleanup_dead_nodes_on_open = false;
         let node = NodeBuilder::new().config(&config).signal_handling_mode(SignalHandlingMode::Disabled);
-        Ok(Self(node.create::<ipc::Service>()?))
+        Ok(Rc::new(Self(node.create::<ipc::Service>()?)))
     }
 
-    /// The sending end of a channel, for messages of up to `bytes` bytes.
-    pub(crate) fn sending(&self, channel: &str, bytes: usize) -> scl::Result<Sending> {
+    /// The sending end of a channel, for messages of up to `bytes` bytes, which it copies or loans.
+    pub(crate) fn sending(self: &Rc<Self>, channel: &str, bytes: usize, copies: bool) -> scl::Result<Sending> {
         let messages = self.messages(channel)?;
         let publisher = messages.publisher_builder().initial_max_slice_len(bytes).create()?;
-        Ok(Sending { publisher, notifier: self.events(channel)?.notifier_builder().create()? })
+        let notifier = self.events(channel)?.notifier_builder().create()?;
+        let copied = copies.then(|| vec![MaybeUninit::new(7); bytes]);
+        Ok(Sending { publisher, notifier, copied, _participant: Rc::clone(self) })
     }
 
-    pub(crate) fn receiving(&self, channel: &str) -> scl::Result<Receiving> {
+    pub(crate) fn receiving(self: &Rc<Self>, channel: &str) -> scl::Result<Receiving> {
         let listener = self.events(channel)?.listener_builder().create()?;
-        Ok(Receiving { subscriber: self.messages(channel)?.subscriber_builder().create()?, listener })
+        let subscriber = self.messages(channel)?.subscriber_builder().create()?;
+        Ok(Receiving { subscriber, listener, _participant: Rc::clone(self) })
     }
 
     fn messages(
@@ -85,19 +94,15 @@ impl Drop for Participant {
 }
 
 impl Sending {
-    /// Sends `bytes` bytes of whatever the memory contains.
-    pub(crate) fn send_loaned(&self, bytes: usize, time: u64) -> scl::Result<()> {
-        // Writes nothing, so an optimised build contains no loop.
-        let mut sample = self.publisher.loan_slice_uninit(bytes)?.write_from_fn(|_| MaybeUninit::uninit());
-        *sample.user_header_mut() = time;
-        sample.send()?;
-        self.notifier.notify()?;
-        Ok(())
-    }
-
-    /// Copies a payload into shared memory and sends it.
-    pub(crate) fn send_copied(&self, payload: &Payload, time: u64) -> scl::Result<()> {
-        let mut sample = self.publisher.loan_slice_uninit(payload.len())?.write_from_slice(payload);
+    /// Sends `bytes` bytes: a copy of `received` or of a payload of its own, or a loan with whatever the memory contains.
+    pub(crate) fn send(&self, bytes: usize, received: Option<&Payload>, time: u64) -> scl::Result<()> {
+        let loan = |bytes| self.publisher.loan_slice_uninit(bytes);
+        let mut sample = match (&self.copied, received) {
+            (Some(_), Some(received)) => loan(received.len())?.write_from_slice(received),
+            (Some(own), None) => loan(own.len())?.write_from_slice(own),
+            // Writes nothing, so an optimised build contains no loop.
+            (None, _) => loan(bytes)?.write_from_fn(|_| MaybeUninit::uninit()),
+        };
         *sample.user_header_mut() = time;
         sample.send()?;
         self.notifier.notify()?;
@@ -115,9 +120,4 @@ impl Receiving {
             self.listener.blocking_wait(|_| {})?;
         }
     }
-}
-
-/// A payload for [`Sending::send_copied`].
-pub(crate) fn payload(bytes: &[u8]) -> Vec<MaybeUninit<u8>> {
-    bytes.iter().copied().map(MaybeUninit::new).collect()
 }

@@ -9,11 +9,13 @@
 mod allocations;
 mod clock;
 mod codecs;
+mod components;
 mod cores;
 mod delay;
 mod durations;
 mod engines;
 mod fanout;
+#[cfg(feature = "gateway")]
 mod footprint;
 mod fresh;
 #[cfg(feature = "gateway")]
@@ -23,18 +25,23 @@ mod gateway_growth;
 mod iceoryx;
 #[cfg(feature = "libzmq")]
 mod libzmq;
+mod link;
+mod message;
 mod message_size;
 mod one_way;
 mod rate;
 mod raw;
+mod receiver;
 mod report;
 mod restart;
 mod roles;
 mod roundtrip;
 mod runtime;
 mod scratch;
+mod sender;
 mod transport;
 mod unix;
+mod variant;
 mod worker;
 #[cfg(feature = "gateway")]
 mod zenoh_peer;

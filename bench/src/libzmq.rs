@@ -5,7 +5,7 @@ mod lossless_publisher;
 pub(crate) use lossless_publisher::start_lossless_publisher;
 
 use crate::raw::SocketPaths;
-use zmq2::{Context, SUB, Socket, SocketType};
+use zmq2::{Context, PULL, PUSH, SUB, Socket, SocketType, XPUB};
 
 /// How long a receive may take while two processes connect, in milliseconds.
 const CONNECT_TIMEOUT: i32 = 10_000;
@@ -21,38 +21,37 @@ pub(crate) enum HighWaterMark {
 
 impl SocketPaths {
     /// A socket that listens.
-    pub(crate) fn bind_libzmq(
-        &self,
-        context: &Context,
-        socket: &str,
-        kind: SocketType,
-        mark: HighWaterMark,
-    ) -> scl::Result<Socket> {
-        let bound = new_socket(context, kind, mark)?;
+    pub(crate) fn bind_libzmq(&self, socket: &str, kind: SocketType, mark: HighWaterMark) -> scl::Result<Socket> {
+        let bound = new_socket(kind, mark)?;
         bound.bind(&self.endpoint(socket))?;
         Ok(bound)
     }
 
     /// A socket that connects, and subscribes to everything if it is a SUB socket.
-    pub(crate) fn connect_libzmq(
-        &self,
-        context: &Context,
-        socket: &str,
-        kind: SocketType,
-        mark: HighWaterMark,
-    ) -> scl::Result<Socket> {
-        let connected = new_socket(context, kind, mark)?;
+    pub(crate) fn connect_libzmq(&self, socket: &str, kind: SocketType, mark: HighWaterMark) -> scl::Result<Socket> {
+        let connected = new_socket(kind, mark)?;
         connected.connect(&self.endpoint(socket))?;
         if kind == SUB {
             connected.set_subscribe(b"")?;
         }
         Ok(connected)
     }
+
+    /// A SUB socket that keeps the newest message only, and waits for it forever.
+    pub(crate) fn connect_conflated(&self, socket: &str) -> scl::Result<Socket> {
+        let connected = new_socket(SUB, HighWaterMark::Default)?;
+        connected.set_rcvtimeo(-1)?;
+        // Takes effect only before the socket connects.
+        connected.set_conflate(true)?;
+        connected.set_subscribe(b"")?;
+        connected.connect(&self.endpoint(socket))?;
+        Ok(connected)
+    }
 }
 
 /// A socket that gives up a receive after [`CONNECT_TIMEOUT`].
-pub(crate) fn new_socket(context: &Context, kind: SocketType, mark: HighWaterMark) -> scl::Result<Socket> {
-    let socket = context.socket(kind)?;
+fn new_socket(kind: SocketType, mark: HighWaterMark) -> scl::Result<Socket> {
+    let socket = Context::new().socket(kind)?;
     socket.set_rcvtimeo(CONNECT_TIMEOUT)?;
     socket.set_linger(0)?;
     if mark == HighWaterMark::Unlimited {
@@ -62,8 +61,18 @@ pub(crate) fn new_socket(context: &Context, kind: SocketType, mark: HighWaterMar
     Ok(socket)
 }
 
-/// Lets a receive wait forever, because other variants have their turn between two batches.
-pub(crate) fn without_timeout(socket: Socket) -> scl::Result<Socket> {
-    socket.set_rcvtimeo(-1)?;
-    Ok(socket)
+/// The socket of a variant's sending end.
+pub(crate) fn sending_kind(id: &str) -> (SocketType, HighWaterMark) {
+    match id {
+        "libzmq-push" => (PUSH, HighWaterMark::Default),
+        "libzmq-push-unlimited" => (PUSH, HighWaterMark::Unlimited),
+        "libzmq-pub" => (XPUB, HighWaterMark::Unlimited),
+        _ => (XPUB, HighWaterMark::Default),
+    }
+}
+
+/// The socket of a variant's receiving end.
+pub(crate) fn receiving_kind(id: &str) -> (SocketType, HighWaterMark) {
+    let (kind, mark) = sending_kind(id);
+    (if kind == PUSH { PULL } else { SUB }, mark)
 }

@@ -1,16 +1,43 @@
 //! The number of messages per second from one process to another, without losing any.
 
-mod variants;
-
+use crate::message::MIN_SIZE;
 use crate::message_size::check_message_sizes;
-use crate::one_way::{Channel, MIN_SIZE, Timing, Variant};
+use crate::one_way::{Channel, SCL_PUB, Timing, ZEROMQ_PUB};
 use crate::report::{Column, Report, Row, Table};
-use crate::runtime::start_runtime;
+use crate::runtime::{run, start_runtime};
 use crate::scratch::ScratchFolder;
 use crate::transport::Transport;
+use crate::variant::{GATEWAY, SHM, UNIX, Variant};
 use std::ops::RangeInclusive;
 use tokio::runtime::Runtime;
-use variants::variants;
+
+const LIBZMQ_NODROP: &str = "libzmq XPUB_NODROP";
+const LIBZMQ_PUB: &str = "libzmq XPUB (no limit)";
+const LIBZMQ_PUSH: &str = "libzmq PUSH";
+const LIBZMQ_PUSH_UNLIMITED: &str = "libzmq PUSH (no limit)";
+const ZEROMQ_PUSH: &str = "zeromq PUSH/PULL";
+
+const PUB_BASELINES: &[&str] = &[LIBZMQ_NODROP, LIBZMQ_PUB, ZEROMQ_PUB.name];
+const PUSH_BASELINES: &[&str] = &[LIBZMQ_PUSH, LIBZMQ_PUSH_UNLIMITED, ZEROMQ_PUSH];
+
+/// The variants over Unix sockets, in the order of their turns.
+const IPC: &[Variant] = &[
+    Variant { baselines: PUB_BASELINES, ..SCL_PUB },
+    Variant { id: "scl-pub-blocking", name: "SCL pub/sub (blocking)", baselines: PUB_BASELINES },
+    ZEROMQ_PUB,
+    #[cfg(feature = "libzmq")]
+    Variant { id: "libzmq-nodrop", name: LIBZMQ_NODROP, baselines: &[] },
+    #[cfg(feature = "libzmq")]
+    Variant { id: "libzmq-pub", name: LIBZMQ_PUB, baselines: &[] },
+    Variant { id: "scl-push", name: "SCL push/pull", baselines: PUSH_BASELINES },
+    Variant { id: "scl-push-blocking", name: "SCL push/pull (blocking)", baselines: PUSH_BASELINES },
+    Variant { id: "zeromq-push", name: ZEROMQ_PUSH, baselines: &[] },
+    #[cfg(feature = "libzmq")]
+    Variant { id: "libzmq-push", name: LIBZMQ_PUSH, baselines: &[] },
+    #[cfg(feature = "libzmq")]
+    Variant { id: "libzmq-push-unlimited", name: LIBZMQ_PUSH_UNLIMITED, baselines: &[] },
+    UNIX,
+];
 
 /// The minimum number of batches of each variant, after one for warm-up.
 const MIN_BATCHES: usize = 10;
@@ -47,7 +74,6 @@ struct Batches {
 /// A variant with its two processes, and what was measured of it.
 struct Measurement {
     variant: Variant,
-    baselines: &'static [Variant],
     channel: Channel,
     /// The messages per second of each batch.
     rates: Vec<f64>,
@@ -75,9 +101,15 @@ fn measure_size(runtime: &Runtime, options: &RateOptions, bytes: usize) -> scl::
     let folder = ScratchFolder::new()?;
     let batches = Batches::new(options.messages, bytes);
     let mut measurements = Vec::new();
-    for &(variant, baselines) in variants(options.transport) {
-        let channel = Channel::open(runtime, variant, folder.path(), bytes, batches.size, Timing::Batch)?;
-        measurements.push(Measurement { variant, baselines, channel, rates: Vec::new() });
+    let variants = match options.transport {
+        Transport::Ipc => IPC,
+        Transport::Shm => SHM,
+        Transport::Gateway => GATEWAY,
+    };
+    for &variant in variants {
+        let open = Channel::open(variant, folder.path(), bytes, batches.size, Timing::Batch);
+        let channel = run(runtime, variant.id, open)?;
+        measurements.push(Measurement { variant, channel, rates: Vec::new() });
     }
     // The first batch is warm-up.
     for batch in 0..=batches.count {
@@ -120,8 +152,8 @@ fn table(bytes: usize, measurements: &[Measurement]) -> Table {
     let title = format!("rate of {bytes} bytes from one process to another, none lost (median of all batches)");
     let mut table = Table::new(title, &columns);
     for measurement in measurements {
-        let baselines: Vec<&str> = measurement.baselines.iter().map(|baseline| baseline.name).collect();
-        let row = Row::new(measurement.variant.name, vec![measurement.median_rate()]).with_baselines(&baselines);
+        let row = Row::new(measurement.variant.name, vec![measurement.median_rate()])
+            .with_baselines(measurement.variant.baselines);
         table.add(row.with_rounds(&measurement.rates));
     }
     table

@@ -1,8 +1,7 @@
 //! Sockets without SCL: their addresses, and sockets of the `zeromq` crate.
 
-use scl::bytes::Bytes;
 use std::path::{Path, PathBuf};
-use zeromq::{Socket, SubSocket, XPubSocket, ZmqMessage};
+use zeromq::{PubSocket, Socket, SubSocket, XPubSocket};
 
 /// The paths of the raw sockets of one variant of a benchmark.
 #[derive(Debug, Clone)]
@@ -24,6 +23,13 @@ impl SocketPaths {
         format!("ipc://{}", self.path(socket).display())
     }
 
+    /// A PUB socket of `zeromq`, which unlike XPUB does not wait for a subscriber that does not receive.
+    pub(crate) async fn bind_pub(&self, socket: &str) -> scl::Result<PubSocket> {
+        let mut publisher = PubSocket::new();
+        publisher.bind(&self.endpoint(socket)).await?;
+        Ok(publisher)
+    }
+
     /// An XPUB socket of `zeromq`, which shows when a subscriber has connected.
     pub(crate) async fn bind_xpub(&self, socket: &str) -> scl::Result<XPubSocket> {
         let mut xpub = XPubSocket::new();
@@ -38,9 +44,4 @@ impl SocketPaths {
         sub.subscribe("").await?;
         Ok(sub)
     }
-}
-
-/// The first frame of a message.
-pub(crate) fn first_frame(message: ZmqMessage) -> Bytes {
-    message.into_vecdeque().pop_front().unwrap_or_default()
 }

@@ -1,6 +1,5 @@
 //! The time until messages flow again after one side of a connection was killed and started again.
 
-mod components;
 mod restarted;
 mod survivor;
 

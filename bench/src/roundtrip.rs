@@ -1,38 +1,52 @@
 //! The time a message takes to another process and back.
 
-mod batch_client;
 mod client;
-mod components;
 mod echo;
-mod engines;
-#[cfg(feature = "shm")]
-mod iceoryx;
-#[cfg(feature = "libzmq")]
-mod libzmq;
-mod variants;
-#[cfg(feature = "gateway")]
-mod zenoh;
 
 pub(crate) use echo::run_echo;
 
 use crate::durations::Durations;
+use crate::message::Message;
 use crate::message_size::check_message_sizes;
 use crate::report::{Column, Report, Row, Table};
 use crate::runtime::start_runtime;
 use crate::scratch::ScratchFolder;
 use crate::transport::Transport;
-use crate::worker::Worker;
+use crate::variant::{GATEWAY, SHM, UNIX, UNIX_BLOCKING, UNIX_BLOCKING_NAME, UNIX_NAME, Variant};
 use client::Client;
-use scl::bytes::Bytes;
 use std::ops::RangeInclusive;
 use tokio::runtime::Runtime;
-use variants::{Variant, variants};
 
 /// Messages of one variant before the next variant has its turn.
 const BATCH: usize = 500;
 
 /// Bytes that each variant sends at most in each direction, so that long messages do not take minutes.
 const MAX_BYTES: usize = 4 << 30;
+
+const SCL_PUB: &str = "SCL pub/sub";
+const SCL_PUB_BLOCKING: &str = "SCL pub/sub (blocking)";
+const SCL_REQ: &str = "SCL req/rep";
+const SCL_REQ_BLOCKING: &str = "SCL req/rep (blocking)";
+const ZEROMQ_PUB: &str = "zeromq XPUB/SUB";
+const ZEROMQ_REQ: &str = "zeromq DEALER/ROUTER";
+const LIBZMQ_PUB: &str = "libzmq XPUB/SUB";
+const LIBZMQ_REQ: &str = "libzmq REQ/REP";
+
+/// The variants over Unix sockets, in the order of their turns.
+const IPC: &[Variant] = &[
+    Variant { id: "scl-pub", name: SCL_PUB, baselines: &[UNIX_NAME, ZEROMQ_PUB, LIBZMQ_PUB] },
+    Variant { id: "scl-req", name: SCL_REQ, baselines: &[UNIX_NAME, ZEROMQ_REQ, LIBZMQ_REQ] },
+    Variant { id: "zeromq-pub", name: ZEROMQ_PUB, baselines: &[] },
+    Variant { id: "zeromq-req", name: ZEROMQ_REQ, baselines: &[] },
+    UNIX,
+    Variant { id: "scl-pub-blocking", name: SCL_PUB_BLOCKING, baselines: &[UNIX_BLOCKING_NAME, LIBZMQ_PUB, SCL_PUB] },
+    Variant { id: "scl-req-blocking", name: SCL_REQ_BLOCKING, baselines: &[UNIX_BLOCKING_NAME, LIBZMQ_REQ, SCL_REQ] },
+    #[cfg(feature = "libzmq")]
+    Variant { id: "libzmq-pub-blocking", name: LIBZMQ_PUB, baselines: &[] },
+    #[cfg(feature = "libzmq")]
+    Variant { id: "libzmq-req-blocking", name: LIBZMQ_REQ, baselines: &[] },
+    UNIX_BLOCKING,
+];
 
 /// Options of [`measure_roundtrip`].
 #[derive(Debug, Clone)]
@@ -61,9 +75,7 @@ impl RoundtripOptions {
 /// A variant with its two processes, and what was measured of it.
 struct Measurement {
     variant: &'static Variant,
-    /// Dropped before the client, which then cleans up for both.
-    _echo: Worker,
-    client: Client,
+    client: Client<'static>,
     durations: Durations,
     /// The median of each batch, in microseconds.
     medians: Vec<f64>,
@@ -91,16 +103,21 @@ pub fn measure_roundtrip(options: &RoundtripOptions) -> scl::Result<Report> {
 fn measure_size(runtime: &Runtime, options: &RoundtripOptions, bytes: usize) -> scl::Result<Table> {
     let folder = ScratchFolder::new()?;
     let mut measurements = Vec::new();
-    for variant in variants(options.transport) {
-        let (client, echo) = Client::start(runtime, variant.id, folder.path(), bytes)?;
+    let variants = match options.transport {
+        Transport::Ipc => IPC,
+        Transport::Shm => SHM,
+        Transport::Gateway => GATEWAY,
+    };
+    for variant in variants {
+        let client = Client::start(runtime, variant.id, folder.path(), bytes)?;
         let (durations, medians) = (Durations::new()?, Vec::new());
-        measurements.push(Measurement { variant, client, _echo: echo, durations, medians });
+        measurements.push(Measurement { variant, client, durations, medians });
     }
-    let payload = Bytes::from(vec![7; bytes]);
+    let message = Message::new(bytes);
     let mut batch = Vec::with_capacity(BATCH);
     for messages in batches(options.messages.min(MAX_BYTES / bytes)) {
         for measurement in &mut measurements {
-            measurement.run(runtime, &payload, messages, &mut batch)?;
+            measurement.run(runtime, &message, messages, &mut batch)?;
         }
     }
     Ok(table(bytes, &measurements))
@@ -112,9 +129,9 @@ fn batches(messages: usize) -> impl Iterator<Item = usize> {
 
 impl Measurement {
     /// Measures one batch after a tenth of it as warm-up, because the other variants have cooled the caches.
-    fn run(&mut self, runtime: &Runtime, payload: &Bytes, messages: usize, batch: &mut Vec<u64>) -> scl::Result<()> {
-        self.client.exchange(runtime, payload, messages.div_ceil(10), batch)?;
-        self.client.exchange(runtime, payload, messages, batch)?;
+    fn run(&mut self, runtime: &Runtime, message: &Message, messages: usize, batch: &mut Vec<u64>) -> scl::Result<()> {
+        self.client.exchange(runtime, message, messages.div_ceil(10), batch)?;
+        self.client.exchange(runtime, message, messages, batch)?;
         batch.iter().for_each(|duration| self.durations.record(*duration));
         batch.sort_unstable();
         self.medians.push(batch[batch.len() / 2] as f64 / 1e3);

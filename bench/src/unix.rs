@@ -1,23 +1,15 @@
 //! Unix sockets without ZMTP: a frame is the length of its payload in four bytes, and the payload.
 
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::ops::Range;
 use std::os::unix::net::UnixStream as StdUnixStream;
-use tokio::io::{AsyncReadExt, AsyncWriteExt};
-use tokio::net::UnixStream;
+use tokio::io::{AsyncRead, AsyncReadExt};
 
 /// Bytes before the payload.
 pub(crate) const PREFIX: usize = 4;
 
 /// Capacity for reading several short frames at once, as SCL and the libraries do.
 const READ_SIZE: usize = 64 << 10;
-
-/// A frame whose payload is all zeros.
-pub(crate) fn zeroed_frame(payload_size: usize) -> scl::Result<Vec<u8>> {
-    let mut frame = vec![0; PREFIX + payload_size];
-    frame[..PREFIX].copy_from_slice(&u32::try_from(payload_size)?.to_be_bytes());
-    Ok(frame)
-}
 
 /// Bytes that have been read from a stream, and the frames in them.
 pub(crate) struct FrameBuffer {
@@ -33,7 +25,7 @@ impl FrameBuffer {
     }
 
     /// Reads until a frame is complete, and returns it with its prefix.
-    pub(crate) async fn read(&mut self, stream: &mut UnixStream) -> io::Result<&[u8]> {
+    pub(crate) async fn read(&mut self, stream: &mut (impl AsyncRead + Unpin)) -> io::Result<&[u8]> {
         loop {
             if let Some(frame) = self.next_frame() {
                 return Ok(&self.bytes[frame]);
@@ -83,33 +75,23 @@ impl FrameBuffer {
     }
 }
 
-/// Sends every frame back.
-pub(crate) async fn echo(mut stream: UnixStream, payload_size: usize) -> scl::Result<()> {
-    let mut frames = FrameBuffer::new(payload_size);
-    loop {
-        let frame = frames.read(&mut stream).await?;
-        stream.write_all(frame).await?;
-    }
-}
-
-/// [`echo`] for a blocking stream.
-pub(crate) fn echo_blocking(mut stream: StdUnixStream, payload_size: usize) -> scl::Result<()> {
-    let mut frames = FrameBuffer::new(payload_size);
-    loop {
-        let frame = frames.read_blocking(&mut stream)?;
-        stream.write_all(frame)?;
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::io::Write;
+
+    /// A frame whose payload is all zeros.
+    fn zeroed_frame(payload_size: usize) -> Vec<u8> {
+        let mut frame = vec![0; PREFIX + payload_size];
+        frame[..PREFIX].copy_from_slice(&u32::try_from(payload_size).unwrap().to_be_bytes());
+        frame
+    }
 
     #[test]
     fn frames_are_found_however_they_are_split() {
         let (mut near, mut far) = StdUnixStream::pair().unwrap();
         let sizes = [20, 0, READ_SIZE - 7, 3, 70_000, 1];
-        let sent: Vec<Vec<u8>> = sizes.into_iter().map(|size| zeroed_frame(size).unwrap()).collect();
+        let sent: Vec<Vec<u8>> = sizes.into_iter().map(zeroed_frame).collect();
         let bytes = sent.concat();
         let writer = std::thread::spawn(move || {
             for chunk in bytes.chunks(999) {

@@ -39,6 +39,13 @@ impl Worker {
         on_worker_core(|| Self::spawn(command))?
     }
 
+    /// Like [`start`](Self::start), and waits until the worker reports that it is open.
+    pub(crate) async fn start_open(arguments: &[&str]) -> scl::Result<Self> {
+        let mut worker = Self::start(arguments)?;
+        let _open = worker.next_line().await?;
+        Ok(worker)
+    }
+
     /// Starts any program, on the core of the calling thread.
     pub(crate) fn spawn(mut command: Command) -> scl::Result<Self> {
         let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn()?;
@@ -53,6 +60,7 @@ impl Worker {
     }
 
     /// The process id.
+    #[cfg(feature = "gateway")]
     pub(crate) fn id(&self) -> u32 {
         self.child.id()
     }

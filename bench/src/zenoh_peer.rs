@@ -1,6 +1,10 @@
 //! Plain zenoh as its users write it: two peers that are connected over loopback TCP, and know nobody else.
 
+use std::fs;
 use std::net::TcpListener;
+use std::path::Path;
+use std::rc::Rc;
+use zenoh::bytes::ZBytes;
 use zenoh::handlers::FifoChannelHandler;
 use zenoh::pubsub::{Publisher, Subscriber};
 use zenoh::qos::CongestionControl;
@@ -10,21 +14,15 @@ use zenoh::{Config, Session, Wait};
 /// A peer. Its calls block, and are for threads without an async runtime: zenoh panics on a single-threaded one.
 pub(crate) struct Peer(Session);
 
-pub(crate) type Sending = Publisher<'static>;
-pub(crate) type Receiving = Subscriber<FifoChannelHandler<Sample>>;
+pub(crate) struct Sending(Publisher<'static>, #[expect(dead_code, reason = "is held")] Rc<Peer>);
+
+pub(crate) struct Receiving(Subscriber<FifoChannelHandler<Sample>>, #[expect(dead_code, reason = "is held")] Rc<Peer>);
 
 impl Peer {
-    /// Listens at `port` of this machine.
-    pub(crate) fn listen(port: u16) -> scl::Result<Self> {
-        Self::open("listen/endpoints", port)
-    }
-
-    /// Connects to the peer that listens at `port`.
-    pub(crate) fn connect(port: u16) -> scl::Result<Self> {
-        Self::open("connect/endpoints", port)
-    }
-
-    fn open(key: &str, port: u16) -> scl::Result<Self> {
+    /// Listens at a port of this machine and writes it into `file`, or connects to the port that stands there.
+    pub(crate) fn join(file: &Path, listens: bool) -> scl::Result<Rc<Self>> {
+        let port = if listens { free_port()? } else { fs::read_to_string(file)?.parse()? };
+        let key = if listens { "listen/endpoints" } else { "connect/endpoints" };
         let mut config = Config::default();
         let settings = [
             ("mode", "\"peer\"".to_owned()),
@@ -36,38 +34,44 @@ impl Peer {
         for (key, value) in settings {
             config.insert_json5(key, &value).map_err(as_error)?;
         }
-        Ok(Self(zenoh::open(config).wait().map_err(as_error)?))
+        let peer = Self(zenoh::open(config).wait().map_err(as_error)?);
+        if listens {
+            fs::write(file, port.to_string())?;
+        }
+        Ok(Rc::new(peer))
     }
 
     /// A publisher that waits rather than lose a message.
-    pub(crate) fn sending(&self, key: &str) -> scl::Result<Sending> {
+    pub(crate) fn sending(self: &Rc<Self>, key: &str) -> scl::Result<Sending> {
         let publisher = self.0.declare_publisher(key.to_owned()).congestion_control(CongestionControl::Block);
-        publisher.wait().map_err(as_error)
+        Ok(Sending(publisher.wait().map_err(as_error)?, Rc::clone(self)))
     }
 
-    pub(crate) fn receiving(&self, key: &str) -> scl::Result<Receiving> {
-        self.0.declare_subscriber(key.to_owned()).wait().map_err(as_error)
+    pub(crate) fn receiving(self: &Rc<Self>, key: &str) -> scl::Result<Receiving> {
+        Ok(Receiving(self.0.declare_subscriber(key.to_owned()).wait().map_err(as_error)?, Rc::clone(self)))
     }
 }
 
-/// Sends a message.
-pub(crate) fn send(publisher: &Sending, payload: impl Into<zenoh::bytes::ZBytes>) -> scl::Result<()> {
-    publisher.put(payload).wait().map_err(as_error)
-}
-
-/// Waits for the next message.
-pub(crate) fn receive(subscriber: &Receiving) -> scl::Result<Sample> {
-    subscriber.recv().map_err(as_error)
-}
-
-/// Waits until the other peer subscribes.
-pub(crate) fn wait_for_subscriber(publisher: &Sending) -> scl::Result<()> {
-    let listener = publisher.matching_listener().wait().map_err(as_error)?;
-    if publisher.matching_status().wait().map_err(as_error)?.matching() {
-        return Ok(());
+impl Sending {
+    pub(crate) fn send(&self, payload: impl Into<ZBytes>) -> scl::Result<()> {
+        self.0.put(payload).wait().map_err(as_error)
     }
-    listener.recv().map_err(as_error)?;
-    Ok(())
+
+    /// Waits until the other peer subscribes.
+    pub(crate) fn wait_for_subscriber(&self) -> scl::Result<()> {
+        let listener = self.0.matching_listener().wait().map_err(as_error)?;
+        if !self.0.matching_status().wait().map_err(as_error)?.matching() {
+            listener.recv().map_err(as_error)?;
+        }
+        Ok(())
+    }
+}
+
+impl Receiving {
+    /// Waits for the next message.
+    pub(crate) fn receive(&self) -> scl::Result<Sample> {
+        self.0.recv().map_err(as_error)
+    }
 }
 
 /// A port of this machine that was free a moment ago.

@@ -13,7 +13,7 @@ pub(crate) fn run_source(arguments: &[&str]) -> scl::Result<()> {
     let runtime = start_runtime()?;
     let mut channels = Vec::new();
     for variant in VARIANTS {
-        channels.push(Channel::open(&runtime, variant, folder, BYTES, batch, Timing::EachMessage)?);
+        channels.push(runtime.block_on(Channel::open(variant, folder, BYTES, batch, Timing::EachMessage))?);
     }
     runtime.block_on(async {
         // The first round is warm-up.

@@ -1,26 +1,25 @@
 //! A publisher and its eight subscriber processes.
 
-use super::components;
 use super::message::{Message, PERIOD};
+use crate::components::fanout::Publisher as Component;
 use crate::durations::Durations;
+use crate::link::{CONNECT_TIMEOUT, connect, open};
+use crate::message::Frame;
 use crate::one_way::BatchReport;
 use crate::raw::SocketPaths;
-use crate::worker::{Worker, unknown_arguments};
-use scl::bytes::Bytes;
+use crate::sender::{Calls, Sender};
+use crate::worker::Worker;
 use scl::time::interval;
-use std::time::{Duration, Instant};
-use zeromq::{PubSocket, Socket, SocketSend};
+use std::time::Instant;
 
 /// The number of subscribers, as in the topology.
 pub(super) const SUBSCRIBERS: usize = 8;
-
-const CONNECT_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// After this many messages without one arriving, a subscriber is given up: [`CONNECT_TIMEOUT`] of them.
 const MAX_UNRECEIVED: usize = 10_000;
 
 pub(super) struct Publisher {
-    socket: PublisherSocket,
+    socket: Sender,
     /// The subscriber that is stopped from time to time.
     stopped: Worker,
     others: Vec<Worker>,
@@ -28,21 +27,23 @@ pub(super) struct Publisher {
     batch: u32,
 }
 
-enum PublisherSocket {
-    Scl(components::Publisher),
-    Zeromq(PubSocket),
-}
-
 impl Publisher {
     /// Starts all processes. When this returns, every subscriber has received a message.
     pub(super) async fn start(id: &str, folder: &str) -> scl::Result<Self> {
         let start_subscriber = |number: usize| Worker::start(&["fanout", id, folder, &number.to_string()]);
-        let socket = PublisherSocket::open(id, folder).await?;
+        let raw = match id {
+            "zeromq" => Some(SocketPaths::new(folder, id).bind_pub("stream").await?),
+            _ => None,
+        };
         let stopped = start_subscriber(1)?;
         let others = (2..=SUBSCRIBERS).map(start_subscriber).collect::<scl::Result<_>>()?;
-        if let PublisherSocket::Scl(publisher) = &socket {
-            publisher.ready(CONNECT_TIMEOUT).await?;
-        }
+        let socket = match raw {
+            Some(socket) => Sender::Zeromq(Box::new(socket)),
+            None => {
+                let options = scl::OpenOptions::new().runtime_dir(folder).system(id);
+                Sender::Pub(connect!(Component, options, false).stream, Calls::default())
+            }
+        };
         let mut publisher = Self { socket, stopped, others, batch: 0 };
         publisher.reach_all().await?;
         Ok(publisher)
@@ -56,7 +57,7 @@ impl Publisher {
             interval.tick().await?;
             let message = Message::new(self.batch, remaining).encode();
             let started = Instant::now();
-            self.socket.send(message).await?;
+            self.socket.send(Frame::Bytes(message)).await?;
             sends.record(started.elapsed().as_nanos().try_into()?);
         }
         Ok(())
@@ -105,7 +106,7 @@ impl Publisher {
                     return Err(scl::Error::message("a subscriber received nothing for 10 s"));
                 }
                 // A batch of one message, which each subscriber reports at once.
-                self.socket.send(Message::new(self.batch, 0).encode()).await?;
+                self.socket.send(Frame::Bytes(Message::new(self.batch, 0).encode())).await?;
             }
         }
         Ok(())
@@ -120,30 +121,5 @@ async fn delays_of(subscriber: &mut Worker, batch: u32) -> scl::Result<Vec<u64>>
         if report.span >= batch.into() {
             return Ok(report.delays);
         }
-    }
-}
-
-impl PublisherSocket {
-    async fn open(id: &str, folder: &str) -> scl::Result<Self> {
-        match id {
-            "scl" => {
-                let options = scl::OpenOptions::new().runtime_dir(folder).system(id);
-                Ok(Self::Scl(components::Publisher::open_with(options).await?))
-            }
-            "zeromq" => {
-                let mut socket = PubSocket::new();
-                socket.bind(&SocketPaths::new(folder, id).endpoint("stream")).await?;
-                Ok(Self::Zeromq(socket))
-            }
-            other => Err(unknown_arguments(&[other])),
-        }
-    }
-
-    async fn send(&mut self, message: Bytes) -> scl::Result<()> {
-        match self {
-            Self::Scl(publisher) => publisher.stream.send(&message).await?,
-            Self::Zeromq(socket) => socket.send(message.into()).await?,
-        }
-        Ok(())
     }
 }

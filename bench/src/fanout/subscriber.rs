@@ -1,18 +1,18 @@
 //! The subscriber processes.
 
-use super::components::{
-    Subscriber1, Subscriber2, Subscriber3, Subscriber4, Subscriber5, Subscriber6, Subscriber7, Subscriber8,
-};
 use super::message::Message;
 use crate::clock::now;
+use crate::components::fanout::{
+    Subscriber1, Subscriber2, Subscriber3, Subscriber4, Subscriber5, Subscriber6, Subscriber7, Subscriber8,
+};
 use crate::one_way::BatchReport;
-use crate::raw::{SocketPaths, first_frame};
+use crate::raw::SocketPaths;
+use crate::receiver::Receiver;
 use crate::runtime::start_runtime;
 use crate::worker::{print_line, unknown_arguments};
 use rustix::process::{Signal, set_parent_process_death_signal};
 use scl::Sub;
 use scl::bytes::Bytes;
-use zeromq::{SocketRecv, SubSocket};
 
 /// Receives forever, and reports each batch when its last message has arrived. The arguments are the variant's id, the
 /// scratch folder and the number of the subscriber.
@@ -21,10 +21,10 @@ pub(crate) fn run_subscriber(arguments: &[&str]) -> scl::Result<()> {
     // A stopped process does not notice that its standard input is closed.
     set_parent_process_death_signal(Some(Signal::KILL))?;
     start_runtime()?.block_on(async {
-        let mut socket = SubscriberSocket::open(id, folder, number).await?;
+        let mut socket = open(id, folder, number).await?;
         let (mut batch, mut delays) = (0, Vec::new());
         loop {
-            let message = Message::decode(socket.receive().await?)?;
+            let message = Message::decode(&socket.receive().await?.payload())?;
             if message.batch != batch {
                 batch = message.batch;
                 delays.clear();
@@ -37,28 +37,14 @@ pub(crate) fn run_subscriber(arguments: &[&str]) -> scl::Result<()> {
     })
 }
 
-enum SubscriberSocket {
-    Scl(Sub<Bytes>),
-    Zeromq(SubSocket),
-}
-
-impl SubscriberSocket {
-    async fn open(id: &str, folder: &str, number: &str) -> scl::Result<Self> {
-        match id {
-            "scl" => {
-                let options = scl::OpenOptions::new().runtime_dir(folder).system(id);
-                Ok(Self::Scl(open_gate(number, options).await?))
-            }
-            "zeromq" => Ok(Self::Zeromq(SocketPaths::new(folder, id).connect_sub("stream").await?)),
-            other => Err(unknown_arguments(&[other])),
+async fn open(id: &str, folder: &str, number: &str) -> scl::Result<Receiver> {
+    match id {
+        "scl" => {
+            let options = scl::OpenOptions::new().runtime_dir(folder).system(id);
+            Ok(Receiver::Sub(open_gate(number, options).await?, false))
         }
-    }
-
-    async fn receive(&mut self) -> scl::Result<Bytes> {
-        Ok(match self {
-            Self::Scl(stream) => stream.recv().await?,
-            Self::Zeromq(socket) => first_frame(socket.recv().await?),
-        })
+        "zeromq" => Ok(Receiver::Zeromq(Box::new(SocketPaths::new(folder, id).connect_sub("stream").await?))),
+        other => Err(unknown_arguments(&[other])),
     }
 }
 

@@ -1,78 +1,66 @@
 //! The side that sends first, and measures.
 
-use super::batch_client::BatchClient;
-use super::components;
+use crate::components::roundtrip::Requester;
+use crate::engines::{NEAR, options};
+use crate::link::{CONNECT_TIMEOUT, Near, Setup, connect, open};
+use crate::message::{Frame, Message};
 use crate::raw::SocketPaths;
-use crate::unix::{FrameBuffer, zeroed_frame};
-use crate::worker::{Worker, unknown_arguments};
+use crate::runtime::run;
+use crate::worker::Worker;
+use scl::Req;
 use scl::bytes::Bytes;
-use std::io::Write;
-use std::os::unix::net::{UnixListener as StdUnixListener, UnixStream as StdUnixStream};
-use std::time::{Duration, Instant};
-use tokio::io::AsyncWriteExt;
-use tokio::net::{UnixListener, UnixStream};
+use std::time::Instant;
 use tokio::runtime::Runtime;
-use zeromq::{DealerSocket, Socket, SocketRecv, SocketSend, SubSocket, XPubSocket, ZmqMessage};
-
-const CONNECT_TIMEOUT: Duration = Duration::from_secs(10);
+use zeromq::{DealerSocket, Socket, SocketRecv, SocketSend, ZmqMessage};
 
 /// The client of one variant.
-pub(super) enum Client {
-    Async(AsyncClient),
-    Blocking(BlockingClient),
-    /// A client of another transport or library.
-    Other(Box<dyn BatchClient>),
+pub(super) struct Client<'a> {
+    id: &'a str,
+    /// Dropped before the end, which then cleans up for both.
+    _echo: Option<Worker>,
+    end: End,
 }
 
-/// A client that runs on the async runtime.
-pub(super) enum AsyncClient {
-    SclPub(components::Client),
-    SclReq(components::Client),
-    ZeromqPub { ping: XPubSocket, pong: SubSocket },
-    ZeromqReq(DealerSocket),
-    Unix { stream: UnixStream, frame: Vec<u8>, received: FrameBuffer },
-}
-
-/// A client that runs on a plain thread.
-pub(super) enum BlockingClient {
-    SclPub(components::Client),
-    SclReq(components::Client),
+enum End {
+    Published(Box<Near>),
+    /// And whether calls block.
+    Scl(Req<Bytes, Bytes>, bool),
+    Zeromq(DealerSocket),
     #[cfg(feature = "libzmq")]
-    Libzmq(super::libzmq::Client),
-    Unix {
-        stream: StdUnixStream,
-        frame: Vec<u8>,
-        received: FrameBuffer,
-    },
+    Libzmq(zmq2::Socket),
 }
 
-impl Client {
+impl<'a> Client<'a> {
     /// Starts the echo process of a variant and connects to it.
-    pub(super) fn start(runtime: &Runtime, id: &str, folder: &str, bytes: usize) -> scl::Result<(Self, Worker)> {
+    pub(super) fn start(runtime: &Runtime, id: &'a str, folder: &str, bytes: usize) -> scl::Result<Self> {
         let echo = ["roundtrip", id, folder, &bytes.to_string()];
-        let other = match id {
-            "ipc" | "ipc-blocking" | "tcp" => Some(super::engines::start(runtime, id, folder, &echo)?),
-            #[cfg(feature = "shm")]
-            "shm-loan" | "shm-loan-blocking" | "shm-copy" | "shm-copy-blocking" => {
-                Some(super::engines::start(runtime, id, folder, &echo)?)
-            }
-            #[cfg(feature = "shm")]
-            "iceoryx-loan" | "iceoryx-copy" => Some(super::iceoryx::start(runtime, id, folder, bytes, &echo)?),
-            #[cfg(feature = "gateway")]
-            "gateway" => Some(super::engines::start_across_hosts(runtime, folder, &echo)?),
-            #[cfg(feature = "gateway")]
-            "zenoh" => Some(super::zenoh::start(runtime, &echo)?),
-            _ => None,
-        };
-        if let Some((client, echo)) = other {
-            return Ok((Self::Other(client), echo));
-        }
-        if id.ends_with("-blocking") {
-            let (client, echo) = BlockingClient::start(id, folder, bytes, &echo)?;
-            return Ok((Self::Blocking(client), echo));
-        }
-        let (client, echo) = runtime.block_on(AsyncClient::start(id, folder, bytes, &echo))?;
-        Ok((Self::Async(client), echo))
+        let paths = SocketPaths::new(folder, id);
+        let is_blocking = id.ends_with("-blocking");
+        run(runtime, id, async {
+            let (echo, end) = match id {
+                "scl-req" | "scl-req-blocking" => {
+                    let echo = Worker::start_open(&echo).await?;
+                    let requester = connect!(Requester, options(id, folder, NEAR), is_blocking);
+                    (Some(echo), End::Scl(requester.request, is_blocking))
+                }
+                "zeromq-req" => {
+                    let echo = Worker::start_open(&echo).await?;
+                    let mut dealer = DealerSocket::new();
+                    dealer.connect(&paths.endpoint("request")).await?;
+                    (Some(echo), End::Zeromq(dealer))
+                }
+                #[cfg(feature = "libzmq")]
+                "libzmq-req-blocking" => {
+                    let socket = paths.bind_libzmq("request", zmq2::REQ, crate::libzmq::HighWaterMark::Default)?;
+                    (Some(Worker::start_open(&echo).await?), End::Libzmq(socket))
+                }
+                _ => {
+                    let setup = Setup { id, folder, bytes, is_round_trip: true, batch: 0 };
+                    (None, End::Published(Box::new(Near::open(setup, &echo).await?)))
+                }
+            };
+            Ok(Self { id, _echo: echo, end })
+        })
     }
 
     /// Sends messages one after the other, each when the previous one has returned, and replaces the contents of
@@ -80,131 +68,40 @@ impl Client {
     pub(super) fn exchange(
         &mut self,
         runtime: &Runtime,
-        payload: &Bytes,
+        message: &Message,
         messages: usize,
         durations: &mut Vec<u64>,
     ) -> scl::Result<()> {
         durations.clear();
-        let mut record = |started: Instant| durations.push(started.elapsed().as_nanos().try_into().unwrap_or(u64::MAX));
-        match self {
-            Self::Other(client) => client.exchange(runtime, payload, messages, &mut record),
-            Self::Async(client) => runtime.block_on(async {
-                for _ in 0..messages {
-                    let started = Instant::now();
-                    client.exchange(payload).await?;
-                    record(started);
-                }
-                Ok(())
-            }),
-            Self::Blocking(client) => {
-                for _ in 0..messages {
-                    let started = Instant::now();
-                    client.exchange(payload)?;
-                    record(started);
-                }
-                Ok(())
+        run(runtime, self.id, async {
+            for _ in 0..messages {
+                let started = Instant::now();
+                self.end.exchange(message).await?;
+                durations.push(started.elapsed().as_nanos().try_into().unwrap_or(u64::MAX));
             }
-        }
+            Ok(())
+        })
     }
 }
 
-impl AsyncClient {
-    async fn start(id: &str, folder: &str, bytes: usize, echo: &[&str]) -> scl::Result<(Self, Worker)> {
-        let paths = SocketPaths::new(folder, id);
-        match id {
-            "scl-pub" | "scl-req" => {
-                let echo = Worker::start(echo)?;
-                let options = scl::OpenOptions::new().runtime_dir(folder).system(id);
-                let client = components::Client::open_with(options).await?;
-                client.ready(CONNECT_TIMEOUT).await?;
-                Ok((if id == "scl-req" { Self::SclReq(client) } else { Self::SclPub(client) }, echo))
-            }
-            "zeromq-pub" => {
-                let mut ping = paths.bind_xpub("ping").await?;
-                let mut echo = Worker::start(echo)?;
-                let _listening = echo.next_line().await?;
-                let pong = paths.connect_sub("pong").await?;
-                let _subscription = ping.recv().await?;
-                Ok((Self::ZeromqPub { ping, pong }, echo))
-            }
-            "zeromq-req" => {
-                let mut echo = Worker::start(echo)?;
-                let _listening = echo.next_line().await?;
-                let mut dealer = DealerSocket::new();
-                dealer.connect(&paths.endpoint("request")).await?;
-                Ok((Self::ZeromqReq(dealer), echo))
-            }
-            "unix" => {
-                let listener = UnixListener::bind(paths.path("stream"))?;
-                let echo = Worker::start(echo)?;
-                let (stream, _) = listener.accept().await?;
-                Ok((Self::Unix { stream, frame: zeroed_frame(bytes)?, received: FrameBuffer::new(bytes) }, echo))
-            }
-            other => Err(unknown_arguments(&[other])),
-        }
-    }
-
-    async fn exchange(&mut self, payload: &Bytes) -> scl::Result<()> {
+impl End {
+    async fn exchange(&mut self, message: &Message) -> scl::Result<()> {
         match self {
-            Self::SclPub(client) => {
-                client.ping.send(payload).await?;
-                client.pong.recv().await?;
+            Self::Published(near) => {
+                let (sender, receiver) = near.both()?;
+                sender.send(Frame::New(message)).await?;
+                receiver.receive().await?;
             }
-            Self::SclReq(client) => drop(client.request.call(payload).await?),
-            Self::ZeromqPub { ping, pong } => {
-                ping.send(payload.clone().into()).await?;
-                pong.recv().await?;
-            }
-            Self::ZeromqReq(dealer) => {
-                dealer.send(as_request(payload)).await?;
+            Self::Scl(gate, true) => drop(gate.call_blocking(&message.payload)?),
+            Self::Scl(gate, false) => drop(gate.call(&message.payload).await?),
+            Self::Zeromq(dealer) => {
+                dealer.send(as_request(&message.payload)).await?;
                 dealer.recv().await?;
             }
-            Self::Unix { stream, frame, received } => {
-                stream.write_all(frame).await?;
-                received.read(stream).await?;
-            }
-        }
-        Ok(())
-    }
-}
-
-impl BlockingClient {
-    fn start(id: &str, folder: &str, bytes: usize, echo: &[&str]) -> scl::Result<(Self, Worker)> {
-        match id {
-            "scl-pub-blocking" | "scl-req-blocking" => {
-                let echo = Worker::start(echo)?;
-                let options = scl::OpenOptions::new().runtime_dir(folder).system(id);
-                let client = components::Client::open_blocking_with(options)?;
-                client.ready_blocking(CONNECT_TIMEOUT)?;
-                Ok((if id == "scl-req-blocking" { Self::SclReq(client) } else { Self::SclPub(client) }, echo))
-            }
             #[cfg(feature = "libzmq")]
-            "libzmq-pub-blocking" | "libzmq-req-blocking" => {
-                let (client, echo) = super::libzmq::Client::start(id, folder, echo)?;
-                Ok((Self::Libzmq(client), echo))
-            }
-            "unix-blocking" => {
-                let listener = StdUnixListener::bind(SocketPaths::new(folder, id).path("stream"))?;
-                let echo = Worker::start(echo)?;
-                let (stream, _) = listener.accept()?;
-                Ok((Self::Unix { stream, frame: zeroed_frame(bytes)?, received: FrameBuffer::new(bytes) }, echo))
-            }
-            other => Err(unknown_arguments(&[other])),
-        }
-    }
-
-    fn exchange(&mut self, payload: &Bytes) -> scl::Result<()> {
-        match self {
-            Self::SclPub(client) => {
-                client.ping.send_blocking(payload)?;
-                client.pong.recv_blocking()?;
-            }
-            Self::SclReq(client) => drop(client.request.call_blocking(payload)?),
-            #[cfg(feature = "libzmq")]
-            Self::Libzmq(client) => client.exchange(payload)?,
-            Self::Unix { stream, frame, received } => {
-                stream.write_all(frame)?;
-                received.read_blocking(stream)?;
+            Self::Libzmq(socket) => {
+                socket.send(&message.payload[..], 0)?;
+                socket.recv_msg(0)?;
             }
         }
         Ok(())

@@ -1,0 +1,21 @@
+//! The components of the benchmarks, a system each.
+
+pub(crate) mod fanout {
+    scl::topology!("fanout.yaml");
+}
+
+pub(crate) mod fresh {
+    scl::topology!("fresh.yaml");
+}
+
+pub(crate) mod one_way {
+    scl::topology!("one_way.yaml");
+}
+
+pub(crate) mod restart {
+    scl::topology!("restart.yaml");
+}
+
+pub(crate) mod roundtrip {
+    scl::topology!("roundtrip.yaml");
+}

@@ -1,0 +1,315 @@
+//! Both ends of a variant, opened in one order: the near end listens, the worker opens its end and says so, the near end
+//! connects, and each end that sends waits for its subscriber.
+
+use crate::components::{one_way, roundtrip};
+use crate::engines::{self, FAR, NEAR, options};
+use crate::raw::SocketPaths;
+use crate::receiver::Receiver;
+use crate::sender::{Calls, Sender};
+use crate::unix::FrameBuffer;
+use crate::worker::{Worker, print_line, unknown_arguments};
+use std::os::unix::net::{UnixListener as StdUnixListener, UnixStream as StdUnixStream};
+use std::time::Duration;
+use tokio::net::{UnixListener, UnixStream};
+use zeromq::{PullSocket, PushSocket, Socket};
+
+pub(crate) const CONNECT_TIMEOUT: Duration = Duration::from_secs(10);
+
+/// The channel from the near end to the worker.
+const PING: &str = "ping";
+/// The channel back.
+const PONG: &str = "pong";
+
+/// A variant, and where its processes meet.
+#[derive(Clone, Copy)]
+pub(crate) struct Setup<'a> {
+    /// The name between the processes: the transport or library, then the pattern, then how it is called.
+    pub(crate) id: &'a str,
+    /// The scratch folder.
+    pub(crate) folder: &'a str,
+    /// The size of a message.
+    pub(crate) bytes: usize,
+    /// Whether the worker sends, too.
+    pub(crate) is_round_trip: bool,
+    /// Messages of a batch, which one library must know.
+    #[cfg_attr(not(feature = "libzmq"), expect(dead_code, reason = "for `libzmq-nodrop`"))]
+    pub(crate) batch: usize,
+}
+
+/// The end of the process that measures.
+pub(crate) struct Near {
+    /// Dropped first: the near end cleans up for both.
+    pub(crate) worker: Worker,
+    pub(crate) sender: Sender,
+    receiver: Option<Receiver>,
+    #[cfg(feature = "gateway")]
+    _gateways: Option<crate::gateway::Gateways>,
+}
+
+/// The end of the worker.
+pub(crate) struct Far {
+    pub(crate) receiver: Receiver,
+    sender: Option<Sender>,
+}
+
+impl Near {
+    /// Starts the worker with the given arguments, and connects to it.
+    pub(crate) async fn open(setup: Setup<'_>, worker: &[&str]) -> scl::Result<Self> {
+        let start_worker = || Worker::start_open(worker);
+        #[cfg(feature = "gateway")]
+        let gateways = (setup.id == "gateway").then(|| engines::start_gateways(setup.folder)).transpose()?;
+        let (worker, sender, receiver) = match setup.engine() {
+            "scl" | "ipc" | "tcp" | "shm" | "gateway" => {
+                let worker = start_worker().await?;
+                let (sender, receiver) = setup.open_client().await?;
+                (worker, sender, receiver)
+            }
+            "unix" if setup.id.ends_with("-blocking") => {
+                let listener = StdUnixListener::bind(setup.paths().path(PING))?;
+                let worker = start_worker().await?;
+                let (sender, receiver) = setup.split_blocking(listener.accept()?.0)?;
+                (worker, sender, Some(receiver))
+            }
+            "unix" => {
+                let listener = UnixListener::bind(setup.paths().path(PING))?;
+                let worker = start_worker().await?;
+                let (sender, receiver) = setup.split(listener.accept().await?.0);
+                (worker, sender, Some(receiver))
+            }
+            "zeromq" if setup.id == "zeromq-push" => {
+                let worker = start_worker().await?;
+                let mut socket = PushSocket::new();
+                socket.connect(&setup.paths().endpoint(PING)).await?;
+                (worker, Sender::Zeromq(Box::new(socket)), None)
+            }
+            _ => {
+                let library = Library::join(setup, true)?;
+                let mut sender = library.sender(PING).await?;
+                let worker = start_worker().await?;
+                let receiver = if setup.is_round_trip { Some(library.receiver(PONG).await?) } else { None };
+                sender.ready().await?;
+                (worker, sender, receiver)
+            }
+        };
+        Ok(Self {
+            worker,
+            sender,
+            receiver,
+            #[cfg(feature = "gateway")]
+            _gateways: gateways,
+        })
+    }
+
+    /// The end that receives what the worker sends back.
+    pub(crate) fn both(&mut self) -> scl::Result<(&mut Sender, &mut Receiver)> {
+        Ok((&mut self.sender, self.receiver.as_mut().ok_or_else(one_way_only)?))
+    }
+}
+
+impl Far {
+    /// Opens the worker's end, and reports that.
+    pub(crate) async fn open(setup: Setup<'_>) -> scl::Result<Self> {
+        let paths = setup.paths();
+        let (receiver, mut sender) = match setup.engine() {
+            "scl" | "ipc" | "tcp" | "shm" | "gateway" => setup.open_server().await?,
+            "unix" if setup.id.ends_with("-blocking") => {
+                let (sender, receiver) = setup.split_blocking(StdUnixStream::connect(paths.path(PING))?)?;
+                (receiver, Some(sender))
+            }
+            "unix" => {
+                let (sender, receiver) = setup.split(UnixStream::connect(paths.path(PING)).await?);
+                (receiver, Some(sender))
+            }
+            "zeromq" if setup.id == "zeromq-push" => {
+                let mut socket = PullSocket::new();
+                socket.bind(&paths.endpoint(PING)).await?;
+                (Receiver::Zeromq(Box::new(socket)), None)
+            }
+            _ => {
+                let library = Library::join(setup, false)?;
+                let sender = if setup.is_round_trip { Some(library.sender(PONG).await?) } else { None };
+                (library.receiver(PING).await?, sender)
+            }
+        };
+        print_line("open")?;
+        if let Some(sender) = &mut sender {
+            sender.ready().await?;
+        }
+        #[cfg(feature = "libzmq")]
+        if let Receiver::Libzmq(socket) = &receiver {
+            // Other variants have their turn between two batches.
+            socket.set_rcvtimeo(-1)?;
+        }
+        Ok(Self { receiver, sender })
+    }
+
+    /// The ends that receive, and send back.
+    pub(crate) fn both(&mut self) -> scl::Result<(&mut Receiver, &mut Sender)> {
+        Ok((&mut self.receiver, self.sender.as_mut().ok_or_else(one_way_only)?))
+    }
+}
+
+fn one_way_only() -> scl::Error {
+    scl::Error::message("this variant sends in one direction only")
+}
+
+/// Opens a component of SCL, with async or without.
+macro_rules! open {
+    ($component:ty, $options:expr, $is_blocking:expr) => {
+        if $is_blocking {
+            <$component>::open_blocking_with($options)?
+        } else {
+            <$component>::open_with($options).await?
+        }
+    };
+}
+
+/// Opens a component of SCL and waits until its peer is connected.
+macro_rules! connect {
+    ($component:ty, $options:expr, $is_blocking:expr) => {{
+        let component = open!($component, $options, $is_blocking);
+        if $is_blocking {
+            component.ready_blocking(CONNECT_TIMEOUT)?;
+        } else {
+            component.ready(CONNECT_TIMEOUT).await?;
+        }
+        component
+    }};
+}
+pub(crate) use {connect, open};
+
+impl Setup<'_> {
+    /// The transport or library.
+    fn engine(&self) -> &str {
+        self.id.split('-').next().unwrap_or_default()
+    }
+
+    fn paths(&self) -> SocketPaths {
+        SocketPaths::new(self.folder, self.id)
+    }
+
+    /// The component of SCL that measures.
+    async fn open_client(&self) -> scl::Result<(Sender, Option<Receiver>)> {
+        let (calls, options) = (Calls::of(self.id), options(self.id, self.folder, NEAR));
+        Ok(match (self.engine(), self.is_round_trip) {
+            ("scl", true) => {
+                let client = connect!(roundtrip::Client, options, calls.is_blocking);
+                (Sender::Pub(client.ping, calls), Some(Receiver::Sub(client.pong, calls.is_blocking)))
+            }
+            (_, true) => {
+                let client = connect!(engines::Client, options, calls.is_blocking);
+                (Sender::Pub(client.ping, calls), Some(Receiver::Sub(client.pong, calls.is_blocking)))
+            }
+            ("scl", false) if self.id.contains("-push") => {
+                (Sender::Push(connect!(one_way::Pusher, options, calls.is_blocking).jobs, calls), None)
+            }
+            ("scl", false) => (Sender::Pub(connect!(one_way::Source, options, calls.is_blocking).stream, calls), None),
+            (_, false) => (Sender::Pub(connect!(engines::Source, options, calls.is_blocking).stream, calls), None),
+        })
+    }
+
+    /// The component of SCL of the worker.
+    async fn open_server(&self) -> scl::Result<(Receiver, Option<Sender>)> {
+        let (calls, options) = (Calls::of(self.id), options(self.id, self.folder, FAR));
+        let is_blocking = calls.is_blocking;
+        Ok(match (self.engine(), self.is_round_trip) {
+            ("scl", true) => {
+                let echo = open!(roundtrip::Echo, options, is_blocking);
+                (Receiver::Sub(echo.ping, is_blocking), Some(Sender::Pub(echo.pong, calls)))
+            }
+            (_, true) => {
+                let echo = open!(engines::Echo, options, is_blocking);
+                (Receiver::Sub(echo.ping, is_blocking), Some(Sender::Pub(echo.pong, calls)))
+            }
+            ("scl", false) if self.id.contains("-push") => {
+                (Receiver::Pull(open!(one_way::Puller, options, is_blocking).jobs, is_blocking), None)
+            }
+            ("scl", false) => (Receiver::Sub(open!(one_way::Sink, options, is_blocking).stream, is_blocking), None),
+            (_, false) => (Receiver::Sub(open!(engines::Sink, options, is_blocking).stream, is_blocking), None),
+        })
+    }
+
+    fn split(&self, stream: UnixStream) -> (Sender, Receiver) {
+        let (reading, writing) = stream.into_split();
+        (Sender::Unix(writing), Receiver::Unix(reading, FrameBuffer::new(self.bytes)))
+    }
+
+    fn split_blocking(&self, stream: StdUnixStream) -> scl::Result<(Sender, Receiver)> {
+        let writing = stream.try_clone()?;
+        Ok((Sender::UnixBlocking(writing), Receiver::UnixBlocking(stream, FrameBuffer::new(self.bytes))))
+    }
+}
+
+/// What a process shares between its ends over a library.
+struct Library<'a> {
+    setup: Setup<'a>,
+    #[cfg(feature = "shm")]
+    participant: Option<std::rc::Rc<crate::iceoryx::Participant>>,
+    #[cfg(feature = "gateway")]
+    peer: Option<std::rc::Rc<crate::zenoh_peer::Peer>>,
+}
+
+impl<'a> Library<'a> {
+    #[cfg_attr(not(feature = "gateway"), expect(unused_variables, reason = "one peer of zenoh listens"))]
+    fn join(setup: Setup<'a>, is_near: bool) -> scl::Result<Self> {
+        Ok(Self {
+            setup,
+            #[cfg(feature = "shm")]
+            participant: if setup.engine() == "iceoryx" { Some(crate::iceoryx::Participant::join()?) } else { None },
+            #[cfg(feature = "gateway")]
+            peer: match setup.engine() {
+                "zenoh" => Some(crate::zenoh_peer::Peer::join(&setup.paths().path("port"), is_near)?),
+                _ => None,
+            },
+        })
+    }
+
+    async fn sender(&self, channel: &str) -> scl::Result<Sender> {
+        let setup = self.setup;
+        #[cfg(feature = "shm")]
+        if let Some(participant) = &self.participant {
+            let copies = setup.id.contains("-copy");
+            let channel = format!("{}/{}/{channel}", setup.folder, setup.id);
+            return Ok(Sender::Iceoryx(Box::new(participant.sending(&channel, setup.bytes, copies)?)));
+        }
+        #[cfg(feature = "gateway")]
+        if let Some(peer) = &self.peer {
+            return Ok(Sender::Zenoh(peer.sending(&format!("bench/{channel}"))?));
+        }
+        match setup.engine() {
+            "zeromq" => Ok(Sender::Xpub(setup.paths().bind_xpub(channel).await?)),
+            #[cfg(feature = "libzmq")]
+            "libzmq" if setup.id == "libzmq-nodrop" => Ok(Sender::LibzmqNodrop(
+                crate::libzmq::start_lossless_publisher(&setup.paths(), channel, setup.bytes, setup.batch).await?,
+            )),
+            #[cfg(feature = "libzmq")]
+            "libzmq" => {
+                let (kind, mark) = crate::libzmq::sending_kind(setup.id);
+                Ok(Sender::Libzmq(setup.paths().bind_libzmq(channel, kind, mark)?))
+            }
+            _ => Err(unknown_arguments(&[setup.id])),
+        }
+    }
+
+    async fn receiver(&self, channel: &str) -> scl::Result<Receiver> {
+        let setup = self.setup;
+        #[cfg(feature = "shm")]
+        if let Some(participant) = &self.participant {
+            let channel = format!("{}/{}/{channel}", setup.folder, setup.id);
+            return Ok(Receiver::Iceoryx(Box::new(participant.receiving(&channel)?)));
+        }
+        #[cfg(feature = "gateway")]
+        if let Some(peer) = &self.peer {
+            return Ok(Receiver::Zenoh(peer.receiving(&format!("bench/{channel}"))?));
+        }
+        match setup.engine() {
+            "zeromq" => Ok(Receiver::Zeromq(Box::new(setup.paths().connect_sub(channel).await?))),
+            #[cfg(feature = "libzmq")]
+            "libzmq" => {
+                let (kind, mark) = crate::libzmq::receiving_kind(setup.id);
+                Ok(Receiver::Libzmq(setup.paths().connect_libzmq(channel, kind, mark)?))
+            }
+            _ => Err(unknown_arguments(&[setup.id])),
+        }
+    }
+}

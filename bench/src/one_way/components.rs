@@ -1,3 +1,0 @@
-//! The components of these benchmarks.
-
-scl::topology!("one_way.yaml");

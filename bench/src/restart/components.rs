@@ -1,3 +1,0 @@
-//! The components of this benchmark.
-
-scl::topology!("restart.yaml");

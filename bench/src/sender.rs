@@ -1,0 +1,109 @@
+//! The sending end of a connection, of SCL or of what it is compared with.
+
+use crate::message::{Frame, foreign};
+use scl::bytes::Bytes;
+use scl::{Pub, Push};
+use std::io::Write;
+use std::os::unix::net::UnixStream as StdUnixStream;
+use tokio::io::AsyncWriteExt;
+use tokio::net::unix::OwnedWriteHalf;
+use zeromq::{SocketRecv, SocketSend, XPubSocket};
+
+/// How gates of SCL are called.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Calls {
+    pub(crate) is_blocking: bool,
+    /// Whether messages are sent as loans.
+    pub(crate) is_loaned: bool,
+}
+
+pub(crate) enum Sender {
+    Pub(Pub<Bytes>, Calls),
+    Push(Push<Bytes>, Calls),
+    /// Shows when a subscriber has connected.
+    Xpub(XPubSocket),
+    Zeromq(Box<dyn SocketSend>),
+    #[cfg(feature = "libzmq")]
+    Libzmq(zmq2::Socket),
+    /// Sends whole batches, when it is triggered.
+    #[cfg(feature = "libzmq")]
+    LibzmqNodrop(crate::worker::Worker),
+    Unix(OwnedWriteHalf),
+    UnixBlocking(StdUnixStream),
+    #[cfg(feature = "shm")]
+    Iceoryx(Box<crate::iceoryx::Sending>),
+    #[cfg(feature = "gateway")]
+    Zenoh(crate::zenoh_peer::Sending),
+}
+
+impl Calls {
+    /// The calls of a variant.
+    pub(crate) fn of(id: &str) -> Self {
+        Self { is_blocking: id.ends_with("-blocking"), is_loaned: id.contains("-loan") }
+    }
+}
+
+impl Sender {
+    /// Waits until the other end has subscribed, where that can be known and matters.
+    pub(crate) async fn ready(&mut self) -> scl::Result<()> {
+        match self {
+            Self::Xpub(socket) => drop(socket.recv().await?),
+            #[cfg(feature = "libzmq")]
+            Self::Libzmq(socket) if socket.get_socket_type()? == zmq2::XPUB => drop(socket.recv_bytes(0)?),
+            #[cfg(feature = "libzmq")]
+            Self::LibzmqNodrop(publisher) => drop(publisher.next_line().await?),
+            #[cfg(feature = "gateway")]
+            Self::Zenoh(sending) => sending.wait_for_subscriber()?,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Sends a message that this process made, or that it has received with the same transport or library.
+    pub(crate) async fn send(&mut self, frame: Frame<'_>) -> scl::Result<()> {
+        match (self, frame) {
+            (Self::Pub(gate, calls), frame) if calls.is_loaned => {
+                let mut loan = gate.loan_bytes(frame.bytes()?.len())?;
+                if let Frame::New(message) = frame
+                    && let Some(time) = message.time
+                {
+                    loan[..size_of::<u64>()].copy_from_slice(&time.to_be_bytes());
+                }
+                if calls.is_blocking { loan.send_blocking()? } else { loan.send().await? }
+            }
+            (Self::Pub(gate, calls), frame) if calls.is_blocking => gate.send_blocking(frame.bytes()?)?,
+            (Self::Pub(gate, _), frame) => gate.send(frame.bytes()?).await?,
+            (Self::Push(gate, calls), frame) if calls.is_blocking => gate.send_blocking(frame.bytes()?)?,
+            (Self::Push(gate, _), frame) => gate.send(frame.bytes()?).await?,
+            (Self::Xpub(socket), Frame::Zeromq(message)) => socket.send(message).await?,
+            (Self::Xpub(socket), frame) => socket.send(frame.bytes()?.clone().into()).await?,
+            (Self::Zeromq(socket), frame) => socket.send(frame.bytes()?.clone().into()).await?,
+            // Blocks this thread, which has nothing else to do: libzmq has threads of its own.
+            #[cfg(feature = "libzmq")]
+            (Self::Libzmq(socket), Frame::Libzmq(message)) => socket.send(message, 0)?,
+            #[cfg(feature = "libzmq")]
+            (Self::Libzmq(socket), frame) => socket.send(&frame.bytes()?[..], 0)?,
+            #[cfg(feature = "libzmq")]
+            (Self::LibzmqNodrop(_), _) => return Err(scl::Error::message("this variant sends whole batches only")),
+            (Self::Unix(stream), Frame::New(message)) => stream.write_all(&message.frame).await?,
+            (Self::Unix(stream), Frame::Unix(frame)) => stream.write_all(frame).await?,
+            (Self::UnixBlocking(stream), Frame::New(message)) => stream.write_all(&message.frame)?,
+            (Self::UnixBlocking(stream), Frame::Unix(frame)) => stream.write_all(frame)?,
+            #[cfg(feature = "shm")]
+            (Self::Iceoryx(sending), Frame::New(message)) => {
+                sending.send(message.payload.len(), None, message.time.unwrap_or_default())?;
+            }
+            #[cfg(feature = "shm")]
+            (Self::Iceoryx(sending), Frame::Iceoryx(sample)) => {
+                let payload = sample.payload();
+                sending.send(payload.len(), Some(payload), *sample.user_header())?;
+            }
+            #[cfg(feature = "gateway")]
+            (Self::Zenoh(sending), Frame::New(message)) => sending.send(message.payload.clone())?,
+            #[cfg(feature = "gateway")]
+            (Self::Zenoh(sending), Frame::Zenoh(sample)) => sending.send(sample.payload().clone())?,
+            _ => return Err(foreign()),
+        }
+        Ok(())
+    }
+}
