@@ -47,6 +47,7 @@ CANARIES = {
     "tools": Canary(".ci/tools", "cargo-no-such-tool@0.0.0 ", ["exit code"], old="cargo-deny@0.20.2 "),
     "format": Canary(TESTS, "fn  canary( ) {}\n", ["exit code"]),
     "cycles": Canary("crates/scl-terminal/src/print.rs", "use crate::table::Table;\n", ["exit code"]),
+    "promises": Canary("docs/shutdown.md", "exit::canary", ["exit code"], old="exit::a_panic_is_exit_code_101"),
     "lints": Canary(TESTS, "fn canary() {}\n", ["exit code"]),
     "docs": Canary("tests/src/lib.rs", "/// [`Nothing`]\npub fn canary() {}\n", ["exit code"]),
     "dependencies": Canary("deny.toml", "", ["exit code"], old='"MIT", '),

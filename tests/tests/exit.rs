@@ -135,6 +135,16 @@ fn a_slow_peer_with_backpressure_decides_about_the_exit_code() {
     }
 }
 
+/// The promise: a panic of `main` is exit code 101.
+#[test]
+fn a_panic_is_exit_code_101() {
+    for runtime in ["main", "main_blocking"] {
+        let exit = System::new().start(LEAVER, &[runtime, "return", "panic"]).wait_for_exit();
+        assert_eq!(exit.code(), 101, "{runtime}: {exit:?}");
+        assert!(exit.text().contains("on purpose"), "{runtime}: {exit:?}");
+    }
+}
+
 /// The promise: the last reply of a `rep` gate arrives.
 #[test]
 fn the_last_reply_arrives() {

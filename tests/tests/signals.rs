@@ -52,7 +52,7 @@ fn motors_off_arrives() {
 fn a_program_that_ignores_the_request_is_ended_after_the_grace_period() {
     let system = System::new();
     for mode in MODES {
-        for task in ["ignore", "compute"] {
+        for task in ["ignore", "ask_once", "compute"] {
             for (signal, code) in [(Signal::TERM, 143), (Signal::INT, 130)] {
                 let program = start(&system, &[mode, task], &[("SCL_STOP_WITHIN", "200ms")]);
                 program.signal(signal);
@@ -76,6 +76,23 @@ fn a_second_signal_ends_a_program_at_once() {
                 program.signal(signal);
             }
             assert_eq!(program.wait_for_exit().code(), code, "{mode}, {signal:?}");
+        }
+    }
+}
+
+/// The promise: what a connected peer does not take of the last messages is a log line after a stop request, and no failure.
+#[test]
+fn what_is_not_taken_after_a_stop_request_is_a_log_line() {
+    for mode in MODES {
+        let system = System::new();
+        let right = start_right(&system);
+        let program = start(&system, &[mode, "motors_off"], &[]);
+        right.pause();
+        program.signal(Signal::TERM);
+        let exit = program.wait_for_exit();
+        assert_eq!(exit.code(), 0, "{mode}: {exit:?}");
+        for words in ["WARN", "`right.jobs_in`"] {
+            assert!(exit.text().contains(words), "{mode}: `{words}` is not in {exit:?}");
         }
     }
 }

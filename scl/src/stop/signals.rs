@@ -226,7 +226,7 @@ mod tests {
     #[tokio::test(start_paused = true)]
     async fn a_program_that_handles_the_request_has_time_to_flush_after_its_grace_period() {
         let watched = watched(&[(0, Terminate)], true).await;
-        assert_eq!((watched.code, watched.lasted), (143, GRACE_PERIOD + LAST_FLUSH));
+        assert_eq!((watched.code, watched.lasted), (143, GRACE_PERIOD + Duration::from_millis(500)));
         assert!(watched.logged.is_some());
         assert!(watched.stop.gates_stopped());
         assert_eq!(watched.stop.overdue_code(), Some(143));

@@ -4,10 +4,11 @@
 //! |---|---|
 //! | RUNTIME | `current_thread`, `multi_thread`, `blocking`, `main`, `main_blocking` |
 //! | ENDING | `close`, `drop`, `drop_after_runtime`; `thread_local_close` and `thread_local_drop` leave it to the end of the thread |
-//! | TASK | `send COUNT` publishes and pushes; `publish COUNT` publishes; `ready COUNT` waits for all peers before it sends; `reply` answers one request |
+//! | TASK | `send COUNT` publishes and pushes; `publish COUNT` publishes; `ready COUNT` waits for all peers before it sends; `reply` answers one request; `panic` panics |
 
 mod with_main;
 
+use scl::{BlockingError, SendError};
 use scl_tests::say;
 use std::cell::RefCell;
 use std::process::ExitCode;
@@ -78,13 +79,18 @@ struct Kept(Option<Leaver>);
 
 impl Drop for Kept {
     fn drop(&mut self) {
-        if let Some(leaver) = self.0.take()
-            && argument(2) == "thread_local_close"
+        let Some(mut leaver) = self.0.take() else { return };
+        if argument(3) == "ready" {
+            let refused = leaver.values.send_blocking(&Number::default());
+            let is_refused = matches!(&refused, Err(SendError::Blocking { source: BlockingError::ThreadEnding, .. }));
+            // A panic would end the program here, too.
+            assert!(is_refused, "{refused:?}");
+        }
+        // Without peers, messages are left.
+        if argument(2) == "thread_local_close"
+            && let Err(error) = leaver.close_blocking(close_timeout())
         {
-            // Without peers, messages are left.
-            if let Err(error) = leaver.close_blocking(close_timeout()) {
-                eprintln!("error: {error:?}");
-            }
+            eprintln!("error: {error:?}");
         }
     }
 }
@@ -96,6 +102,7 @@ async fn perform(mut leaver: Leaver) -> scl::Result<Leaver> {
             let reply = doubled(&request);
             request.reply(&reply)?;
         }
+        "panic" => panic!("on purpose"),
         task => {
             if task == "ready" {
                 leaver.ready(READY).await?;
@@ -119,6 +126,7 @@ fn perform_blocking(mut leaver: Leaver) -> scl::Result<Leaver> {
             let reply = doubled(&request);
             request.reply(&reply)?;
         }
+        "panic" => panic!("on purpose"),
         task => {
             if task == "ready" {
                 leaver.ready_blocking(READY)?;

@@ -65,6 +65,11 @@ pub(crate) async fn main(mut left: Left) -> scl::Result<()> {
             say("stop requested");
             send_forever(&mut left).await?;
         }
+        "ask_once" => {
+            let _never_polled = scl::stop_requested();
+            say("running");
+            send_forever(&mut left).await?;
+        }
         _ => compute(),
     }
     Ok(())

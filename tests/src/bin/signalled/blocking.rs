@@ -76,6 +76,13 @@ pub(crate) fn main(mut left: Left) -> scl::Result<()> {
                 left.values.send_blocking(&number(value))?;
             }
         }
+        "ask_once" => {
+            scl::is_stop_requested();
+            say("running");
+            for value in 0.. {
+                left.values.send_blocking(&number(value))?;
+            }
+        }
         _ => compute(),
     }
     Ok(())
