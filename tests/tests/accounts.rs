@@ -168,6 +168,9 @@ fn a_message_is_taken_when_the_other_program_has_it() {
     source.ask("publish 0 10", "published");
     let account = Account::of(&mut source, "readings");
     assert_eq!((account.taken, account.waiting), (0, 10), "{account:?}");
+    wait_until("the figures tell what is on its way", || {
+        figures(&system).is_some_and(|found| (found.in_flight, found.published()) == (10, 10))
+    });
     sink.kill();
     source.ask("alone", "alone");
     let account = Account::of(&mut source, "readings");

@@ -74,7 +74,12 @@ fn sent(dir: &SystemDir) -> u64 {
 
 /// The folder of the system that these programs form.
 pub(crate) fn dir(system: &System) -> SystemDir {
+    dir_of(system, "six")
+}
+
+/// The folder of a system of this name.
+pub(crate) fn dir_of(system: &System, name: &str) -> SystemDir {
     let env = |name: &str| (name == "SCL_RUNTIME_DIR").then(|| system.runtime_dir().into());
     let runtime_dir = RuntimeDir::existing(&env).expect("a safe folder").expect("the runtime folder");
-    runtime_dir.existing_system("six").expect("a safe folder").expect("the system's folder")
+    runtime_dir.existing_system(name).expect("a safe folder").expect("the system's folder")
 }

@@ -70,6 +70,12 @@ fn plain_subscribers_that_never_read_starve_nobody() {
         // Each of them has a queue of 1000 messages of 10 kB.
         let growth = source.memory().saturating_sub(before);
         assert!(growth < 70 << 10, "{growth} KiB for 5 subscribers that do not read");
+        let dropped = || {
+            let found = ComponentStats::read(&dir(&system), "source").map(|found| found.gates);
+            found.map_or((0, 0), |gates| (gates[0].dropped_for_observers, gates[0].tap_dropped))
+        };
+        wait_until("the figures tell what was dropped", || dropped().0 > 0);
+        assert_eq!(dropped().1, 0, "none of them is at the tap");
         drop(stalled);
     });
 }

@@ -1,8 +1,10 @@
 //! Taps: what a gate sends, receives or answers, shown to any number of observers, none of which delays anything.
 
 use crate::programs::{TWIN, open};
+use crate::stats::dir_of;
+use scl::runtime_dir::{ComponentStats, GateFigures};
 use scl_tests::zmtp::{command, subscribe};
-use scl_tests::{Process, RawPeer, System, on_each_transport};
+use scl_tests::{Process, RawPeer, System, on_each_transport, wait_until};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 const MESSAGE: u8 = 0;
@@ -71,6 +73,14 @@ fn an_observer_that_stops_reading_delays_nobody() {
     let growth = left.memory().saturating_sub(before);
     // 16 MiB for each of the two that are sent long messages.
     assert!(growth < 40 << 10, "{growth} KiB for observers that do not read");
+    wait_until("the figures tell what was dropped", || {
+        ComponentStats::read(&dir_of(&system, "twins"), "left").is_some_and(|found| {
+            let of_observers =
+                |gate: &GateFigures| gate.tap_dropped > 0 && gate.dropped_for_observers == gate.tap_dropped;
+            // Those of `values` and `jobs_in`; what was called is short.
+            found.gates.iter().filter(|gate| of_observers(gate)).count() == 2
+        })
+    });
     for tap in &mut stalled[..2] {
         let first = tap.next().sequence;
         let mut next = first + 1;

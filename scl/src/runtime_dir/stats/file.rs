@@ -133,3 +133,50 @@ fn read_at(file: &File, mut into: &mut [u8], mut at: usize) -> io::Result<()> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::runtime_dir::GateFigures;
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::time::UNIX_EPOCH;
+
+    /// The figures of a component whose counts all have this number.
+    fn stats(number: u64) -> ComponentStats {
+        let gate = GateFigures { sent: number, received: number, replaced: number, ..GateFigures::default() };
+        ComponentStats {
+            written: UNIX_EPOCH,
+            period: Duration::ZERO,
+            pid: 1,
+            started: UNIX_EPOCH,
+            ready: true,
+            gates: vec![gate; 100],
+        }
+    }
+
+    #[test]
+    fn what_is_read_while_it_is_written_is_whole() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        let mut block = Vec::new();
+        encode(&stats(0), 0, &mut block);
+        std::fs::write(file.path(), &block).unwrap();
+        let (mut newest, mut reads) = (0, 0);
+        let stop = AtomicBool::new(false);
+        std::thread::scope(|threads| {
+            threads.spawn(|| {
+                for number in (1..).take_while(|_| !stop.load(Ordering::Relaxed)) {
+                    encode(&stats(number), number, &mut block);
+                    write_block(file.as_file(), &block).unwrap();
+                }
+            });
+            while newest < 1000 || reads < 1000 {
+                let Some(found) = read(file.path()) else { continue };
+                let number = found.gates[0].sent;
+                assert_eq!(found, stats(number));
+                assert!(number >= newest, "{number} after {newest}");
+                (newest, reads) = (number, reads + 1);
+            }
+            stop.store(true, Ordering::Relaxed);
+        });
+    }
+}
