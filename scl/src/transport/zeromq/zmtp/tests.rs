@@ -1,7 +1,7 @@
 //! Tests of the protocol: what arrives, in pieces of any size, and what it means.
 
 use super::*;
-use crate::transport::Window;
+use crate::transport::{Resumed, Window};
 use bytes::Bytes;
 
 const MAX_SIZE: usize = 1000;
@@ -105,6 +105,9 @@ fn the_property_of_scl_can_grow() {
         ("1", Some(SclReady::default())),
         ("1 window=256,1048576", Some(SclReady { window, ..SclReady::default() })),
         ("1 lossless", Some(SclReady { lossless: true, ..SclReady::default() })),
+        ("1 latched", Some(SclReady { latched: true, ..SclReady::default() })),
+        ("1 in-flight=8", Some(SclReady { in_flight: Some(8), ..SclReady::default() })),
+        ("1 in-flight=many", Some(SclReady::default())),
         ("1 newest later=7 window=256,1048576 x", Some(SclReady { window, newest_only: true, ..SclReady::default() })),
         ("1 window=0,0", Some(SclReady::default())),
         ("1 window=1", Some(SclReady::default())),
@@ -209,6 +212,38 @@ fn commands_are_understood_or_ignored() {
     ];
     assert_eq!(decode(SocketType::Push, &after_hello("PULL", &then.concat())), Ok(expected));
     assert_eq!(pong(b"tick"), command("PONG", b"tick"));
+}
+
+#[test]
+fn commands_are_laid_out_as_documented() {
+    let with_numbers = |name: &str, numbers: &[u64]| {
+        command(name, &numbers.iter().flat_map(|number| number.to_be_bytes()).collect::<Vec<u8>>())
+    };
+    let resumed = Resumed { end: 7, taken: 6 };
+    let cases: &[(&[u8], Vec<u8>, Command)] = &[
+        (&acknowledgement(7, 6), with_numbers("X-SCL-ACK", &[7, 6]), Command::Acknowledged { taken: 7, received: 6 }),
+        (FLUSH, with_numbers("X-SCL-FLUSH", &[]), Command::Flush),
+        (FINISH, with_numbers("X-SCL-FINISH", &[]), Command::Finish),
+        (FINISHED, with_numbers("X-SCL-FINISHED", &[]), Command::Finished),
+        (&refused(7), with_numbers("X-SCL-REFUSED", &[7]), Command::Refused(7)),
+        (&resume(resumed), with_numbers("X-SCL-RESUME", &[7, 6]), Command::Resume(resumed)),
+        (&latched(7), with_numbers("X-SCL-LATCHED", &[7]), Command::Latched(7)),
+        (BEHIND, with_numbers("X-SCL-BEHIND", &[]), Command::Behind),
+        (&catch_up(7), with_numbers("X-SCL-CATCH-UP", &[7]), Command::CatchUp(7)),
+        (&caught_up(7), with_numbers("X-SCL-CAUGHT-UP", &[7]), Command::CaughtUp(7)),
+        (SHM_OPEN, with_numbers("X-SCL-SHM-OPEN", &[]), Command::ShmOpen),
+        #[cfg(feature = "shm")]
+        (&sample(7, 6), with_numbers("X-SCL-SAMPLE", &[7, 6]), Command::Sample { sequence: 7, length: 6 }),
+    ];
+    for (written, expected, _) in cases {
+        assert_eq!(written.escape_ascii().to_string(), expected.escape_ascii().to_string());
+    }
+    let then: Vec<u8> = cases.iter().flat_map(|(written, ..)| written.iter().copied()).collect();
+    let items = decode(SocketType::Push, &after_hello("PULL", &then)).unwrap();
+    assert_eq!(items.len(), 1 + cases.len());
+    for (item, (.., meaning)) in items[1..].iter().zip(cases) {
+        assert!(matches!(item, Item::Command(found) if found == meaning), "{item:?}, not {meaning:?}");
+    }
 }
 
 #[test]
