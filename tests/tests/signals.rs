@@ -97,6 +97,23 @@ fn what_is_not_taken_after_a_stop_request_is_a_log_line() {
     }
 }
 
+/// The promise: a peer that is running and not connected is not waited for after a stop request, because all programs are
+/// stopping.
+#[test]
+fn a_peer_that_is_not_connected_is_not_waited_for_after_a_stop_request() {
+    for mode in MODES {
+        let system = System::new();
+        let right = start_right(&system);
+        right.pause();
+        let program = start(&system, &[mode, "last_words"], &[]);
+        program.signal(Signal::TERM);
+        let exit = program.wait_for_exit();
+        assert_eq!(exit.code(), 0, "{mode}: {exit:?}");
+        // It would be named if it had been waited for.
+        assert!(!exit.text().contains("WARN"), "{mode}: {exit:?}");
+    }
+}
+
 fn start_right(system: &System) -> Process {
     let mut right = system.start(TWIN, &["right", "current_thread"]);
     right.expect("open");

@@ -65,6 +65,12 @@ pub(crate) async fn main(mut left: Left) -> scl::Result<()> {
             say("stop requested");
             send_forever(&mut left).await?;
         }
+        "last_words" => {
+            let stop = scl::stop_requested();
+            say("running");
+            stop.await;
+            left.jobs.send(&number(MOTORS_OFF)).await?;
+        }
         "ask_once" => {
             let _never_polled = scl::stop_requested();
             say("running");

@@ -76,6 +76,12 @@ pub(crate) fn main(mut left: Left) -> scl::Result<()> {
                 left.values.send_blocking(&number(value))?;
             }
         }
+        "last_words" => {
+            scl::is_stop_requested();
+            say("running");
+            scl::stop_requested_blocking();
+            left.jobs.send_blocking(&number(MOTORS_OFF))?;
+        }
         "ask_once" => {
             scl::is_stop_requested();
             say("running");

@@ -9,6 +9,7 @@
 //! | `motors_off` | sends until it is asked to stop, then pushes the value 4242 and returns |
 //! | `motors_off_beside` | the same, with a thread or task of its own that waits for the request |
 //! | `ignore` | takes note of the request and continues |
+//! | `last_words` | waits for the request, then pushes the value 4242 and returns |
 //! | `ask_once` | asks for the request once, before there is one, and continues |
 //! | `compute` | never makes a call to a gate again |
 
