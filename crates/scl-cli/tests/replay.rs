@@ -1,5 +1,7 @@
 //! `scl replay` beside components that this test runs: what is sent, when, by whom, and what is refused.
 
+mod peers;
+
 use crate::system::{ChildGuard, SpawnGuarded, System, kill};
 use scl::OpenOptions;
 use scl::untyped::Component;
@@ -95,6 +97,7 @@ fn the_rate_scales_time() {
     let report = rover.replay_json(&["long.mcap", "--as", "sensor", "--rate", "1e5"]);
     assert_eq!(report["sent"], 3);
     assert!(report["seconds"].as_f64().unwrap() >= 0.108, "{report}");
+    assert!(report["late_us"]["max"].is_number(), "{report}");
     assert_eq!(
         rover.replay_json(&["long.mcap", "--as", "sensor", "--rate", "max", "--system", "beside", "--ready", "0s"])["sent"],
         3
@@ -131,6 +134,11 @@ fn a_loop_goes_on_until_it_is_stopped() {
     let replay = rover.start(&["flight.mcap", "--as", "sensor", "--loop"]);
     let seen = [(); 5].map(|()| text(&history.recv_timeout(HANG_LIMIT).unwrap()));
     assert_eq!(seen, ["1", "2", "1", "2", "1"]);
+    // The program whose component is played is told so.
+    let options = OpenOptions::new().runtime_dir(rover.system.path("run"));
+    let refused = Component::open_blocking_with(rover.plan.component("sensor").unwrap(), options).err().unwrap();
+    let refused = format!("{:?}", scl::Error::from(refused));
+    assert!(refused.contains(&format!("already running as process {}", replay.id())), "{refused}");
     kill("-INT", replay.id());
     let output = replay.wait_with_output();
     assert!(text(&output.stdout).starts_with("stopped: replayed "), "{output:?}");

@@ -48,6 +48,8 @@ fn everything_is_readable_while_it_is_recorded() {
     wait_until("the file has all messages", || sequences(&file, "/source/g0", sent[0]) == sent);
     let error = source.rover.error(&["recover", "flight.mcap"], 2);
     assert_eq!(error, "error: `flight.mcap` is being recorded\n  = help: stop the recorder first\n");
+    let error = source.rover.error(&["record", "-o", "flight.mcap", "--overwrite"], 2);
+    assert!(error.starts_with("error: `flight.mcap` is being recorded by another process\n"), "{error}");
     recorder.stop();
 }
 

@@ -98,5 +98,7 @@ fn a_closed_file_is_not_replaced_by_less() {
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(fs::read(system.path("flight.mcap")).unwrap(), damaged);
     let output = system.scl(&["recover", "flight.mcap", "-o", "whole.mcap"]).output().unwrap();
-    assert!(String::from_utf8_lossy(&output.stdout).starts_with("whole.mcap: recovered 2 messages"), "{output:?}");
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(text.starts_with("whole.mcap: recovered 2 messages, "), "{output:?}");
+    assert!(text.ends_with("B were incomplete or damaged\n"), "{output:?}");
 }

@@ -132,6 +132,9 @@ fn a_file_says_everything_about_its_gates() {
     assert_eq!(attachment("topology.yaml"), std::fs::read_to_string(rover.path("topology.yaml")).unwrap());
     assert_eq!(attachment("launch.yaml"), "components: {}\n");
 
+    // The first record begins with the profile, behind its length.
+    assert_eq!(&bytes[17..24], b"\x03\0\0\0scl");
+    assert!(summary.chunk_indexes.iter().all(|chunk| chunk.compression == "lz4"));
     let totals = mcap::read::metadata(&bytes, &summary.metadata_indexes[0]).unwrap().metadata;
     assert_eq!(totals["system"], "rover");
     for gate in report["gates"].as_array().unwrap() {
@@ -192,8 +195,11 @@ fn the_report_is_a_table() {
 #[test]
 fn recording_ends_after_a_time() {
     let rover = Rover::start();
-    let recorder = Recorder::start(&rover, 6, &["--for", "500ms", "--format", "json"]);
+    let files = ["--topology", "topology.yaml", "--launch", "other.yaml"];
+    std::fs::write(rover.path("other.yaml"), "components: {}\n").unwrap();
+    let recorder = Recorder::start(&rover, 6, &[&["--for", "500ms", "--format", "json"], &files[..]].concat());
     let (code, out, err) = recorder.finish();
     assert_eq!((code, err.as_str()), (Some(0), ""), "{out}");
-    summary(&rover.path("flight.mcap"));
+    let attached = summary(&rover.path("flight.mcap")).attachment_indexes;
+    assert!(attached.iter().any(|attachment| attachment.name == "launch.yaml"), "the file that was named");
 }

@@ -1,8 +1,9 @@
 //! Components that start later, or again, while a recording runs.
 
-use super::recorder::{Recorder, counts, figures, messages, sequences};
+use super::recorder::{Recorder, counts, figures, messages, sequences, summary};
 use super::source::Source;
 use crate::rover::{COMPONENTS, Rover};
+use scl_plan::SystemPlan;
 use scl_tests::wait_until;
 
 #[test]
@@ -15,6 +16,16 @@ fn components_that_start_later_are_recorded() {
     wait_until("every gate is recorded", || counts(&file).len() == 7);
     let report = recorder.stop_json();
     assert_eq!(report["gates"].as_array().unwrap().len(), 6);
+    let (bytes, summary) = (std::fs::read(&file).unwrap(), summary(&file));
+    let plans = summary.attachment_indexes.iter().filter(|attachment| attachment.name == "plan.json");
+    let planned: Vec<usize> = plans
+        .map(|index| {
+            let found = mcap::read::attachment(&bytes, index).unwrap();
+            SystemPlan::from_json(std::str::from_utf8(&found.data).unwrap()).unwrap().components.len()
+        })
+        .collect();
+    assert!(planned.len() > 1 && planned.is_sorted(), "{planned:?}");
+    assert_eq!(planned.last(), Some(&4), "the last one is complete");
 }
 
 #[test]
