@@ -118,6 +118,22 @@ fn a_program_may_open_what_its_entry_allows() {
 }
 
 #[test]
+fn the_variable_of_an_entry_wins() {
+    let system = system(&[("sensor", "controller", "")]);
+    let launch = std::fs::read_to_string(system.path("launch.yaml")).unwrap();
+    for (expected, is_allowed) in [("''", true), ("rover.controller", true), ("rover.gps", false)] {
+        let variable = format!("environment: {{SCL_COMPONENT: {expected}, ");
+        system.write("launch.yaml", &launch.replace("environment: {", &variable));
+        let (code, out, err) = run(&system);
+        assert_eq!(
+            (code == Some(0), out.contains("opened controller\n")),
+            (is_allowed, is_allowed),
+            "{expected}: {err}"
+        );
+    }
+}
+
+#[test]
 fn what_is_expected_of_one_program_is_not_expected_of_a_run_that_it_starts() {
     let system = system(&[("controller", "controller", "")]);
     let mut inner = system.scl(&["run", "launch.yaml"]);

@@ -49,10 +49,12 @@ fn restart(system: &System, arguments: &[&str]) -> Output {
     system.scl(&[&["restart"], arguments].concat()).env("INHERITED", "from elsewhere").output().unwrap()
 }
 
-fn stop(system: &System, run: Started) {
+/// Returns what the run has written to standard error.
+fn stop(system: &System, run: Started) -> String {
     assert!(system.scl(&["stop"]).output().unwrap().status.success());
     let (status, _, err) = run.finish();
     assert_eq!(status.code(), Some(0), "{err}");
+    err
 }
 
 #[test]
@@ -188,7 +190,8 @@ components:
     assert_eq!((failed.status.code(), processes(&system).len()), (Some(1), 2));
     let other = restart(&system, &["controller"]);
     assert_eq!(other.status.code(), Some(0), "{}", text(&other.stderr));
-    stop(&system, run);
+    let err = stop(&system, run);
+    assert_eq!(err.matches("scl: building ").count(), 1, "one build for both: {err}");
 
     // What was built before is started as it is.
     let run = start_cargo(&system, &["--no-build"], &["| one", "| two"]);

@@ -32,6 +32,18 @@ fn nothing_is_restarted_by_default() {
 }
 
 #[test]
+fn a_restart_by_the_policy_builds_nothing() {
+    let launch = format!(
+        "components: {{sensor: {{build: 'echo x >> built', command: '{COUNT}; [ $n = 2 ]', restart: on_failure, restart_delay: 1ms}}}}"
+    );
+    let system = System::of_files(&[("launch.yaml", &launch)]);
+    let output = system.run(&[]);
+    let lines = |file: &str| std::fs::read_to_string(system.path(file)).unwrap().lines().count();
+    assert_eq!((lines("built"), lines("starts")), (1, 2));
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
 fn a_failed_program_is_restarted_until_it_ends_in_order() {
     let expected = "\
 sensor  ended with exit code 0 after N s

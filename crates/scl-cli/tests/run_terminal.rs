@@ -62,3 +62,54 @@ fn without_a_terminal_the_input_is_empty_and_the_reason_is_told() {
     assert!(err.contains(expected), "{err}");
     assert!(output.status.success());
 }
+
+#[test]
+fn the_input_of_the_other_programs_is_empty() {
+    let system = System::of(&[("reader", "cat; echo end")]);
+    // That of `scl run` stays open.
+    let mut run = system.start_with(&[], |command| {
+        command.stdin(Stdio::piped());
+    });
+    run.wait_for_line("reader | end");
+    assert_eq!(run.finish().0.code(), Some(0));
+}
+
+#[test]
+fn ctrl_z_stops_the_run_and_the_program_on_the_terminal_until_fg() {
+    // The signal interrupts a read.
+    let keyboard = "trap 'echo continued' CONT; echo ready; while :; do read line && echo \"line $line\"; done";
+    let other = "while read line < go; do echo $line > went; done";
+    let launch = format!(
+        "components:\n  keyboard: {{command: [/bin/sh, -c, {keyboard:?}], input: terminal}}\n  other: {{command: {other:?}}}\n"
+    );
+    let system = System::of_files(&[("launch.yaml", &launch)]);
+    let (go, went) = (system.make_pipe("go"), system.make_pipe("went"));
+    let mut run = on_terminal(&system, "set -m; \"$SCL\" run; echo \"stopped $?\"; read line; fg; echo \"code $?\"");
+    run.wait_for_line("keyboard | ready");
+    run.write_input("\x1a");
+    run.wait_until("stopped", |line| line.contains("stopped "));
+    std::fs::write(go, "on\n").unwrap();
+    assert_eq!(std::fs::read_to_string(went).unwrap(), "on\n", "the others run on");
+    run.write_input("\n");
+    run.wait_for_line("keyboard | continued");
+    run.write_input("again\n");
+    run.wait_for_line("keyboard | line again");
+    run.write_input("\x03");
+    run.wait_for("code ");
+    run.finish();
+}
+
+#[test]
+fn in_raw_mode_ctrl_c_is_a_key_and_a_stop_from_elsewhere_stops_all() {
+    let keyboard = "stty raw -echo; echo raw; head -c 1 | od -An -tx1; exec tail -f /dev/null";
+    let launch = format!("components: {{keyboard: {{command: [/bin/sh, -c, {keyboard:?}], input: terminal}}}}\n");
+    let topology = "system: rover\ncomponents:\n  - name: keyboard\nconnections: []\n";
+    let system = System::of_files(&[("launch.yaml", &launch), ("topology.yaml", topology)]);
+    let mut run = on_terminal(&system, "\"$SCL\" run; echo \"code $?\"");
+    run.wait_for_line("keyboard | raw");
+    run.write_input("\x03");
+    run.wait_for_line("keyboard |  03");
+    assert!(system.scl(&["stop"]).output().unwrap().status.success());
+    run.wait_for_line("code 0");
+    run.finish();
+}

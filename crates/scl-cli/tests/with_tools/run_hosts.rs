@@ -128,6 +128,9 @@ fn a_gateway_that_ends_is_started_again_and_the_components_go_on() {
             assert_eq!(sensor.replace(line.clone()), None, "the sensor was started again");
         }
     }
+    let restarted = hosts.run(&["restart", "gateway"]);
+    assert!(restarted.status.success(), "{restarted:?}");
+    run.wait_for("gateway | ");
     run.signal("-TERM");
     let (status, _, err) = run.finish();
     assert_eq!(status.code(), Some(0), "{err}");
@@ -152,12 +155,14 @@ fn a_gateway_that_cannot_run_is_known_before_anything_is_started() {
 #[test]
 fn a_second_run_of_the_host_needs_no_second_gateway() {
     let hosts = Hosts::new(false);
-    let mut run = hosts.start(&["run", "--host", "board", "--only", "sensor"]);
-    run.wait_until("sensor", |line| line.starts_with("sensor | ") && line.ends_with(" sensor"));
-    run.signal("-TERM");
-    let (status, out, err) = run.finish();
-    assert_eq!((status.code(), out.as_str()), (Some(0), ""), "{err}");
-    assert!(!err.contains("gateway"), "{err}");
+    for choice in [["--only", "sensor"], ["--without", "gateway"]] {
+        let mut run = hosts.start(&[&["run", "--host", "board"], &choice[..]].concat());
+        run.wait_until("sensor", |line| line.starts_with("sensor | ") && line.ends_with(" sensor"));
+        run.signal("-TERM");
+        let (status, out, err) = run.finish();
+        assert_eq!((status.code(), out.as_str()), (Some(0), ""), "{err}");
+        assert!(!err.contains("gateway"), "{err}");
+    }
 }
 
 #[test]
@@ -170,6 +175,18 @@ fn without_a_host_everything_runs_here_and_that_is_said() {
     let (status, out, _) = run.finish();
     assert_eq!(status.code(), Some(0));
     assert!(out.contains(" sensor\n") && out.contains(" display\n"), "{out}");
+}
+
+#[test]
+fn a_component_called_gateway_does_not_run_with_a_host() {
+    let hosts = Hosts::new(true);
+    for (file, text) in [("launch.yaml", LAUNCH), ("topology.yaml", TOPOLOGY)] {
+        hosts.system.write(file, &text.replace("display", "gateway"));
+    }
+    let output = hosts.run(&["run", "--host", "ground"]);
+    let err = text(&output.stderr);
+    assert!(err.contains("error: the component `gateway` has the name of the gateway's program"), "{err}");
+    assert_eq!(output.status.code(), Some(2), "{err}");
 }
 
 #[track_caller]
