@@ -1,7 +1,12 @@
-//! What can be wrong with an entry of `schemas:` before its file is read.
+//! What can be wrong with an entry of `schemas:` or `schema_roots:` before its file is compiled.
 
-use scl_topology::diagnostic::Diagnostic;
-use scl_topology::external::{SCHEMA_ELSEWHERE, SCHEMA_TWICE};
+use super::disk::why;
+use super::folders::{Folders, Found};
+use crate::read::{Unreadable, read_text};
+use crate::unreadable::similar_file;
+use scl_topology::diagnostic::{Diagnostic, Diagnostics};
+use scl_topology::external::{SCHEMA, SCHEMA_ELSEWHERE, SCHEMA_TWICE};
+use scl_topology::model::Model;
 use scl_topology::source::{Span, Spanned};
 use std::collections::HashMap;
 use std::path::{Component, Path, PathBuf};
@@ -12,9 +17,9 @@ pub(super) struct Named(HashMap<PathBuf, (String, Span)>);
 
 impl Named {
     /// `SCL0416`: an earlier entry leads to the same file.
-    pub(super) fn twice(&mut self, schema: &Spanned<String>, folder: &Path) -> Option<Diagnostic> {
+    pub(super) fn twice(&mut self, schema: &Spanned<String>, folders: &Folders) -> Option<Diagnostic> {
         // A file that does not exist is reported elsewhere, under each name.
-        let path = folder.join(&schema.value).canonicalize().ok()?;
+        let path = folders.path(Path::new(&schema.value)).canonicalize().ok()?;
         let Some((first, span)) = self.0.get(&path) else {
             self.0.insert(path, (schema.value.clone(), schema.span));
             return None;
@@ -54,6 +59,51 @@ fn leaves_its_folder(path: &Path) -> bool {
         };
         depth < 0
     })
+}
+
+/// Reports each entry of `schema_roots` that is not a folder; returns true if all are.
+pub(super) fn roots_exist(model: &Model, folders: &Folders, problems: &mut Diagnostics) -> bool {
+    let wrong: Vec<_> =
+        model.schema_roots.iter().filter(|root| !folders.path(Path::new(&root.value)).is_dir()).collect();
+    for root in &wrong {
+        let message = format!("cannot find the folder `{}`", root.value);
+        problems.push(SCHEMA.at(message, root.span, "").note("`schema_roots` are looked for beside the topology file"));
+    }
+    problems.extend(model.schema_roots.iter().filter_map(elsewhere));
+    wrong.is_empty()
+}
+
+/// What is wrong with the place of an entry among the roots.
+pub(super) fn misplaced(schema: &Spanned<String>, folders: &Folders) -> Option<Diagnostic> {
+    let entry = &schema.value;
+    let Some(name) = folders.name_of_entry(entry) else {
+        let message = format!("the schema `{entry}` is in none of the folders of `schema_roots`");
+        let beside = Path::new(entry).parent().unwrap_or(Path::new(""));
+        return Some(SCHEMA.at(message, schema.span, "").help(folders.with_root(beside)));
+    };
+    match folders.find(&name) {
+        Found::Two(one, other) if folders.are_roots() => {
+            let [one, other] = [&one, &other].map(|path| folders.relative(path).display());
+            let message = format!("the schema `{entry}` has the same path in its root as another file");
+            let problem = SCHEMA.at(message, schema.span, format!("`{name}` can mean `{one}` and `{other}`"));
+            Some(problem.help("rename one of the files, or remove its folder from `schema_roots`"))
+        }
+        _ => None,
+    }
+}
+
+/// What is wrong with an entry that names no readable file, in SCL's own words: the compiler calls it "not included".
+pub(super) fn refuse(schema: &Spanned<String>, folders: &Folders, max_size: u64) -> Option<Diagnostic> {
+    let name = &schema.value;
+    let path = folders.path(Path::new(name));
+    let cause = read_text(&path, max_size).err()?;
+    if !matches!(cause, Unreadable::Missing) {
+        let why = why(Path::new(name), cause);
+        return Some(SCHEMA.at(format!("the schema file {why}"), schema.span, ""));
+    }
+    let near = similar_file(&path, &[]).map(|near| format!("a file with a similar name exists: `{near}`"));
+    let problem = SCHEMA.at(format!("cannot find the schema file `{name}`"), schema.span, "");
+    Some(problem.helps(near).note("schemas are looked for beside the topology file"))
 }
 
 #[cfg(test)]

@@ -2,7 +2,6 @@
 
 use crate::read::read_text;
 use scl_topology::model::Model;
-use std::collections::HashMap;
 use std::path::{Component, Path, PathBuf};
 
 /// Where imports are looked for: in the folders of `schema_roots`, or else beside the topology file and beside the
@@ -14,8 +13,8 @@ pub(super) struct Folders {
     all: Vec<PathBuf>,
     /// Whether the topology file declares them.
     are_roots: bool,
-    /// The entries of `schemas` by the names under which the compiler knows them.
-    entries: HashMap<String, PathBuf>,
+    /// The entries of `schemas`, in their order: the name under which the compiler knows each, and its path.
+    entries: Vec<(Option<String>, PathBuf)>,
     max_size: u64,
 }
 
@@ -43,11 +42,8 @@ impl Folders {
                 folders.all.push(folder);
             }
         }
-        for schema in &model.schemas {
-            if let Some(name) = folders.name_of_entry(&schema.value) {
-                folders.entries.insert(name, topology.join(&schema.value));
-            }
-        }
+        let entries = model.schemas.iter().map(|schema| &schema.value);
+        folders.entries = entries.map(|entry| (folders.name_of_entry(entry), topology.join(entry))).collect();
         folders
     }
 
@@ -72,6 +68,11 @@ impl Folders {
         if self.are_roots { self.import_name(&self.topology.join(entry)) } else { Some(entry.to_owned()) }
     }
 
+    /// The entry of `schemas` that names a file; the first one for a file that is only imported.
+    pub(super) fn entry(&self, name: &str) -> usize {
+        self.entries.iter().position(|(known, _)| known.as_deref() == Some(name)).unwrap_or(0)
+    }
+
     /// The name by which an import reaches a file from the first folder that contains it.
     pub(super) fn import_name(&self, path: &Path) -> Option<String> {
         self.all.iter().find_map(|folder| below(&self.topology.join(folder), path))
@@ -91,16 +92,17 @@ impl Folders {
 
     /// The path of an entry of `schemas`, and the paths where other files of this name may be.
     pub(super) fn paths(&self, name: &str) -> Vec<PathBuf> {
-        self.entries.get(name).cloned().into_iter().chain(self.candidates(name)).collect()
+        let entry = self.entries.iter().rev().find(|(known, _)| known.as_deref() == Some(name));
+        entry.map(|(_, path)| path.clone()).into_iter().chain(self.candidates(name)).collect()
     }
 
     /// The entry of `schemas` that is this file and has another name.
     pub(super) fn entry_with_other_name(&self, name: &str, path: &Path) -> Option<&str> {
         let path = path.canonicalize().ok()?;
-        let is_other = |(known, entry): &(&String, &PathBuf)| {
-            *known != name && entry.file_name() == path.file_name() && entry.canonicalize().is_ok_and(|it| it == path)
-        };
-        self.entries.iter().filter(is_other).map(|(known, _)| known.as_str()).min()
+        let is_same =
+            |entry: &Path| entry.file_name() == path.file_name() && entry.canonicalize().is_ok_and(|it| it == path);
+        let others = self.entries.iter().filter(|(known, entry)| known.as_deref() != Some(name) && is_same(entry));
+        others.filter_map(|(known, _)| known.as_deref()).min()
     }
 
     /// The path of a file that the topology file would name like this.

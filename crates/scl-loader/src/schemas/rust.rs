@@ -7,6 +7,8 @@ mod clash;
 mod declared;
 #[cfg(feature = "protobuf")]
 mod hidden_crate;
+#[cfg(feature = "protobuf")]
+mod judge;
 pub mod names;
 #[cfg(feature = "protobuf")]
 mod paths;
@@ -14,8 +16,6 @@ mod paths;
 mod tests;
 
 #[cfg(feature = "protobuf")]
-pub(super) use clash::find_clashes;
-#[cfg(feature = "protobuf")]
-pub(super) use hidden_crate::find_hidden_crates;
+pub(super) use judge::judge_names;
 #[cfg(feature = "protobuf")]
 pub use paths::rust_paths;
