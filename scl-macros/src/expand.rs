@@ -5,7 +5,6 @@ mod codec_traits;
 mod codec_type;
 mod component;
 mod context;
-mod counterpart;
 mod docs;
 mod file_spans;
 mod found_types;

@@ -1,4 +1,5 @@
-//! The struct of a component, and its implementation of `scl::Component`.
+//! The structs of a component and of its counterpart for unit tests, which has the opposite gates, and their
+//! implementations of `scl::Component`.
 
 use super::assemble::{Side, expand_methods};
 use super::codec_traits::CodecTraits;
@@ -8,13 +9,15 @@ use super::found_types::Requirements;
 use super::gate_types::gate_type;
 use super::names::{counterpart_name, field_name, struct_name};
 use super::schemas::EmbeddedSchemas;
+use super::spec::expand_spec;
 use super::structs::{GateField, expand_struct};
+use super::type_agreement;
 use super::unopened::expand_unopened;
-use super::{counterpart, spec, type_agreement};
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use scl_plan::Plan;
 use scl_topology::topology::{Component, Topology};
+use syn::Ident;
 
 /// All generated components, with the checks that only rustc can make.
 pub(super) fn expand_components(context: &Context<'_>, topology: &Topology) -> TokenStream {
@@ -59,17 +62,30 @@ pub(super) fn expand_components(context: &Context<'_>, topology: &Topology) -> T
 /// The structs of the component and of its counterpart. They stand outside of the `const` block so that users can name
 /// them.
 fn expand_structs(context: &Context<'_>, topology: &Topology, component: &Component) -> TokenStream {
-    let fields = component.gates().iter().map(|&id| {
-        let gate = topology.gate(id);
-        let doc = GateDoc::new(context, topology, id).text();
-        GateField { name: field_name(gate), doc, gate_type: gate_type(context, gate, gate.kind()) }
+    let for_tests = &context.for_tests;
+    let [own, counterpart] = [Side::Component, Side::Counterpart].map(|side| {
+        let fields = component.gates().iter().map(|&id| {
+            let gate = topology.gate(id);
+            let doc = match side {
+                Side::Component => GateDoc::new(context, topology, id).text(),
+                Side::Counterpart => docs::of_other_end(&topology.gate_path(id)),
+            };
+            GateField { name: field_name(gate), doc, gate_type: gate_type(context, gate, side.kind(gate.kind())) }
+        });
+        let (name, doc) = match side {
+            Side::Component => (struct_name(component), docs::of_component(context, topology, component)),
+            Side::Counterpart => (counterpart_name(component), docs::of_counterpart(component.name())),
+        };
+        expand_struct(context, &name, &doc, &fields.collect::<Vec<_>>())
     });
-    let (name, doc) = (struct_name(component), docs::of_component(context, topology, component));
-    let expanded = expand_struct(context, &name, &doc, &fields.collect::<Vec<_>>());
-    let counterpart = counterpart::expand_struct(context, topology, component);
-    quote!(#expanded #counterpart)
+    quote!(#own #for_tests #counterpart)
 }
 
+/// The implementations of `scl::Component` for both structs.
+///
+/// `Controller::test()` opens a `Controller` and a `ControllerPeer` that are connected within the process. All of the
+/// counterpart is `#[cfg(test)]` in the crate that invokes the macro, so other builds do not compile it, unless it is
+/// `testable`.
 fn expand_implementation(
     context: &Context<'_>,
     topology: &Topology,
@@ -81,17 +97,24 @@ fn expand_implementation(
 ) -> TokenStream {
     let (private, for_tests) = (&context.private, &context.for_tests);
     let (name, peer) = (struct_name(component), counterpart_name(component));
-    let spec = spec::expand_spec(context, plan, schemas);
-    let bounds = requirements.expand_bounds(context, topology, component);
-    let methods = expand_methods(context, topology, component, codec_traits, Side::Component);
-    let counterpart = counterpart::expand_implementation(context, topology, component, plan, codec_traits);
-    quote_spanned! { context.span =>
-        impl #private::Component for #name {
-            const SPEC: &'static #private::ComponentSpec = &#spec;
-            #methods
+    let implementation = |name: &Ident, spec: TokenStream, side: Side| {
+        let methods = expand_methods(context, topology, component, codec_traits, side);
+        quote_spanned! { context.span =>
+            impl #private::Component for #name {
+                const SPEC: &'static #private::ComponentSpec = &#spec;
+                #methods
+            }
         }
+    };
+    let own = implementation(&name, expand_spec(context, plan, schemas), Side::Component);
+    let spec = expand_spec(context, &plan.counterpart(), &EmbeddedSchemas::default());
+    let counterpart = implementation(&peer, spec, Side::Counterpart);
+    let bounds = requirements.expand_bounds(context, topology, component);
+    quote_spanned! { context.span =>
+        #own
         #private::component_methods!(#name #bounds);
         #private::component_main_functions!(#name #bounds);
+        #for_tests
         #counterpart
         #for_tests
         #private::component_test_methods!(#name, #peer #bounds);

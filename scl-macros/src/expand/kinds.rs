@@ -6,15 +6,8 @@ use syn::Ident;
 
 /// The gate's type, and the variant of `GateKind`.
 pub(super) fn gate_struct(kind: GateKind) -> Ident {
-    let name = match kind {
-        GateKind::Pub => "Pub",
-        GateKind::Sub => "Sub",
-        GateKind::Req => "Req",
-        GateKind::Rep => "Rep",
-        GateKind::Push => "Push",
-        GateKind::Pull => "Pull",
-    };
-    Ident::new(name, Span::call_site())
+    // `Debug` prints the name of the variant.
+    Ident::new(&format!("{kind:?}"), Span::call_site())
 }
 
 /// The method of `Opener` that opens the gate.
