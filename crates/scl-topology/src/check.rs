@@ -2,13 +2,11 @@
 
 mod all_rules;
 mod backpressure;
-mod cardinality;
 mod circles;
 mod codec_agreement;
 mod codec_name;
 mod connection_end;
 mod control;
-mod crowd;
 mod deadlock;
 mod draft;
 mod duplicate_connection;
@@ -21,11 +19,9 @@ mod gate_kind;
 mod inference;
 mod island;
 mod keyword;
-mod look_alike;
 mod message_type;
 mod misread;
-mod name_characters;
-mod name_start;
+mod name_spelling;
 mod name_style;
 mod named;
 mod needless_mark;
@@ -34,6 +30,7 @@ mod option;
 mod pair_kinds;
 mod path_length;
 mod payload_type;
+mod peers;
 mod repeated;
 mod reserved_name;
 mod rust_path;
@@ -67,9 +64,9 @@ pub use unknown_component::UNKNOWN as UNKNOWN_COMPONENT;
 pub(crate) const RULES: [&Rule; 63] = [
     &duplicate_name::COMPONENT,
     &duplicate_name::GATE,
-    &name_characters::RULE,
-    &look_alike::RULE,
-    &name_start::RULE,
+    &name_spelling::CHARACTERS,
+    &name_spelling::LETTER,
+    &name_spelling::START,
     &keyword::OF_RUST,
     &keyword::UNUSABLE,
     &similar_name::SAME_TYPE,
@@ -102,9 +99,9 @@ pub(crate) const RULES: [&Rule; 63] = [
     &self_connection::WAITS_FOR_ITSELF,
     &self_connection::HEARS_ITSELF,
     &duplicate_connection::RULE,
-    &cardinality::SEVERAL_PUBLISHERS,
-    &cardinality::SEVERAL_REPLIERS,
-    &cardinality::SEVERAL_PULLERS,
+    &peers::SEVERAL_PUBLISHERS,
+    &peers::SEVERAL_REPLIERS,
+    &peers::SEVERAL_PULLERS,
     &message_type::RULE,
     &exchange_type::REQUESTS_DIFFER,
     &exchange_type::REPLIES_DIFFER,
@@ -120,7 +117,7 @@ pub(crate) const RULES: [&Rule; 63] = [
     &deadlock::RULE,
     &feedback::PUSHES,
     &feedback::LOOP,
-    &crowd::RULE,
+    &peers::MANY_PEERS,
     &needless_mark::RULE,
     &path_length::RULE,
     &shared_socket::RULE,
@@ -175,7 +172,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     duplicate_connection::check(&mut draft, problems);
     pair_kinds::check(&mut draft, problems);
     self_connection::check(&draft, problems);
-    cardinality::check(&draft, problems);
+    peers::check(&draft, problems);
     backpressure::check(&draft, problems);
 
     inference::check(&mut draft, problems);
@@ -193,7 +190,6 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     feedback::check(&draft, problems);
     short_timeout::check(&draft, problems);
     island::check(&draft, problems);
-    crowd::check(&draft, problems);
     path_length::check(&draft, &facts.sockets, &system, problems);
     let connection_room = facts.sockets.connection_room(&system);
     shared_socket::check(&draft, connection_room, problems);
@@ -206,9 +202,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
 
 fn check_names(model: &Model, problems: &mut Diagnostics) {
     duplicate_name::check(model, problems);
-    name_characters::check(model, problems);
-    look_alike::check(model, problems);
-    name_start::check(model, problems);
+    name_spelling::check(model, problems);
     keyword::check(model, problems);
     similar_name::check(model, problems);
     reserved_name::check(model, problems);

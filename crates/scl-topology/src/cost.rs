@@ -1,5 +1,5 @@
-//! Files that are made to be costly cost no more than their size allows: the steps, the labels and the printed bytes are
-//! counted. `cargo bench -p scl-topology --bench cost` has the times.
+//! Files that are made to be costly cost no more than their size allows: the steps, the labels and the printed bytes
+//! are counted. `cargo bench -p scl-topology --bench cost` has the times.
 
 #[path = "../tests/hostile/mod.rs"]
 mod hostile;

@@ -1,5 +1,5 @@
-//! Rules that are checked elsewhere: by the loader that reads the files, by the macro, by `scl generate`, and by rustc. They are declared
-//! here, so that every code is explained in one place.
+//! Rules that are checked elsewhere: by the loader that reads the files, by the macro, by `scl generate`, and by rustc.
+//! They are declared here, so that every code is explained in one place.
 
 use crate::diagnostic::{Rule, Severity};
 

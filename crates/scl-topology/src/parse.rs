@@ -87,8 +87,7 @@ impl<'s> Reader<'s> {
         match &tree.root {
             Some(Node { kind: NodeKind::Mapping { entries, .. }, .. }) => self.read_sections(entries),
             Some(root) if !root.is_null() && !matches!(root.kind, NodeKind::Unread) => {
-                let problem = shape::top_level::diagnose(root, self.source);
-                self.report(problem);
+                self.report(shape::top_level::diagnose(root, self.source));
             }
             _ => {}
         }

@@ -1,5 +1,5 @@
-//! Counts the steps of loops whose length a hostile file could decide, for the tests that hold the checker to linear work:
-//! unlike time, steps are the same on every machine.
+//! Counts the steps of loops whose length a hostile file could decide, for the tests that hold the checker to linear
+//! work: unlike time, steps are the same on every machine.
 
 /// Counts steps; does nothing outside of the tests of this crate.
 #[cfg_attr(not(test), expect(unused_variables))]

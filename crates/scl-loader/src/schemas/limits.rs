@@ -1,4 +1,5 @@
-//! How much a schema may declare. The schema compiler checks some things in quadratic time, and it runs inside of rustc.
+//! How much a schema may declare. The schema compiler checks some things in quadratic time, and it runs inside of
+//! rustc.
 
 use super::lexemes::words;
 

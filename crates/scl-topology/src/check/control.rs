@@ -1,6 +1,6 @@
 //! What comments say to the checker. `# scl: allow(SCL0701) reason` takes back a warning about its line or the line
-//! below, `# scl: warn(SCL0511)` turns a lint on for the whole file. SCL0901: nobody knows the check. SCL0902: nothing is
-//! there to allow. SCL0903: the check cannot be allowed. SCL0904: no reason is given.
+//! below, `# scl: warn(SCL0511)` turns a lint on for the whole file. SCL0901: nobody knows the check. SCL0902: nothing
+//! is there to allow. SCL0903: the check cannot be allowed. SCL0904: no reason is given.
 
 mod command;
 

@@ -1,5 +1,5 @@
-//! A requester and a replier of different types. SCL0602: the requests differ. SCL0603: the replies differ. SCL0604: one
-//! end has the two the wrong way round.
+//! A requester and a replier of different types. SCL0602: the requests differ. SCL0603: the replies differ. SCL0604:
+//! one end has the two the wrong way round.
 
 use super::draft::Draft;
 use super::message_type::differ;

@@ -1,5 +1,5 @@
-//! Names that a language reserves. SCL0306: a gate whose field needs `r#`. SCL0307: a name that not even `r#` makes usable.
-//! SCL0315: a keyword of C++ or Python: the same file is read by programs in these languages.
+//! Names that a language reserves. SCL0306: a gate whose field needs `r#`. SCL0307: a name that not even `r#` makes
+//! usable. SCL0315: a keyword of C++ or Python: the same file is read by programs in these languages.
 
 use super::named::{Noun, is_well_formed, names};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};

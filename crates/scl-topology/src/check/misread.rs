@@ -1,5 +1,5 @@
-//! A word that YAML reads as a number or a boolean, or that has an invisible character in it, is told once: what else is
-//! wrong with it follows from that, or goes when it is mended.
+//! A word that YAML reads as a number or a boolean, or that has an invisible character in it, is told once: what else
+//! is wrong with it follows from that, or goes when it is mended.
 
 use crate::diagnostic::Diagnostics;
 use crate::parse::MISREAD;

@@ -1,5 +1,5 @@
-//! Lints about names that work. SCL0313: a component whose type hides a name that every Rust file has in scope. SCL0314: a
-//! name in another style than the fields and modules of Rust.
+//! Lints about names that work. SCL0313: a component whose type hides a name that every Rust file has in scope.
+//! SCL0314: a name in another style than the fields and modules of Rust.
 
 use super::named::{Noun, is_well_formed, names};
 use crate::diagnostic::{Diagnostics, Rule, Severity};

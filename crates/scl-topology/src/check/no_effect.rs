@@ -1,5 +1,5 @@
-//! SCL0413: an option that changes nothing: `backpressure` without a receiver that waits, `share` with one puller, `codec`
-//! at a gate that carries bytes.
+//! SCL0413: an option that changes nothing: `backpressure` without a receiver that waits, `share` with one puller,
+//! `codec` at a gate that carries bytes.
 
 use super::draft::Draft;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};

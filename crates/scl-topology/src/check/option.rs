@@ -1,5 +1,5 @@
-//! SCL0408: an option on a kind of gate that has no use for it. SCL0409: an option value out of its range. Sets the options
-//! of every gate.
+//! SCL0408: an option on a kind of gate that has no use for it. SCL0409: an option value out of its range. Sets the
+//! options of every gate.
 
 use super::draft::Draft;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};

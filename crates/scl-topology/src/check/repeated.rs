@@ -1,6 +1,6 @@
 //! Mistakes that show at several places and are made once: an unknown name that several connections use is most often
-//! that of its declaration, and a gate of the wrong kind fits none of its connections. They are told at the first place,
-//! and the others are shown there.
+//! that of its declaration, and a gate of the wrong kind fits none of its connections. They are told at the first
+//! place, and the others are shown there.
 
 use super::{backpressure, codec_agreement, exchange_type, message_type, pair_kinds, unknown_component, unknown_gate};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule};

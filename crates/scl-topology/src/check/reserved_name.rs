@@ -1,5 +1,5 @@
-//! SCL0311: names that the framework keeps for itself, so that it can grow without breaking a file. SCL0312: a name that
-//! leaves no room for the others in a socket path.
+//! SCL0311: names that the framework keeps for itself, so that it can grow without breaking a file. SCL0312: a name
+//! that leaves no room for the others in a socket path.
 
 use super::named::{Noun, names};
 use crate::diagnostic::{Diagnostics, Rule, Severity};

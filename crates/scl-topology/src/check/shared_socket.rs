@@ -1,6 +1,6 @@
-//! SCL0802: two connections with one socket. Other names cannot collide: only connections have `--` in their names, and a
-//! gate's own sockets end with the contract of eight characters or with `.tap`. Only long names of connections that are
-//! cut could be equal, if their fingerprints were equal by chance. So this rule asserts what
+//! SCL0802: two connections with one socket. Other names cannot collide: only connections have `--` in their names, and
+//! a gate's own sockets end with the contract of eight characters or with `.tap`. Only long names of connections that
+//! are cut could be equal, if their fingerprints were equal by chance. So this rule asserts what
 //! [`resolve`](crate::resolve) promises, and no file is known that it rejects.
 
 use super::draft::Draft;

@@ -1,5 +1,5 @@
-//! SCL0308 and SCL0309: names that differ in the file and would be one in Rust. SCL0310: names that only letter case and `_`
-//! tell apart.
+//! SCL0308 and SCL0309: names that differ in the file and would be one in Rust. SCL0310: names that only letter case
+//! and `_` tell apart.
 
 use super::named::is_well_formed;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};

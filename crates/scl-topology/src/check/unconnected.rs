@@ -1,6 +1,6 @@
 //! Gates without a peer. SCL0701: nobody receives what a gate sends. SCL0702: a gate never receives anything. SCL0703:
-//! nobody answers. SCL0704: nobody asks. SCL0705: a whole component hangs in the air, which says more than a warning for
-//! each of its gates.
+//! nobody answers. SCL0704: nobody asks. SCL0705: a whole component hangs in the air, which says more than a warning
+//! for each of its gates.
 
 use super::draft::{Draft, DraftComponent};
 use super::fitting_sender::FittingSenders;

@@ -37,8 +37,7 @@ impl Reader<'_> {
                 _ => self.model.components.push(unread_component(name)),
             }
         }
-        let problem = shape::section_kind::components(section, self.model.components.get(first));
-        self.report(problem);
+        self.report(shape::section_kind::components(section, self.model.components.get(first)));
     }
 
     fn read_component(&mut self, item: &Node) {

@@ -18,10 +18,10 @@ impl Reader<'_> {
             _ if section.value.is_null() => {}
             _ => {
                 self.remember_broken_ends(section.value);
-                let problem = self
-                    .glued_dash(section.value)
-                    .unwrap_or_else(|| self.glued_or(section.value, shape::section_kind::connections(section)));
-                self.report(problem);
+                self.report(
+                    self.glued_dash(section.value)
+                        .unwrap_or_else(|| self.glued_or(section.value, shape::section_kind::connections(section))),
+                );
             }
         }
     }
@@ -39,8 +39,7 @@ impl Reader<'_> {
             }
             NodeKind::Scalar { text, .. } => {
                 let look_alike = pitfall::look_alike::in_word(item, text, "a connection", self.source);
-                let problem = look_alike.unwrap_or_else(|| self.glued_or(item, shape::ends::text(item, text)));
-                self.report(problem);
+                self.report(look_alike.unwrap_or_else(|| self.glued_or(item, shape::ends::text(item, text))));
                 self.recover_pair(item);
             }
         }

@@ -16,8 +16,7 @@ impl Reader<'_> {
             NodeKind::Sequence { items } => items.iter().for_each(|item| self.read_gate_item(item, component)),
             NodeKind::Mapping { entries } if is_glued_dash(entries) => {
                 component.gates_unread = true;
-                let problem = self.dash_without_space(field.value.span);
-                self.report(problem);
+                self.report(self.dash_without_space(field.value.span));
             }
             NodeKind::Mapping { entries } => {
                 self.report(shape::section_kind::gates(field, self.source));
@@ -34,8 +33,7 @@ impl Reader<'_> {
             _ if field.value.is_null() => {}
             _ => {
                 component.gates_unread = true;
-                let problem = self.glued_or(field.value, shape::section_kind::text(field));
-                self.report(problem);
+                self.report(self.glued_or(field.value, shape::section_kind::text(field)));
             }
         }
     }

@@ -83,8 +83,7 @@ impl Reader<'_> {
                 *found.rule != shape::missing::GATES || found.primary.as_ref().is_none_or(|label| label.span != name)
             });
         }
-        let problem = shape::level::at_top(field, self.source).unwrap_or_else(|| shape::unknown_key::section(field));
-        self.report(problem);
+        self.report(shape::level::at_top(field, self.source).unwrap_or_else(|| shape::unknown_key::section(field)));
     }
 
     fn check_missing_sections(&mut self, fields: &Fields<'_>) {

@@ -1,5 +1,5 @@
-//! Names that YAML reads as something else. SCL0108: a word that YAML 1.1 reads as a boolean. SCL0109: a number. SCL0119: a
-//! text block.
+//! Names that YAML reads as something else. SCL0108: a word that YAML 1.1 reads as a boolean. SCL0109: a number.
+//! SCL0119: a text block.
 
 use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::source::{SourceFile, Span};

@@ -1,5 +1,5 @@
-//! Parts of YAML that a topology does not have. SCL0111: anchors and aliases. SCL0112: the merge key `<<`. SCL0113: a tag.
-//! SCL0114: more than one document. SCL0118: a directive, such as `%YAML 1.1`.
+//! Parts of YAML that a topology does not have. SCL0111: anchors and aliases. SCL0112: the merge key `<<`. SCL0113: a
+//! tag. SCL0114: more than one document. SCL0118: a directive, such as `%YAML 1.1`.
 
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::{SourceFile, Span};

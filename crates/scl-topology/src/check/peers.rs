@@ -1,6 +1,8 @@
 //! How many peers a gate may have. SCL0511, a lint: a subscriber with several publishers. SCL0512: a requester with two
-//! repliers. SCL0513: a pusher with several pullers that does not say that they share the work.
+//! repliers. SCL0513: a pusher with several pullers that does not say that they share the work. SCL0710, a lint: a gate
+//! with very many peers, each of which costs time and memory for each message.
 
+use super::control;
 use super::draft::Draft;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::topology::GateKind;
@@ -81,18 +83,46 @@ pub(crate) const SEVERAL_PULLERS: Rule = Rule {
 ",
 };
 
+/// SCL0710.
+pub(crate) const MANY_PEERS: Rule = Rule {
+    code: "SCL0710",
+    severity: Severity::Lint,
+    title: "very many connections at one gate",
+    explanation: "A gate has very many peers, and each costs time and memory for each message. The threshold is 32; `# \
+                  scl: warn(SCL0710, 64)` turns the check on for the file and sets another.",
+    example: "-# scl: warn(SCL0710, 1)
++# scl: warn(SCL0710, 64)
+ components:
+   - name: sensor
+     gates:
+       - measurements: pub
+   - name: display
+     gates:
+       - values: sub
+       - history: sub
+ connections:
+   - [sensor.measurements, display.values]
+   - [sensor.measurements, display.history]
+",
+};
+
+/// More peers than this are many, unless the file says another number.
+const MANY: u32 = 32;
+
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
+    let threshold = control::threshold(draft.model, &MANY_PEERS).unwrap_or(MANY);
     for (gate, links) in links_by_gate(draft).into_iter().enumerate() {
-        if links.len() < 2 {
-            continue;
-        }
-        match draft.gates[gate].kind {
-            Some(GateKind::Sub) => problems.push(several_publishers(draft, gate, &links)),
-            Some(GateKind::Req) => problems.push(several_repliers(draft, gate, &links)),
-            Some(GateKind::Push) if !draft.gates[gate].options.share => {
-                problems.push(several_pullers(draft, gate, &links));
-            }
+        let Some(kind) = draft.gates[gate].kind else { continue };
+        match kind {
+            _ if links.len() < 2 => {}
+            GateKind::Sub => problems.push(several_publishers(draft, gate, &links)),
+            GateKind::Req => problems.push(several_repliers(draft, gate, &links)),
+            GateKind::Push if !draft.gates[gate].options.share => problems.push(several_pullers(draft, gate, &links)),
             _ => {}
+        }
+        let count = links.len() as u32;
+        if count > threshold {
+            problems.push(many_peers(draft, gate, kind, count, threshold));
         }
     }
 }
@@ -112,7 +142,7 @@ fn several_publishers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) 
     let headline = format!("gate `{path}` subscribes to several publishers");
     let (first_owner, second_owner) = (draft.component_name(links[0].1), draft.component_name(links[1].1));
     let extra = format!("{second_owner}_{}", draft.gates[gate].model.name.value);
-    peers(&SEVERAL_PUBLISHERS, headline, draft, gate, links, |which, path| format!("{which} publisher: `{path}`"))
+    with_peers(&SEVERAL_PUBLISHERS, headline, draft, gate, links, |which, path| format!("{which} publisher: `{path}`"))
         .help(format!("declare a second gate: `- {extra}: sub`"))
         .help(format!(
             "if `{first_owner}` and `{second_owner}` are two implementations of one component, declare one component and \
@@ -129,7 +159,7 @@ fn several_repliers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) ->
     let headline = format!("gate `{}` asks {count} repliers", draft.path(gate));
     let name = &draft.gates[gate].model.name.value;
     let names = links.iter().map(|&(_, replier)| format!("{}_{name}", draft.component_name(replier)));
-    peers(&SEVERAL_REPLIERS, headline, draft, gate, links, |which, path| format!("{which} replier: `{path}`"))
+    with_peers(&SEVERAL_REPLIERS, headline, draft, gate, links, |which, path| format!("{which} replier: `{path}`"))
         .help(format!("declare one `req` gate for each replier: {}", listed(names)))
         .note(format!("with {count} repliers it is not defined who answers (ZeroMQ would alternate between them)"))
         .note("many requesters of one replier are allowed")
@@ -144,14 +174,14 @@ fn several_pullers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) -> 
     let headline = format!("gate `{path}` pushes to {count}, so each of them gets only a part of the messages");
     let name = &draft.gates[gate].model.name.value;
     let message = super::unconnected::type_text(draft, gate);
-    peers(&SEVERAL_PULLERS, headline, draft, gate, links, |which, _| format!("{which} receiver"))
+    with_peers(&SEVERAL_PULLERS, headline, draft, gate, links, |which, _| format!("{which} receiver"))
         .help("if both need every message, make the gates `pub` and `sub`")
         .help(format!("if the work is to be shared, say so: `{name}: {{push: {message}, share: true}}`"))
         .note("many pushers into one `pull` gate are allowed")
 }
 
 /// An error at the second peer, with a label on each of the others.
-fn peers(
+fn with_peers(
     rule: &'static Rule,
     headline: String,
     draft: &Draft<'_>,
@@ -167,10 +197,26 @@ fn peers(
     rule.at(headline, place(1), text(1)).labels(others.map(|at| (place(at), text(at))))
 }
 
+fn many_peers(draft: &Draft<'_>, gate: usize, kind: GateKind, count: u32, threshold: u32) -> Diagnostic {
+    let (peers, label) = match kind {
+        GateKind::Pub => ("subscribers", format!("each message is written {count} times")),
+        GateKind::Push => ("pullers", format!("the work is shared by {count}")),
+        GateKind::Sub => ("publishers", format!("the messages of {count} gates arrive here")),
+        GateKind::Pull => ("pushers", format!("the work of {count} gates arrives here")),
+        GateKind::Rep => ("requesters", format!("{count} gates wait for its answers")),
+        GateKind::Req => ("repliers", String::new()),
+    };
+    let headline = format!("gate `{}` has {count} {peers}", draft.path(gate));
+    let double = threshold.saturating_mul(2);
+    MANY_PEERS
+        .at(headline, draft.gates[gate].model.name.span, label)
+        .note(format!("threshold: {threshold}; set it with `# scl: warn(SCL0710, {double})`"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::{SEVERAL_PUBLISHERS, SEVERAL_PULLERS, SEVERAL_REPLIERS};
-    use crate::check::testing::rule_example;
+    use crate::check::testing::{problems, rule_example};
     use expect_test::expect;
 
     #[test]
@@ -231,5 +277,27 @@ mod tests {
                    = note: many pushers into one `pull` gate are allowed
             "#]],
         );
+    }
+
+    fn found(subscribers: usize, first_line: &str) -> Vec<String> {
+        let mut yaml = format!("{first_line}\ncomponents:\n  - name: hub\n    gates:\n      - x: pub\n");
+        (0..subscribers).for_each(|at| yaml.push_str(&format!("  - name: c{at}\n    gates:\n      - x: sub\n")));
+        yaml.push_str("connections:\n");
+        (0..subscribers).for_each(|at| yaml.push_str(&format!("  - [hub.x, c{at}.x]\n")));
+        let (found, _) = problems(&yaml, None);
+        found
+            .iter()
+            .filter(|found| found.code() == "SCL0710")
+            .map(|found| format!("{:?} {}", found.severity, found.message))
+            .collect()
+    }
+
+    #[test]
+    fn the_threshold_is_the_files() {
+        assert_eq!(found(32, "#"), [""; 0]);
+        assert_eq!(found(33, "#"), ["Lint gate `hub.x` has 33 subscribers"]);
+        assert_eq!(found(33, "# scl: warn(SCL0710)"), ["Warning gate `hub.x` has 33 subscribers"]);
+        assert_eq!(found(33, "# scl: warn(SCL0710, 33)"), [""; 0]);
+        assert_eq!(found(4, "# scl: warn(SCL0710, 3)"), ["Warning gate `hub.x` has 4 subscribers"]);
     }
 }

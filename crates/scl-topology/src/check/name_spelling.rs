@@ -1,0 +1,297 @@
+//! How names are spelt. SCL0303: a character that no name may contain: names become socket paths, Rust names and words
+//! of other languages. SCL0304: a letter outside of ASCII; the parser reports those that look like an ASCII letter.
+//! SCL0305: a name that starts with a digit or a hyphen, which no programming language can spell.
+
+use super::named::{Noun, is_allowed, may_start, names};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::model::Model;
+use crate::source::Spanned;
+
+pub(crate) use crate::parse::LETTER;
+
+/// SCL0303.
+pub(crate) const CHARACTERS: Rule = Rule {
+    code: "SCL0303",
+    severity: Severity::Error,
+    title: "invalid character in a name",
+    explanation: "Names become socket paths, Rust fields and names in other languages, so they consist of letters, \
+                  digits, `_` and `-`. A dot cannot be part of one, as it separates component and gate.",
+    example: " components:
+-  - name: gps sensor
++  - name: gps_sensor
++    gates: []
+",
+};
+
+pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
+    for (noun, name) in names(model) {
+        if let Some(what) = forbidden(&name.value) {
+            problems.push(wrong_character(noun, name, &what));
+        }
+        if let Some(letter) = name.value.chars().find(|&letter| is_foreign(letter)) {
+            problems.push(foreign_letter(noun, name, letter));
+        }
+        let first = name.value.chars().next();
+        let spelt = name.value.chars().all(is_allowed) && !name.value.contains("--");
+        if let Some(first) = first.filter(|&first| spelt && !may_start(first)) {
+            problems.push(wrong_start(noun, name, first));
+        }
+    }
+}
+
+/// What the name must not contain, in words.
+fn forbidden(name: &str) -> Option<String> {
+    if name.is_empty() || has_foreign_letter(name) {
+        return None;
+    }
+    match name.chars().find(|&letter| !is_allowed(letter)) {
+        Some(letter) => Some(described(letter)),
+        None => name.contains("--").then(|| "two hyphens in a row".to_owned()),
+    }
+}
+
+fn described(letter: char) -> String {
+    match letter {
+        ' ' => "a space".to_owned(),
+        '.' => "a dot".to_owned(),
+        '/' => "a slash".to_owned(),
+        ':' => "a colon".to_owned(),
+        '`' => "a backtick".to_owned(),
+        other if other.is_control() => format!("a control character (U+{:04X})", u32::from(other)),
+        other => format!("`{other}`"),
+    }
+}
+
+fn wrong_character(noun: Noun, name: &Spanned<String>, what: &str) -> Diagnostic {
+    let headline = format!("a {} name cannot contain {what}", noun.word());
+    let found = CHARACTERS.at(headline, name.span, "allowed: a-z A-Z 0-9 _ -");
+    let mended = mended(&name.value);
+    let found = if mended.is_empty() { found } else { found.help(format!("write `{mended}`")) };
+    match noun {
+        Noun::System => found,
+        _ if what.starts_with("two") => found.note("`--` separates the two ends in the name of a socket"),
+        _ => {
+            found.note("the dot separates component and gate in `component.gate`, so a name cannot contain one either")
+        }
+    }
+}
+
+/// The name with `_` for whatever is not allowed, none of them twice in a row or at an end.
+fn mended(name: &str) -> String {
+    let words = name.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    words.collect::<Vec<_>>().join("_")
+}
+
+/// How people write these letters where a keyboard lacks them.
+const TRANSLITERATIONS: [(&str, &str); 22] = [
+    ("ä", "ae"),
+    ("ö", "oe"),
+    ("ü", "ue"),
+    ("Ä", "Ae"),
+    ("Ö", "Oe"),
+    ("Ü", "Ue"),
+    ("ß", "ss"),
+    ("æ", "ae"),
+    ("ø", "oe"),
+    ("åàáâã", "a"),
+    ("éèêë", "e"),
+    ("íìîï", "i"),
+    ("óòôõ", "o"),
+    ("úùû", "u"),
+    ("çćč", "c"),
+    ("ñńň", "n"),
+    ("šś", "s"),
+    ("žźż", "z"),
+    ("ýÿ", "y"),
+    ("ł", "l"),
+    ("ř", "r"),
+    ("µμ", "u"),
+];
+
+fn has_foreign_letter(name: &str) -> bool {
+    name.chars().any(is_foreign)
+}
+
+fn is_foreign(letter: char) -> bool {
+    !letter.is_ascii() && letter.is_alphabetic()
+}
+
+fn foreign_letter(noun: Noun, name: &Spanned<String>, letter: char) -> Diagnostic {
+    let code = u32::from(letter);
+    let headline = format!(
+        "{} name `{}` contains the letter `{letter}` (U+{code:04X}), which is not ASCII",
+        noun.word(),
+        name.value
+    );
+    let found = LETTER.at(&*headline, name.span, "allowed: a-z A-Z 0-9 _ -").about(&*headline);
+    let found = match retyped(&name.value) {
+        Some(ascii) => found.help(format!("write `{ascii}`")),
+        None => found.help("write the name in ASCII letters"),
+    };
+    found.note("names are ASCII, so that the file, the socket paths and all language bindings agree")
+}
+
+/// The name in ASCII, if each of its letters has a usual replacement.
+fn retyped(name: &str) -> Option<String> {
+    let mut out = String::new();
+    for letter in name.chars() {
+        match letter.is_ascii() {
+            true => out.push(letter),
+            false => out.push_str(TRANSLITERATIONS.iter().find(|(from, _)| from.contains(letter))?.1),
+        }
+    }
+    Some(out)
+}
+
+/// SCL0305.
+pub(crate) const START: Rule = Rule {
+    code: "SCL0305",
+    severity: Severity::Error,
+    title: "name starts with the wrong character",
+    explanation: "A name starts with a letter or `_`, as in every programming language that will use it. Put a word \
+                  first.",
+    example: " components:
+-  - name: 2nd_sensor
++  - name: second_sensor
++    gates: []
+",
+};
+
+const ORDINALS: [(&str, &str); 9] = [
+    ("1st", "first"),
+    ("2nd", "second"),
+    ("3rd", "third"),
+    ("4th", "fourth"),
+    ("5th", "fifth"),
+    ("6th", "sixth"),
+    ("7th", "seventh"),
+    ("8th", "eighth"),
+    ("9th", "ninth"),
+];
+
+fn wrong_start(noun: Noun, name: &Spanned<String>, first: char) -> Diagnostic {
+    let headline = format!("a {} name must start with a letter", noun.word());
+    let start = if first == '-' { "starts with a hyphen" } else { "starts with a digit" };
+    let found = START.at(headline, name.span, start);
+    match alternatives(&name.value) {
+        Some(ways) => found.help(format!("for example {ways}")),
+        None => found.help("put a word before it"),
+    }
+}
+
+/// `2nd_sensor` could be `second_sensor` or `sensor_2`.
+fn alternatives(name: &str) -> Option<String> {
+    let digits: String = name.chars().take_while(char::is_ascii_digit).collect();
+    let ordinal = ORDINALS.iter().find(|(short, _)| name.starts_with(short));
+    let rest = ordinal.map_or(&name[digits.len()..], |(short, _)| &name[short.len()..]);
+    let rest = rest.trim_matches(['_', '-']);
+    let moved = match (rest.is_empty(), digits.is_empty()) {
+        (true, _) => return None,
+        (false, true) => format!("`{rest}`"),
+        (false, false) => format!("`{rest}_{digits}`"),
+    };
+    Some(match ordinal {
+        Some((_, word)) => format!("`{word}_{rest}` or {moved}"),
+        None => moved,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CHARACTERS, LETTER, START};
+    use crate::check::testing::{advice, rule_example};
+    use expect_test::expect;
+
+    #[test]
+    fn invalid_character_in_a_name() {
+        rule_example(
+            &CHARACTERS,
+            expect![[r#"
+            error: [SCL0303] a component name cannot contain a space
+             --> topology.yaml:2:11
+              |
+            2 |   - name: gps sensor
+              |           ^^^^^^^^^^ allowed: a-z A-Z 0-9 _ -
+              |
+              = help: write `gps_sensor`
+              = note: the dot separates component and gate in `component.gate`, so a name cannot contain one either
+        "#]],
+        );
+    }
+
+    #[test]
+    fn other_characters() {
+        let names = ["a.b", "a/b", "a--b", "a+b!", "a:b"];
+        let advice = |name: &str| advice(&format!("components:\n  - name: '{name}'\n    gates: []\n"));
+        let told: String = names.iter().map(|name| format!("{}\n", advice(name))).collect();
+        expect![[r#"
+            SCL0303 a component name cannot contain a dot [write `a_b`]
+            SCL0303 a component name cannot contain a slash [write `a_b`]
+            SCL0303 a component name cannot contain two hyphens in a row [write `a_b`]
+            SCL0303 a component name cannot contain `+` [write `a_b`]
+            SCL0303 a component name cannot contain a colon [write `a_b`]
+        "#]]
+        .assert_eq(&told);
+    }
+
+    #[test]
+    fn look_alike_character_in_a_name() {
+        rule_example(
+            &LETTER,
+            expect![[r#"
+            error: [SCL0304] component name `sеnsor` contains the Cyrillic letter `е` (U+0435), which looks like `e`
+             --> topology.yaml:2:11
+              |
+            2 |   - name: sеnsor
+              |           ^^^^^^ not the Latin `e`
+              |
+              = help: retype the name in ASCII: `sensor`
+              = note: names are ASCII, so that the file, the socket paths and all language bindings agree
+        "#]],
+        );
+    }
+
+    #[test]
+    fn other_letters_have_usual_replacements() {
+        let names = ["höhensensor", "Größe", "φ", "cafés", "αx"];
+        let advice = |name: &str| advice(&format!("components:\n  - name: {name}\n    gates: []\n"));
+        let told: String = names.iter().map(|name| format!("{}\n", advice(name))).collect();
+        expect![[r#"
+            SCL0304 component name `höhensensor` contains the letter `ö` (U+00F6), which is not ASCII [write `hoehensensor`]
+            SCL0304 component name `Größe` contains the letter `ö` (U+00F6), which is not ASCII [write `Groesse`]
+            SCL0304 component name `φ` contains the letter `φ` (U+03C6), which is not ASCII [write the name in ASCII letters]
+            SCL0304 component name `cafés` contains the letter `é` (U+00E9), which is not ASCII [write `cafes`]
+            SCL0304 component name `αx` contains the Greek letter `α` (U+03B1), which looks like `a` [retype the name in ASCII: `ax`]
+        "#]].assert_eq(&told);
+    }
+
+    #[test]
+    fn name_starts_with_the_wrong_character() {
+        rule_example(
+            &START,
+            expect![[r#"
+            error: [SCL0305] a component name must start with a letter
+             --> topology.yaml:2:11
+              |
+            2 |   - name: 2nd_sensor
+              |           ^^^^^^^^^^ starts with a digit
+              |
+              = help: for example `second_sensor` or `sensor_2`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn other_starts() {
+        let names = ["3sensors", "4", "-left", "1st-row"];
+        let advice = |name: &str| advice(&format!("components:\n  - name: '{name}'\n    gates: []\n"));
+        let told: String = names.iter().map(|name| format!("{}\n", advice(name))).collect();
+        expect![[r#"
+            SCL0305 a component name must start with a letter [for example `sensors_3`]
+            SCL0305 a component name must start with a letter [put a word before it]
+            SCL0305 a component name must start with a letter [for example `left`]
+            SCL0305 a component name must start with a letter [for example `first_row` or `row_1`]
+        "#]]
+        .assert_eq(&told);
+    }
+}
