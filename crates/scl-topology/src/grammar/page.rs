@@ -120,68 +120,58 @@ fn of_codec(row: &'static CodecRow) -> Entry {
 }
 
 fn key_table(keys: &[Key]) -> String {
-    let mut table = "| key | value | default | meaning |\n|---|---|---|---|\n".to_owned();
-    for key in keys {
+    let rows = keys.iter().map(|key| {
         let default = if key.is_required { "required" } else { key.default };
         let meaning = format!("{} {}", key.summary, key.text);
-        table.push_str(&row(&[&format!("`{}`", key.key), &key.shape.values(), default, meaning.trim_end()]));
-    }
-    table.trim_end().to_owned()
+        row(&[&format!("`{}`", key.key), &key.shape.values(), default, meaning.trim_end()])
+    });
+    table(&["key", "value", "default", "meaning"], rows)
 }
 
 fn kind_table() -> String {
-    let mut table = "| kind | other end | what it does | connects to |\n|---|---|---|---|\n".to_owned();
-    for kind in GateKind::ALL {
+    let rows = GateKind::ALL.into_iter().map(|kind| {
         let facts = KindRow::of(kind);
         let [word, other] = [kind.word(), kind.opposite().word()].map(|word| format!("`{word}`"));
-        table.push_str(&row(&[&word, &other, facts.summary, facts.peers]));
-    }
-    table.trim_end().to_owned()
+        row(&[&word, &other, facts.summary, facts.peers])
+    });
+    table(&["kind", "other end", "what it does", "connects to"], rows)
 }
 
 fn option_table() -> String {
-    let mut table = "| option | gates | value | default | meaning |\n|---|---|---|---|---|\n".to_owned();
-    for option in &OPTIONS {
+    let rows = OPTIONS.iter().map(|option| {
         let key = option.key;
-        let words = option.kinds.iter().map(|kind| format!("`{}`", kind.word()));
-        let kinds = if option.kinds.len() == GateKind::ALL.len() {
-            "all".to_owned()
-        } else {
-            words.collect::<Vec<_>>().join(", ")
-        };
+        let words: Vec<String> = option.kinds.iter().map(|kind| format!("`{}`", kind.word())).collect();
+        let kinds = if words.len() == GateKind::ALL.len() { "all".to_owned() } else { words.join(", ") };
         let default = option.default().map_or(String::new(), |default| format!("`{default}`"));
-        table.push_str(&row(&[
-            &format!("[`{key}`](#{key})"),
-            &kinds,
-            &option.shape.values(),
-            &default,
-            option.summary,
-        ]));
-    }
-    table.trim_end().to_owned()
+        row(&[&format!("[`{key}`](#{key})"), &kinds, &option.shape.values(), &default, option.summary])
+    });
+    table(&["option", "gates", "value", "default", "meaning"], rows)
 }
 
 fn policy_table() -> String {
-    let mut table = "| `when_full` | a full queue | when to choose it |\n|---|---|---|\n".to_owned();
-    for policy in &POLICIES {
+    let rows = POLICIES.iter().map(|policy| {
         let is_default = if policy.word == WhenFull::default().word() { " (default)" } else { "" };
-        table.push_str(&row(&[&format!("`{}`{is_default}", policy.word), policy.summary, policy.text]));
-    }
-    table.trim_end().to_owned()
+        row(&[&format!("`{}`{is_default}", policy.word), policy.summary, policy.text])
+    });
+    table(&["`when_full`", "a full queue", "when to choose it"], rows)
 }
 
 fn codec_table() -> String {
-    let mut table = "| codec and feature | messages | when to choose it |\n|---|---|---|\n".to_owned();
-    for codec in Codec::BUILT_IN.iter().filter_map(Codec::row) {
+    let rows = Codec::BUILT_IN.iter().filter_map(Codec::row).map(|codec| {
         let mark = if codec.is_default_feature { " *" } else { "" };
-        table.push_str(&row(&[&format!("`{}`{mark}", codec.word), codec.messages, codec.summary]));
-    }
-    table.trim_end().to_owned()
+        row(&[&format!("`{}`{mark}", codec.word), codec.messages, codec.summary])
+    });
+    table(&["codec and feature", "messages", "when to choose it"], rows)
+}
+
+fn table(head: &[&str], rows: impl Iterator<Item = String>) -> String {
+    let rows: Vec<String> = rows.collect();
+    format!("{}\n|{}\n{}", row(head), "---|".repeat(head.len()), rows.join("\n"))
 }
 
 fn row(cells: &[&str]) -> String {
     let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
-    format!("| {} |\n", cells.join(" | ").replace("  ", " "))
+    format!("| {} |", cells.join(" | ").replace("  ", " "))
 }
 
 fn example_type(kind: GateKind) -> &'static str {
