@@ -1,6 +1,6 @@
 //! What runs already of what is to be started: a component runs once, and a build only to find that out takes long.
 
-use super::control::{Command, NoAnswer, Request, VERSION, find_runs};
+use super::control::{Command, NoAnswer, Request, find_runs};
 use super::plan::RunPlan;
 use scl::runtime_dir::{ComponentState, RuntimeDir};
 use scl_terminal::{Problem, quoted_list};
@@ -16,8 +16,7 @@ pub(crate) fn check(plan: &RunPlan) -> Result<(), Problem> {
     let Ok(Some(dir)) = RuntimeDir::existing(&|name| std::env::var_os(name)) else { return Ok(()) };
     let names: Vec<&str> = plan.programs().map(|component| component.name.as_str()).collect();
     for run in find_runs(dir.path(), Some(system)).iter().filter(|run| run.process != std::process::id()) {
-        let request = Request { version: VERSION, command: Command::List, components: Vec::new() };
-        let response = match run.ask(&request) {
+        let response = match run.ask(&Request::new(Command::List, Vec::new())) {
             Ok(response) => response,
             Err(NoAnswer::Ended) => continue,
             Err(error) => return Err(run.problem(&error)),

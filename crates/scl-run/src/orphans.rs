@@ -6,9 +6,8 @@ use super::family::{kill_all, relatives};
 use super::process_stat::{children, running_processes};
 use rustix::process::{Pid, WaitOptions, getpid, set_child_subreaper, waitpid};
 use signal_hook::consts::SIGCHLD;
-use signal_hook::low_level::pipe;
-use std::io::{self, Read};
-use std::os::unix::net::UnixStream;
+use signal_hook::iterator::Signals;
+use std::io;
 use std::process::{Child, Command};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
@@ -47,10 +46,9 @@ pub(crate) fn wait(child: &mut Child) {
 /// If the operating system provides no file descriptors or no thread.
 pub(crate) fn adopt() -> io::Result<()> {
     set_child_subreaper(Some(getpid()))?;
-    let (mut ended, signal) = UnixStream::pair()?;
-    pipe::register(SIGCHLD, signal)?;
+    let mut ended = Signals::new([SIGCHLD])?;
     thread::Builder::new().spawn(move || {
-        while matches!(ended.read(&mut [0; 1024]), Ok(1..)) {
+        for _ in ended.forever() {
             reap();
             thread::sleep(PAUSE);
         }

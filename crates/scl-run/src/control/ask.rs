@@ -1,7 +1,7 @@
 //! `scl stop` and `scl restart`: finds the `scl run` of each component, asks it, and waits until it is done.
 
 use super::client::{ControlledRun, NoAnswer, find_runs};
-use super::protocol::{Command, ComponentReport, Request, Response, VERSION};
+use super::protocol::{Command, ComponentReport, Request, Response};
 use scl::runtime_dir::{Announcement, ComponentProcess, ComponentState, RuntimeDir, SystemDir};
 use scl_terminal::{Problem, choose_system, named_system, quoted_list};
 use std::collections::BTreeSet;
@@ -125,7 +125,7 @@ fn build(requests: &[(ControlledRun, Request)]) -> Result<(), Problem> {
 fn list(runs: Vec<ControlledRun>, problems: &mut Vec<Problem>) -> Vec<Answering> {
     let mut answering = Vec::new();
     for run in runs {
-        match run.ask(&request(Command::List, &[])) {
+        match run.ask(&Request::new(Command::List, Vec::new())) {
             Ok(response) => {
                 answering.push(Answering { run, named_after: response.named_after, components: response.components })
             }
@@ -156,10 +156,6 @@ fn without_run(name: &str, holder: ComponentProcess, command: Command) -> Proble
     }
 }
 
-fn request(command: Command, components: &[&str]) -> Request {
-    Request { version: VERSION, command, components: components.iter().map(|name| (*name).to_owned()).collect() }
-}
-
 /// Which run is asked for what.
 fn assign(
     wish: &Wish<'_>,
@@ -170,14 +166,14 @@ fn assign(
         if runs.is_empty() {
             return Err(vec![no_run(wish, folder)]);
         }
-        return Ok(runs.into_iter().map(|it| (it.run, request(wish.command, &[]))).collect());
+        return Ok(runs.into_iter().map(|it| (it.run, Request::new(wish.command, Vec::new()))).collect());
     }
-    let mut chosen: Vec<Vec<&str>> = vec![Vec::new(); runs.len()];
+    let mut chosen: Vec<Vec<String>> = vec![Vec::new(); runs.len()];
     let mut problems = Vec::new();
     for name in wish.components {
         match run_of(name, &runs) {
-            Some(index) if chosen[index].contains(&name.as_str()) => {}
-            Some(index) => chosen[index].push(name),
+            Some(index) if chosen[index].contains(name) => {}
+            Some(index) => chosen[index].push(name.clone()),
             None => problems.push(not_run(wish, name, &runs, folder)),
         }
     }
@@ -185,7 +181,7 @@ fn assign(
         return Err(problems);
     }
     let asked = runs.into_iter().zip(chosen).filter(|(_, names)| !names.is_empty());
-    Ok(asked.map(|(it, names)| (it.run, request(wish.command, &names))).collect())
+    Ok(asked.map(|(it, names)| (it.run, Request::new(wish.command, names))).collect())
 }
 
 /// The run that has a component: one where it has a process, if any.

@@ -2,7 +2,7 @@
 
 use super::super::own_file::{connect, process_of, sockets_in};
 use super::super::process_stat::ProcessStat;
-use super::protocol::{Command, Request, Response, VERSION};
+use super::protocol::{Command, Request, Response};
 use rustix::process::Pid;
 use scl_terminal::Problem;
 use std::fs;
@@ -152,14 +152,11 @@ impl ControlledRun {
         match (began.elapsed() >= PATIENCE, command) {
             (false, _) => Ok(()),
             (true, Command::List) => Err(NoAnswer::Silent),
-            (true, _) => {
-                let request = Request { version: VERSION, command: Command::List, components: Vec::new() };
-                match self.ask(&request) {
-                    Err(error @ (NoAnswer::Silent | NoAnswer::Stopped)) => Err(error),
-                    // Its end ends the first connection, too.
-                    _ => Ok(()),
-                }
-            }
+            (true, _) => match self.ask(&Request::new(Command::List, Vec::new())) {
+                Err(error @ (NoAnswer::Silent | NoAnswer::Stopped)) => Err(error),
+                // Its end ends the first connection, too.
+                _ => Ok(()),
+            },
         }
     }
 

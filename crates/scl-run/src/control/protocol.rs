@@ -108,6 +108,11 @@ impl BuildCommand {
 }
 
 impl Request {
+    /// A request of this version; about all components if none is named.
+    pub fn new(command: Command, components: Vec<String>) -> Self {
+        Self { version: VERSION, command, components }
+    }
+
     /// Reads a line.
     ///
     /// # Errors
