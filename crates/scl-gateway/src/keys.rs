@@ -1,4 +1,4 @@
-//! Certificates: by them the gateways of a system know each other, and nobody else is let in.
+//! Certificates, by which the gateways of a system authenticate each other and refuse all others.
 //!
 //! ```text
 //! keys/authority/certificate.pem, key.pem                  stay where they were made: they sign certificates

@@ -4,7 +4,6 @@
 //! folder of this host, and has one task per route that carries messages or requests, see `pump`. It needs a
 //! tokio runtime, of which a current-thread one is enough; no task ever blocks.
 
-mod announcing;
 mod mirroring;
 mod neighbours;
 mod routes;
@@ -14,7 +13,6 @@ pub use crate::pump::Counts;
 use crate::route::Route;
 use crate::slot::Slot;
 use crate::wire::{Announced, Wire};
-use announcing::announce;
 use mirroring::{Remote, mirror};
 use scl::TransportKind;
 use scl::bridge::{Change, Mirror, Presence};
@@ -68,7 +66,7 @@ impl Gateway {
                 let (slot, (sender, receiver)) = (Slot::<Announced>::new(), mpsc::unbounded_channel());
                 runs.insert(component.clone(), slot.view());
                 changes.insert(component.clone(), sender);
-                tasks.spawn(announce(Arc::clone(&wire), receiver, slot));
+                tasks.spawn(neighbours::announce(Arc::clone(&wire), receiver, slot));
             } else {
                 let (slot, (sender, receiver)) = (Slot::<Mirror>::new(), mpsc::unbounded_channel());
                 mirrors.insert(component.clone(), slot.view());
@@ -91,8 +89,8 @@ impl Gateway {
         &self.routes
     }
 
-    /// Ends the gateway: what is on its way is delivered if that takes no longer than a second or two, components of other
-    /// hosts vanish from the runtime folder, and the other hosts are told. What each route has carried is logged.
+    /// Ends the gateway: what is on its way is delivered if that takes no longer than a second or two, components of
+    /// other hosts vanish from the runtime folder, and the other hosts are told. What each route has carried is logged.
     pub async fn close(mut self) {
         self.stop.send_replace(true);
         let all_done = async { while self.pumps.join_next().await.is_some() {} };

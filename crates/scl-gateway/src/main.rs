@@ -2,7 +2,6 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod check;
-mod descriptors;
 mod files;
 mod log;
 mod make_keys;

@@ -14,7 +14,7 @@
 //!
 //! ```text
 //!          the far end is matched and shown here, the publisher runs
-//!   closed ───────────────────────────────────────────────────────────▶ open    takes messages while the window has room
+//!   closed ───────────────────────────────────────────────────────────▶ open    takes what fits into the window
 //!     ▲                                                                  │
 //!     │ everything on its way          unmatched, another far component, │
 //!     │ is taken, or 1 s is over       a new receiver, the gateway ends  ▼
@@ -32,8 +32,8 @@
 //!     └───────────────────────────────────────────────┴─────────────────────────────────────────────┘
 //! ```
 //!
-//! Each message is counted once: sent = settled + unacknowledged where messages leave, arrived = handed over + queued where
-//! they arrive, and what is acknowledged is never more than what was sent.
+//! Each message is counted once: sent = settled + unacknowledged where messages leave, arrived = handed over + queued
+//! where they arrive, and what is acknowledged is never more than what was sent.
 
 mod counts;
 mod local_end;
@@ -63,9 +63,9 @@ use tokio::sync::watch;
 pub(crate) struct Pump<W, S> {
     route: Route,
     wire: W,
-    /// The far component, in whose place the local end is opened; `None` for one that is nobody in particular.
+    /// The far component, in whose place the local end is opened; `None` where any component may connect.
     mirror: Option<View<Mirror>>,
-    /// The component here; `None` for components that connect to the local end, whoever they are.
+    /// The component here; `None` where any component may connect.
     component: Option<View<Announced>>,
     transport: Arc<ZeroMq>,
     counts: Arc<Counts>,
@@ -102,8 +102,8 @@ where
         Self { route, wire, mirror, component, transport, counts, matched, attempts, stopping, state }
     }
 
-    /// Runs until the gateway ends. Then what is on its way from components here is taken, what has arrived for them is handed
-    /// over, and what the far side does not acknowledge soon is left unacknowledged here, too.
+    /// Runs until the gateway ends. Then what is on its way from components here is taken, what has arrived for them is
+    /// handed over, and what the far side does not acknowledge soon is left unacknowledged here, too.
     pub(crate) async fn run(mut self, mut stop: watch::Receiver<bool>) {
         let (mut mirror, mut component) = (self.mirror.clone(), self.component.clone());
         loop {
@@ -126,7 +126,7 @@ where
     }
 }
 
-/// Waits until what runs has changed; forever, if the route depends on nobody. Returns false when the gateway ends.
+/// Waits until a component has started or ended; forever without a view. Returns false when the gateway ends.
 async fn changed_if_any<T>(view: &mut Option<View<T>>) -> bool {
     match view {
         Some(view) => view.changed().await.is_ok(),

@@ -1,10 +1,10 @@
 //! `scl gateway run`: the gateway of a host, until it is told to stop.
 
-use crate::descriptors;
 use crate::files::{FileArguments, check_certificates, find_host, show};
 use crate::log;
 use crate::one_thread;
 use clap::Args;
+use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
 use scl::host::{tell_service_manager, text_with_causes};
 use scl::runtime_dir::{RuntimeDir, SystemDir};
 use scl::{TransportChoice, TransportKind};
@@ -45,7 +45,7 @@ pub(crate) fn run(arguments: &RunArguments) -> ExitCode {
 fn try_run(arguments: &RunArguments) -> Option<()> {
     shown(one_thread::ensure())?;
     shown(log::start())?;
-    descriptors::raise_limit();
+    raise_descriptor_limit();
     let system = arguments.files.load()?;
     let host = find_host(&system, &arguments.host)?;
     let certificates = check_certificates(&system, host).ok()?;
@@ -96,6 +96,15 @@ fn wire_options(system: &System, host: &Host, files: Option<HostFiles>, routes: 
     }
 }
 
+/// Raises the limit of open files as far as this program may. Each connection of a component takes a descriptor, and so
+/// does each link.
+fn raise_descriptor_limit() {
+    let limit = getrlimit(Resource::Nofile);
+    if let Err(error) = setrlimit(Resource::Nofile, Rlimit { current: limit.maximum, ..limit }) {
+        tracing::debug!(%error, ?limit, "cannot raise the limit of open files");
+    }
+}
+
 /// The folder where the components of this host meet.
 fn system_dir(arguments: &RunArguments, system: &System) -> Result<SystemDir, Problem> {
     let own = arguments.runtime_dir.as_ref().map(|folder| folder.clone().into_os_string());
@@ -109,8 +118,8 @@ fn system_dir(arguments: &RunArguments, system: &System) -> Result<SystemDir, Pr
     dir.map_err(|error| Problem::new(text_with_causes(&error)))
 }
 
-/// What the ends listen on that stand in for components of other hosts. What is chosen for single gates, and shared memory,
-/// does not concern connections to other hosts.
+/// What the ends listen on that stand in for components of other hosts. What is chosen for single gates, and shared
+/// memory, does not concern connections to other hosts.
 fn transport_kind() -> Result<TransportKind, Problem> {
     let value = std::env::var_os("SCL_TRANSPORT").unwrap_or_default();
     let choice = match &*value.to_string_lossy() {

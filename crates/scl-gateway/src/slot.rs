@@ -1,4 +1,4 @@
-//! A value that several tasks use, and that is replaced only when all of them have let go of it.
+//! A value that several tasks use, and that is replaced only when all of them have dropped it.
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -11,7 +11,7 @@ pub(crate) struct Slot<T> {
     gone: Option<oneshot::Receiver<()>>,
 }
 
-/// The value, which exists as long as somebody has this.
+/// A handle of the value, which exists until the last handle is dropped.
 #[derive(Debug)]
 pub(crate) struct Held<T>(Arc<Inner<T>>);
 
@@ -83,7 +83,7 @@ mod tests {
     use std::task::Poll;
 
     #[tokio::test]
-    async fn a_value_is_replaced_only_when_nobody_has_it_any_more() {
+    async fn a_value_is_replaced_after_its_last_handle_is_dropped() {
         let mut slot = Slot::new();
         let view = slot.view();
         slot.put(1);

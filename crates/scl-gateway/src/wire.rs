@@ -1,10 +1,10 @@
 //! The wire: everything between two gateways. It knows routes and bytes, but neither components' sockets nor files of
 //! the runtime folder.
 //!
-//! Every handle ([`WireSender`], [`WireReceiver`], [`WireRequester`], [`WireReplier`], [`Announced`]) is `Send` and belongs
-//! to one task. Nothing here blocks: commands go through a channel to a plain thread, which makes all calls of the network
-//! library, and events come back through one queue per handle, which wakes the task that polled last. The `poll_*`
-//! functions set timers and so need a tokio runtime with time enabled.
+//! Every handle ([`WireSender`], [`WireReceiver`], [`WireRequester`], [`WireReplier`], [`Announced`]) is `Send` and
+//! belongs to one task. Nothing here blocks: commands go through a channel to a plain thread, which makes all calls of
+//! the network library, and events come back through one queue per handle, which wakes the task that polled last. The
+//! `poll_*` functions set timers and so need a tokio runtime with time enabled.
 
 mod access;
 mod announcement;
@@ -17,7 +17,6 @@ mod header;
 mod keys;
 mod lane;
 mod link;
-mod mail;
 mod mailbox;
 mod neighbour;
 mod options;
@@ -76,8 +75,8 @@ impl Wire {
     /// # Errors
     ///
     /// Fails if an address is malformed, without TLS on an address that is not loopback, if a file of the certificates
-    /// cannot be used, or if the address is taken. A second gateway of the same host, here or elsewhere, is found when both
-    /// are connected to one network: see [`Neighbour::Refused`].
+    /// cannot be used, or if the address is taken. A second gateway of the same host, here or elsewhere, is found when
+    /// both are connected to one network: see [`Neighbour::Refused`].
     pub async fn open(options: WireOptions) -> Result<Wire, WireError> {
         let failed = |reason: String| WireError::Start { host: options.host.clone(), reason };
         let config = config::config(&options)?;
@@ -154,7 +153,7 @@ impl Drop for Wire {
     }
 }
 
-/// A number that nobody else has. Not for secrets.
+/// A unique number; not cryptographically random.
 fn random() -> u64 {
     RandomState::new().build_hasher().finish()
 }

@@ -25,7 +25,7 @@ pub(super) fn replace(folder: &Path, files: &[(&str, &str)]) -> io::Result<()> {
         file.sync_all()?;
     }
     match fs::rename(folder, &old) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
         _ => fs::rename(&new, folder).inspect_err(|_| _ = fs::rename(&old, folder)),
     }
 }

@@ -1,11 +1,13 @@
-//! What the other hosts run, passed on to the tasks that show it here, and the log of hosts that come and go.
+//! What the other hosts and this one tell each other of what they run, and the log of hosts that come and go.
 
 use super::mirroring::Remote;
-use crate::wire::{Neighbour, Wire};
+use crate::slot::Slot;
+use crate::wire::{Announced, Neighbour, Wire};
+use scl::bridge::Change;
 use std::collections::HashMap;
 use std::future::poll_fn;
 use std::sync::Arc;
-use tokio::sync::mpsc::UnboundedSender;
+use tokio::sync::mpsc::{UnboundedReceiver, UnboundedSender};
 
 /// Follows the other hosts until the gateway ends.
 pub(super) async fn follow(wire: Arc<Wire>, remotes: HashMap<String, UnboundedSender<Remote>>) {
@@ -22,6 +24,25 @@ pub(super) async fn follow(wire: Arc<Wire>, remotes: HashMap<String, UnboundedSe
             Neighbour::Disconnected { host } => tracing::warn!("host `{host}` is not connected any more"),
             Neighbour::Mismatch { text, .. } => tracing::warn!("{text}"),
             Neighbour::Refused { text } => tracing::error!("{text}"),
+        }
+    }
+}
+
+/// Announces the runs of a component, one after the other. As long as a route still carries what a run has sent, it
+/// holds the announcement, so the component counts as running for other hosts.
+pub(super) async fn announce(wire: Arc<Wire>, mut changes: UnboundedReceiver<Change>, mut run: Slot<Announced>) {
+    while let Some(change) = changes.recv().await {
+        match change {
+            Change::Started { component, profile } => {
+                run.clear().await;
+                tracing::info!("component `{component}` has started; announcing it to the other hosts");
+                run.put(wire.announce(&component, profile.to_bytes()));
+            }
+            Change::Stopped { component } => {
+                tracing::info!("component `{component}` has stopped");
+                run.clear().await;
+            }
+            Change::Removed => {}
         }
     }
 }

@@ -14,8 +14,8 @@ use tokio::task::JoinSet;
 
 type Views<T> = HashMap<String, View<T>>;
 
-/// Starts the routes that begin or end at this host, and returns their tasks, keys and counts. A route of a component that
-/// is on no host cannot exist, and is left out.
+/// Starts the routes that begin or end at this host, and returns their tasks, keys and counts. A route of a component
+/// that is on no host cannot exist, and is left out.
 pub(super) fn start(
     options: &GatewayOptions,
     wire: &Wire,
@@ -78,7 +78,7 @@ impl Start<'_> {
     }
 }
 
-/// `Some(None)` for an end that is no component in particular.
+/// `Some(None)` for an end at which any component may connect.
 fn optional<T>(end: &RouteEnd, views: &Views<T>) -> Option<Option<View<T>>> {
     match &end.component {
         Some(component) => views.get(component).cloned().map(Some),

@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Counts of one route since the gateway started.
 #[derive(Debug, Default)]
 pub struct Counts {
-    /// Messages that the far component has taken, where they leave; messages that the component here has taken, where they
-    /// arrive; replies.
+    /// Messages that the far component has taken, where they leave; messages that the component here has taken, where
+    /// they arrive; replies.
     carried: AtomicU64,
     /// Messages taken from a component here, of which it is unknown whether the far component has taken them.
     given_up: AtomicU64,

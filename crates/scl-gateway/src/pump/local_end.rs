@@ -20,8 +20,8 @@ const MESSAGES: u64 = crate::wire::WINDOW_MESSAGES as u64;
 /// How many messages a pump carries before other tasks get their turn.
 pub(super) const BATCH: usize = 64;
 
-/// Most requests of a route that wait for their replies. When there are more, the oldest are given up: their requesters have
-/// long since stopped waiting.
+/// Most requests of a route that wait for their replies. When there are more, the oldest are given up: their requesters
+/// have long since stopped waiting.
 pub(super) const MOST_OPEN: usize = 4096;
 
 /// How much a sending component may have unacknowledged on this route.

@@ -13,15 +13,15 @@ use std::time::{Duration, Instant};
 /// For how long the component here may take what has arrived, after the far one has ended.
 const DRAIN_LIMIT: Duration = Duration::from_secs(1);
 
-/// For how long a message may stay unacknowledged although nothing follows it. Short enough for figures, and for little to be
-/// given up if this gateway is killed; long enough to cost nothing.
+/// For how long a message may stay unacknowledged although nothing follows it. Short enough for figures, and for little
+/// to be given up if this gateway is killed; long enough to cost nothing.
 const IDLE_LIMIT: Duration = Duration::from_millis(200);
 
 /// Carries the messages of a route from the wire to the receiving component of this host.
 #[derive(Default)]
 pub(crate) struct Receiving {
-    /// Whether the far side sees this one: since the component has connected. What is not acknowledged then is known to be
-    /// missing, so it stays so while only the link between the hosts is lost.
+    /// Whether the far side sees this one: since the component has connected. What is not acknowledged then is known to
+    /// be missing, so it stays so while only the link between the hosts is lost.
     open: bool,
     local: Option<Local>,
     /// Messages that the component has not taken from this gateway.
@@ -213,7 +213,8 @@ impl Pump<WireReceiver, Receiving> {
         link.send_all(cx, driven, queue, &mut |length| count(handed, length));
     }
 
-    /// Asks the component to acknowledge when half of the window is on its way, at a flush, and before the end is closed.
+    /// Asks the component to acknowledge when half of the window is on its way, at a flush, and before the end is
+    /// closed.
     fn ask(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
         let window = window(&self.route);

@@ -18,8 +18,8 @@ const DRAIN_LIMIT: Duration = Duration::from_secs(2);
 /// Carries the messages of a route from components of this host to the wire.
 #[derive(Default)]
 pub(crate) struct Sending {
-    /// The publisher's run that the far host knows, and for how long still after it has ended: as long as this exists, the
-    /// publisher counts as running for other hosts.
+    /// The publisher's run that the far host knows, and for how long still after it has ended: as long as this exists,
+    /// the publisher counts as running for other hosts.
     run: Option<Held<Announced>>,
     draining: Timer,
     local: Option<Local>,
@@ -30,7 +30,7 @@ pub(crate) struct Sending {
     told: u64,
     /// The last message that the far side was asked to acknowledge.
     asked: u64,
-    /// What a latched publisher is told of the far component: another end when that has to get the last message.
+    /// Identifies the far component to a latched publisher; replaced when that has to receive the last message.
     resumed: Option<Resumed>,
     /// Whether the far component has started and got no message since.
     wants_last: bool,
@@ -90,7 +90,8 @@ impl Pump<WireSender, Sending> {
         debug_assert!(settled <= told && told <= sent, "{settled} settled, {told} acknowledged, {sent} sent");
     }
 
-    /// A latched publisher sends its last message to the far component, which has just started, unless that is on its way.
+    /// A latched publisher sends its last message to the far component, which has just started, unless that is on its
+    /// way.
     fn rejoin(&mut self) {
         if self.wire.unacknowledged() > 0 {
             return;
@@ -115,7 +116,7 @@ impl Pump<WireSender, Sending> {
 
     /// Shows the far host that the publisher runs.
     fn follow_publisher(&mut self) {
-        // Pushers are nobody in particular, so the route always is.
+        // Any component may push, so this end does not wait for one.
         if self.component.is_none() {
             return self.wire.set_open(true);
         }
@@ -171,7 +172,8 @@ impl Pump<WireSender, Sending> {
         }
     }
 
-    /// Takes what fits into the window. While the local end finishes, everything: no more than one window is on its way.
+    /// Takes what fits into the window. While the local end finishes, everything: no more than one window is on its
+    /// way.
     fn carry(&mut self, cx: &mut Context<'_>) {
         let Some(local) = &mut self.state.local else { return };
         let mut taken = 0;
@@ -199,7 +201,8 @@ impl Pump<WireSender, Sending> {
         }
     }
 
-    /// Closes the local end when nothing is on its way into it. From then on its messages are in this gateway's custody.
+    /// Closes the local end when nothing is on its way into it. From then on its messages are in this gateway's
+    /// custody.
     fn close_if_finished(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
         let Some(local) = state.local.as_mut().filter(|local| local.finishing) else { return };
@@ -208,7 +211,7 @@ impl Pump<WireSender, Sending> {
             return;
         }
         if self.stopping {
-            // There is no custody any more: what the far side does not take counts as lost here.
+            // The gateway keeps nothing from here on: messages that the far side does not take count as lost.
             if self.wire.unacknowledged() > 0 && self.matched && !is_over {
                 return self.ask_far_side();
             }

@@ -1,8 +1,8 @@
 //! Who may do what, made from the routes: everything else is denied.
 //!
-//! A host is known by the common name of its certificate. The same table serves both directions: what a host may do here
-//! is checked when it arrives, and what another may not receive does not leave this host. Both are needed: a host that has
-//! just connected is sent everything until its declarations are known.
+//! A host is known by the common name of its certificate. The same table serves both directions: what a host may do
+//! here is checked when it arrives, and what another may not receive does not leave this host. Both are needed: a host
+//! that has just connected is sent everything until its declarations are known.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use super::keys;
 use super::options::WireOptions;
 use crate::route::{Pattern, Route};
 
-/// The section `access_control` of the configuration. Without certificates nobody can be told from anybody, and only
+/// The section `access_control` of the configuration. Without certificates hosts cannot be told apart, and only
 /// loopback addresses are accepted, so there is nothing to check.
 pub(super) fn access_control(options: &WireOptions) -> Value {
     if options.tls.is_none() {

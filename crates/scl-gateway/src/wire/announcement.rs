@@ -1,7 +1,7 @@
 //! Announcements: components that run, with their plans and schemas.
 //!
-//! A token tells that there is one; its content is asked for in parts, so that no message is larger than what the network
-//! library sends without dropping.
+//! A token tells that there is one; its content is asked for in parts, so that no message is larger than what the
+//! network library sends without dropping.
 
 use std::collections::HashMap;
 use std::sync::Arc;

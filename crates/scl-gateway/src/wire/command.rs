@@ -8,8 +8,7 @@ use bytes::Bytes;
 use zenoh::query::Query;
 
 use super::header::{Ack, Header};
-use super::mail::{ReceivingMail, SendingMail};
-use super::mailbox::Mailbox;
+use super::mailbox::{Mailbox, ReceivingMail, SendingMail};
 
 /// One end of a stream, a token or an announcement, within this process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -1,9 +1,9 @@
-//! The way to one host: a fair queue of what its routes send, and a window of bytes that are on their way.
+//! Traffic to one host: a fair queue of what its routes send, and a window of bytes in flight.
 //!
-//! The network library drops what its own queues do not hold, and says nothing. So no more is given to it than they hold:
-//! marks travel behind the bytes, the other gateway echoes them, and then the bytes before them have left. Large messages
-//! travel in pieces, the routes take turns, and on a slow link the window shrinks, so that small messages of other routes
-//! do not wait long.
+//! The network library drops what its own queues do not hold, and says nothing. So no more is given to it than they
+//! hold: marks travel behind the bytes, the other gateway echoes them, and then the bytes before them have left. Large
+//! messages travel in pieces, the routes take turns, and on a slow link the window shrinks, so that small messages of
+//! other routes do not wait long.
 
 use std::collections::{HashMap, VecDeque};
 use std::time::{Duration, Instant};
@@ -15,7 +15,8 @@ use super::header::{Header, Kind};
 
 /// Two pieces with everything around them fit into a batch of the network library (64 KiB).
 const PIECE: usize = 30 * 1024;
-/// The queue of the network library has room for 16 batches; half of that is always there, however badly they are filled.
+/// The queue of the network library has room for 16 batches; half of that is always there, however badly they are
+/// filled.
 pub(super) const LARGEST_WINDOW: usize = 384 * 1024;
 const SMALLEST_WINDOW: usize = 64 * 1024;
 const BETWEEN_MARKS: usize = 32 * 1024;

@@ -3,7 +3,7 @@
 use super::command::Commands;
 use super::presence::Presence;
 
-/// The way to the thread, the table of who is there, and this gateway's own number.
+/// The channel to the wire thread, the table of connected gateways, and the number of this gateway's run.
 #[derive(Debug, Clone)]
 pub(super) struct Link {
     pub(super) commands: Commands,

@@ -1,8 +1,28 @@
-//! Queues between threads: anybody puts something in, one task takes it out.
+//! Queues between threads, and what the callbacks of the network library put into them for the ends of a stream.
 
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard};
 use std::task::{Context, Poll, Waker};
+
+use bytes::Bytes;
+
+use super::header::{Ack, Header};
+
+/// What callbacks tell a sending end.
+#[derive(Debug)]
+pub(super) enum SendingMail {
+    /// The receiving end that is open now.
+    Peer(Option<u64>),
+    Ack(Ack),
+}
+
+/// What callbacks tell a receiving end.
+#[derive(Debug)]
+pub(super) enum ReceivingMail {
+    /// The sending end that is open now.
+    Peer(Option<u64>),
+    Arrived(Header, Bytes),
+}
 
 /// A queue whose reader is woken. Its size is bounded by weight; what is beyond is dropped, as a network may.
 #[derive(Debug)]

@@ -21,8 +21,8 @@ pub struct WireOptions {
     /// Accept any address without TLS. Everybody on the network can then listen and send.
     pub insecure: bool,
     /// All routes of this host. The access list is made from them: a host may send, announce and answer only what the
-    /// routes say, known by the common name of its certificate, which is the host's name. Without TLS nobody is known,
-    /// so every host on a loopback connection may do what any host may.
+    /// routes say, known by the common name of its certificate, which is the host's name. Without TLS no host is
+    /// authenticated, so every host on a loopback connection may do what any host may.
     pub routes: Vec<Route>,
     /// The host of each component of the system. A host that announces another's component is refused.
     pub components: BTreeMap<String, String>,
@@ -32,7 +32,7 @@ pub struct WireOptions {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Peer {
     pub host: String,
-    /// `address:port` where its gateway listens. `None`: it connects to this host. Of two hosts that both listen, the one
-    /// whose name is smaller connects.
+    /// `address:port` where its gateway listens. `None`: it connects to this host. Of two hosts that both listen, the
+    /// one whose name is smaller connects.
     pub address: Option<String>,
 }

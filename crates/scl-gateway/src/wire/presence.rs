@@ -1,4 +1,18 @@
 //! Which gateways, ends of routes and components are there, from the liveliness tokens of the other hosts.
+//!
+//! A gateway of another host:
+//!
+//! ```text
+//!           its token appears, no other of its host is there
+//!   absent ──────────────────────────────────────────────────▶ accepted ◀──────┐
+//!     │  ▲                                                        │            │ it is now
+//!     │  └────────────────────── its token disappears ◀──────┬────┘            │ the oldest
+//!     │      another one of its host is there                │                 │
+//!     └──────────────────────────────────────────────────▶ second ──────────▶ refused, and told so by a token
+//!                                                                   3 s
+//! ```
+//!
+//! Ends of routes and components count only if the accepted gateway of their host has declared them.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::fmt;
@@ -271,6 +285,10 @@ impl State {
         for (host, gateways) in &mut self.gateways {
             // The accepted one, or this gateway itself.
             let accepted = if *host == self.host { 0 } else { 1 };
+            debug_assert!(
+                gateways.iter().take(accepted).all(|it| it.refusal.is_none()),
+                "an accepted gateway is refused"
+            );
             for gateway in gateways.iter_mut().skip(accepted) {
                 if gateway.refusal.is_some() || gateway.since.elapsed() < CONFLICT_AFTER {
                     continue;

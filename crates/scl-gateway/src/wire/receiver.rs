@@ -4,7 +4,7 @@ use std::task::{Context, Poll};
 
 use super::keys::Side;
 use super::link::Link;
-use super::mail::ReceivingMail;
+use super::mailbox::ReceivingMail;
 use super::presence::Watching;
 use super::stream::{ReceiverEvent, ReceivingEnd};
 use super::token::EndToken;
@@ -28,8 +28,8 @@ impl WireReceiver {
         WireReceiver { _watching: watching, end, token: EndToken::new(link, &route.key, Side::Receiver) }
     }
 
-    /// Opens or closes this side. Closed at first. Each opening is a new epoch: the sender gives up what the last one did
-    /// not acknowledge, messages are numbered from 1 again, and what was not polled is discarded.
+    /// Opens or closes this side. Closed at first. Each opening is a new epoch: the sender gives up what the last one
+    /// did not acknowledge, messages are numbered from 1 again, and what was not polled is discarded.
     pub fn set_open(&mut self, open: bool) {
         match (open, self.token.set_open(open)) {
             (true, Some(epoch)) => self.end.open(epoch),

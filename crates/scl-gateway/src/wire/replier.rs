@@ -8,7 +8,7 @@ use bytes::Bytes;
 use super::envelope::{self, Envelope, Outcome};
 use super::keys::{self, Side};
 use super::link::Link;
-use super::mail::{ReceivingMail, SendingMail};
+use super::mailbox::{ReceivingMail, SendingMail};
 use super::presence::Watching;
 use super::stream::{ReceiverEvent, ReceivingEnd, SendingEnd, Sent};
 use super::token::EndToken;
@@ -34,7 +34,8 @@ pub struct WireReplier {
 pub enum ReplierEvent {
     /// The requesting side's gateway is connected.
     Matched,
-    /// The requesting side's gateway is not connected any more. Its requests may still be answered; nobody reads it.
+    /// The requesting side's gateway is not connected any more. Its requests may still be answered; the replies are
+    /// discarded.
     Unmatched,
     /// A request. Ids are unique within this value.
     Request { id: u64, body: Bytes },

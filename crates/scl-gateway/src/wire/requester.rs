@@ -8,7 +8,7 @@ use bytes::Bytes;
 use super::envelope::{self, Envelope, Outcome};
 use super::keys::{self, Side};
 use super::link::Link;
-use super::mail::SendingMail;
+use super::mailbox::SendingMail;
 use super::presence::Watching;
 use super::stream::{ReceiverEvent, ReceivingEnd, SendingEnd, Sent};
 use super::token::EndToken;
@@ -105,8 +105,8 @@ impl WireRequester {
         Poll::Pending
     }
 
-    /// Sends a request. `id` must be unused among the open requests. Exactly one `Reply`, `Refused` or `Gone` follows; without a match
-    /// it is `Gone`.
+    /// Sends a request. `id` must be unused among the open requests. Exactly one `Reply`, `Refused` or `Gone` follows;
+    /// without a match it is `Gone`.
     pub fn request(&mut self, id: u64, body: Bytes) {
         if !self.requests.is_matched() {
             self.events.push_back(RequesterEvent::Gone { id });

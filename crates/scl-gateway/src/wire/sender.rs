@@ -8,7 +8,7 @@ use bytes::Bytes;
 
 use super::keys::Side;
 use super::link::Link;
-use super::mail::SendingMail;
+use super::mailbox::SendingMail;
 use super::presence::Watching;
 use super::stream::{SendingEnd, Sent};
 use super::token::EndToken;
@@ -42,8 +42,8 @@ pub enum SenderEvent {
     Unmatched,
     /// All messages up to this number are taken by the receiving component (or were given up before).
     Acknowledged(u64),
-    /// This many of the oldest messages were unacknowledged when another receiver took the place of theirs: whether they
-    /// arrived is unknown, and they are not sent again. Comes after the `Matched` of the new receiver.
+    /// This many of the oldest messages were unacknowledged when another receiver took the place of theirs: whether
+    /// they arrived is unknown, and they are not sent again. Comes after the `Matched` of the new receiver.
     GivenUp(u64),
     /// [`may_send`](WireSender::may_send) was false and could be true now.
     Credit,
@@ -107,8 +107,8 @@ impl WireSender {
         may
     }
 
-    /// Sends a message. The caller asks [`may_send`](Self::may_send) before; a message sent without credit or match is kept
-    /// and sent when there is.
+    /// Sends a message. The caller asks [`may_send`](Self::may_send) before; a message sent without credit or match is
+    /// kept and sent when there is.
     pub fn send(&mut self, message: Bytes) {
         self.end.send(message, None);
     }

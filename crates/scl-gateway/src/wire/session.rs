@@ -21,8 +21,7 @@ use super::error::WireError;
 use super::header::{Ack, Header};
 use super::keys;
 use super::lane::{Emission, Lane};
-use super::mail::{ReceivingMail, SendingMail};
-use super::mailbox::Mailbox;
+use super::mailbox::{Mailbox, ReceivingMail, SendingMail};
 use super::neighbour::Neighbour;
 use super::presence::Presence;
 use super::user_timeout;
@@ -151,7 +150,7 @@ impl Thread {
                 Err(RecvTimeoutError::Timeout) => (),
                 Err(RecvTimeoutError::Disconnected) => return None,
             }
-            // What has come in the meantime belongs into the same turns of the lanes.
+            // Handle further commands before the lanes send, so that their routes take turns.
             for command in received.try_iter().take(256) {
                 match command {
                     Command::Close { done } => return done,

@@ -2,8 +2,9 @@
 //! that drops messages silently.
 //!
 //! The sending end keeps a message until the receiving component has taken it, and never more of them than the window.
-//! Losses show as a gap in the numbers, or when a probe, which travels behind the messages, is answered; then the sending
-//! end starts over after what has arrived. `outgoing` and `incoming` decide, without I/O; the ends carry it out.
+//! Losses show as a gap in the numbers, or when a probe, which travels behind the messages, is answered; then the
+//! sending end starts over after what has arrived. `outgoing` and `incoming` decide, without I/O; the ends carry it
+//! out.
 
 mod incoming;
 mod outgoing;

@@ -216,8 +216,8 @@ fn a_host_declares_only_its_own_tokens() {
     }
 }
 
-/// What counts is what may leave: the network library sends a host that has just connected everything, until it knows what
-/// that host has declared, so refusing its declarations alone would not do.
+/// What counts is what may leave: the network library sends a host that has just connected everything, until it knows
+/// what that host has declared, so refusing its declarations alone would not do.
 #[test]
 fn a_host_hears_only_what_is_for_it() {
     let secret = system("ground/out/tower/in/c0");

@@ -9,8 +9,8 @@
 //!        with the same one
 //! ```
 //!
-//! `waiting` has what is kept and what is on its way, in this order: `emitted` messages on their way, up to `tried` that were
-//! on their way before, and those that never were.
+//! `waiting` has what is kept and what is on its way, in this order: `emitted` messages on their way, up to `tried`
+//! that were on their way before, and those that never were.
 
 use std::collections::VecDeque;
 use std::time::Instant;

@@ -9,10 +9,10 @@ use bytes::Bytes;
 use super::incoming::Incoming;
 use crate::wire::WINDOW_BYTES;
 use crate::wire::command::{Command, Commands, Declared, EndId};
-use crate::wire::mail::ReceivingMail;
-use crate::wire::mailbox::Mailbox;
+use crate::wire::mailbox::{Mailbox, ReceivingMail};
 
-/// What a receiving end tells its owner, and event of [`WireReceiver::poll_event`](crate::wire::WireReceiver::poll_event).
+/// What a receiving end tells its owner, and event of
+/// [`WireReceiver::poll_event`](crate::wire::WireReceiver::poll_event).
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ReceiverEvent {

@@ -11,8 +11,7 @@ use tokio::time::{Instant, Sleep};
 
 use super::outgoing::Outgoing;
 use crate::wire::command::{Command, Commands, Declared, EndId};
-use crate::wire::mail::SendingMail;
-use crate::wire::mailbox::Mailbox;
+use crate::wire::mailbox::{Mailbox, SendingMail};
 use crate::wire::random;
 
 /// Time without progress until the first probe. Probes only find what a gap in the numbers did not show, so this may be
@@ -45,7 +44,8 @@ pub(in crate::wire) struct SendingEnd {
 }
 
 impl SendingEnd {
-    /// Sends on `key` to `host`. `latches`: the last message of those that wait for a receiver is one that it finds there.
+    /// Sends on `key` to `host`. `latches`: the last message of those that wait for a receiver is one that it finds
+    /// there.
     pub(in crate::wire) fn new(commands: &Commands, host: &str, key: &str, queue: u32, latches: bool) -> Self {
         let mail = Arc::new(Mailbox::new(u64::MAX));
         let (host, key, thread_mail) = (host.to_owned(), key.to_owned(), Arc::clone(&mail));
