@@ -79,7 +79,7 @@ pub(crate) struct Start<'a> {
 pub(crate) struct Running {
     process: Child,
     group: Pid,
-    /// `None` for builds: what they leave behind, such as a compiler's server, is nobody's to end.
+    /// `None` for builds: processes that they leave behind, such as a compiler's server, are not ended.
     family: Option<Arc<Family>>,
     terminal: Option<Terminal>,
     /// Whether its processes have got SIGINT from the terminal.

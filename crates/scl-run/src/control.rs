@@ -2,8 +2,8 @@
 //!
 //! `<runtime folder>/<system>/run.<pid>.control`, with mode 0600 in a folder with mode 0700. A client writes one
 //! [`Request`] as a line of JSON and reads one [`Response`] as a line of JSON, which comes when the request is done. A
-//! line may have up to 64 KiB and must arrive within two seconds. Of more than 32 clients that have sent no line yet, the
-//! oldest is disconnected.
+//! line may have up to 64 KiB and must arrive within two seconds. Of more than 32 clients that have sent no line yet,
+//! the oldest is disconnected.
 
 mod ask;
 mod build;
@@ -63,7 +63,7 @@ impl ControlSocket {
         Ok(Self { file, accept: Box::new(accept) })
     }
 
-    /// Whether its file was removed, so that nobody finds it.
+    /// Whether its file was removed, so that clients cannot find it.
     pub(crate) fn is_gone(&self) -> bool {
         self.file.is_gone()
     }

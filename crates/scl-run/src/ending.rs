@@ -27,7 +27,8 @@ impl Ending {
         }
     }
 
-    /// Returns true for the exit codes by which a shell or another launcher says that a signal ended its program: 128 + number.
+    /// Returns true for the exit codes by which a shell or another launcher says that a signal ended its program: 128 +
+    /// number.
     pub(crate) fn is_signal_of_child(self) -> bool {
         matches!(self, Ending::Exited(code) if Signal::from_named_raw(code - 128).is_some())
     }

@@ -21,8 +21,8 @@ pub(crate) fn find() -> Result<PathBuf, Problem> {
     folders.find_map(|folder| Some(folder.join(PROGRAM)).filter(|file| is_executable(file))).ok_or_else(missing)
 }
 
-/// Lets it check its certificates and the other things that it needs, so that a mistake is reported once and at the start. Later
-/// failures are retried.
+/// Lets it check its certificates and the other things that it needs, so that a mistake is reported once and at the
+/// start. Later failures are retried.
 ///
 /// # Errors
 ///

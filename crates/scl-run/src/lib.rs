@@ -1,8 +1,8 @@
 //! Builds and starts the program of every component of a system, shows what they print, and stops them together.
 //!
 //! This is the work behind `scl run`. The program that calls [`run`] must offer three hidden commands to itself:
-//! [`START_WORD`], which calls [`start_component`], [`GUARD_WORD`], which calls [`keep_watch`], and [`KEYS_WORD`], which calls
-//! [`tell_keys`].
+//! [`START_WORD`], which calls [`start_component`], [`GUARD_WORD`], which calls [`keep_watch`], and [`KEYS_WORD`],
+//! which calls [`tell_keys`].
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod already_running;
@@ -148,7 +148,7 @@ fn run_plan(plan: &mut RunPlan, options: &Options, surroundings: Surroundings<'_
         let built =
             run_builds(&plan.builds, options.grace, &mut supervisor, output).map_err(|problem| vec![problem])?;
         plan.take_built(&built)?;
-        // Somebody else may have built and started them meanwhile.
+        // Another `scl run` may have started them during the build.
         already_running::check(plan).map_err(|problem| vec![problem])?;
     }
     let problems: Vec<Problem> = plan.programs().filter_map(|component| component.check().err()).collect();
@@ -164,7 +164,7 @@ fn run_plan(plan: &mut RunPlan, options: &Options, surroundings: Surroundings<'_
     sockets.keep(control.as_ref(), output);
     // With `--no-build`, a restart builds nothing either.
     let builds = if options.no_build { &[][..] } else { plan.builds.as_slice() };
-    // What a build leaves behind, such as a compiler's server, is nobody's to end.
+    // Processes that a build leaves behind, such as a compiler's server, are not ended.
     let left_by_builds = orphans::adopted();
     let outcome = supervisor.run(&members, builds, options.run_for);
     orphans::kill_adopted(&left_by_builds);
@@ -228,8 +228,8 @@ fn stopped_build(signal: Signal) -> Problem {
 
 /// Turns the signals that ask us to stop into events.
 ///
-/// Programs inherit which signals are ignored, but not which are handled. A shell that starts `scl run` in the background
-/// ignores SIGINT, and without a handler the programs could not be stopped by it.
+/// Programs inherit which signals are ignored, but not which are handled. A shell that starts `scl run` in the
+/// background ignores SIGINT, and without a handler the programs could not be stopped by it.
 fn listen_for_signals(events: Sender<Event>) -> io::Result<()> {
     let mut signals = Signals::new(STOP_SIGNALS)?;
     thread::Builder::new().spawn(move || {

@@ -5,20 +5,20 @@
 //!            time              started            READY=1
 //!   Waiting ──────▶ Starting ──────────▶ Running ─────────▶ Ready
 //!     ▲  ▲             │ cannot start       │                 │
-//!     │  └─────────────┤                    │                 │ told to stop or says so, its first process has ended,
-//!     │ another start  │                    ├─────────────────┤ not ready or alive in time, the wrong program
-//!     │ is allowed     ▼                    ▼                 ▼
+//!     │  └─────────────┤                    │                 │ asked to stop, or stops itself; not ready
+//!     │ another start  │                    ├─────────────────┤ or alive in time; the wrong program;
+//!     │ is allowed     ▼                    ▼                 ▼ its first process has ended
 //!     │             Ended ◀─────────────── Stopping (killed when its time is over)
 //!     │               ▲        exited       │
 //!     └───────────────┴─────────────────────┘
 //! ```
 //!
-//! A process that exits without being told goes the same ways from Running and Ready as from Stopping. A request starts an
-//! ended component again, and one that is stopping for it as soon as its process has exited. What is stopped before it has a
-//! process ends at once.
+//! A process that exits without being told goes the same ways from Running and Ready as from Stopping. A request starts
+//! an ended component again, and one that is stopping for it as soon as its process has exited. What is stopped before
+//! it has a process ends at once.
 //!
-//! A component has at most one process: only `Starting` asks for one, and nothing leads there before the last has exited.
-//! Each restart of the policy is counted once, when it is planned.
+//! A component has at most one process: only `Starting` asks for one, and nothing leads there before the last has
+//! exited. Each restart of the policy is counted once, when it is planned.
 
 mod input;
 mod state;
@@ -193,7 +193,8 @@ impl Lifecycle {
                 vec![Action::Signal(reason.signal())]
             }
             State::Stopping { reason: earlier, kill_at } => {
-                // A process that was told to end needs no other signal. One that hangs had one that it may have ignored.
+                // A process that was told to end needs no other signal. One that hangs had one that it may have
+                // ignored.
                 let reason = if matches!(earlier, StopReason::Everything(_)) { earlier } else { reason };
                 self.state = State::Stopping { reason, kill_at };
                 if earlier.is_asked() { Vec::new() } else { vec![Action::Signal(reason.signal())] }
@@ -206,8 +207,8 @@ impl Lifecycle {
         }
     }
 
-    /// What is left of a program whose first process has ended while it was stopping. A second signal would end a program of
-    /// SCL at once, so it is for those that have had none.
+    /// What is left of a program whose first process has ended while it was stopping. A second signal would end a
+    /// program of SCL at once, so it is for those that have had none.
     fn stop_rest(&mut self, reason: StopReason, kill_at: Option<Time>) -> Vec<Action> {
         let reason = match reason {
             StopReason::Own => StopReason::LeaderEnded,
@@ -310,7 +311,8 @@ impl Lifecycle {
         }
     }
 
-    /// Returns true for an exit code by which the program itself says that it has failed, if that is not to be tried again.
+    /// Returns true for an exit code by which the program itself says that it has failed, if that is not to be tried
+    /// again.
     fn is_final(&self, ending: Ending) -> bool {
         let is_code = matches!(ending, Ending::Exited(_)) && !ending.is_signal_of_child();
         is_code && self.policy.restart == Restart::OnAbnormal

@@ -120,9 +120,9 @@ impl Datagrams {
     ///
     /// # Errors
     ///
-    /// If the socket cannot be read, or nobody receives events any more.
+    /// If the socket cannot be read, or the supervisor has ended.
     pub(crate) fn take(&self) -> io::Result<()> {
-        // Nobody returns before the events of a datagram that somebody else has read.
+        // One thread at a time: none returns before the events of datagrams that another thread has read are sent.
         let _reading = self.reading.lock().unwrap_or_else(PoisonError::into_inner);
         let sockets = self.lock().clone();
         sockets.iter().try_for_each(|socket| self.take_from(socket))

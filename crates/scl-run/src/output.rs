@@ -47,7 +47,7 @@ pub(crate) struct Output {
     colour_err: bool,
     /// Of standard output and of standard error; the same if they go to the same file, where their order shows.
     backlogs: [Arc<Backlog>; 2],
-    /// Where the loss of the reader is told, once.
+    /// Where the loss of the reader is reported, once.
     events: Mutex<Option<Sender<Event>>>,
     /// In the order of the names; `None` for those without a log.
     logs: Vec<Option<Log>>,
@@ -61,8 +61,8 @@ struct Log {
 }
 
 impl Output {
-    /// Output for programs of these names, in colour if the stream is a terminal that supports it. `logs` are the logs of
-    /// the last of them; the others have none. Starts the threads that write.
+    /// Output for programs of these names, in colour if the stream is a terminal that supports it. `logs` are the logs
+    /// of the last of them; the others have none. Starts the threads that write.
     pub(crate) fn start(names: Vec<String>, logs: Vec<Option<LogFile>>, events: Sender<Event>) -> Arc<Self> {
         let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
         let wants_colour = |choice| !matches!(choice, ColorChoice::Never);

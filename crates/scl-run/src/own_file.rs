@@ -18,7 +18,7 @@ pub(crate) struct OwnFile {
 
 impl OwnFile {
     /// Binds a socket in a folder that only this user can write to. Its name ends with `ending`. It appears there when
-    /// it can be connected to, so that nobody mistakes it for one that was left behind.
+    /// it can be connected to, so that it is not mistaken for one that was left behind.
     ///
     /// # Errors
     ///

@@ -37,7 +37,7 @@ pub type ComponentNames<'a> = &'a dyn Fn(&Path) -> Option<SystemNames>;
 pub(crate) struct RunPlan {
     /// The system that the programs belong to, where a topology file or `SCL_SYSTEM` names it.
     pub(crate) system: Option<String>,
-    /// The topology file that the system has its name of, where nobody has given it another one.
+    /// The topology file that the system is named after, unless it has a name of its own.
     pub(crate) named_after: Option<PathBuf>,
     pub(crate) builds: Vec<Build>,
     pub(crate) components: Vec<Component>,

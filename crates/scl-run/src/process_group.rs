@@ -12,12 +12,13 @@ use std::time::Duration;
 pub(crate) const PAUSE: Duration = Duration::from_millis(20);
 const MAX_PAUSE: Duration = Duration::from_secs(1);
 
-/// Sees that each process of the group gets a signal that was sent to it and that asks it to end; returns when all have ended.
+/// Sees that each process of the group gets a signal that was sent to it and that asks it to end; returns when all have
+/// ended.
 ///
-/// One signal to the group is not enough: a shell may start a program after it has noted the signal, or note it in the copy of
-/// itself that becomes the program. So a program that was not there ([`programs`]) when the signal was sent, and that would be
-/// ended by it, gets it too. None gets it twice: a second signal would end a program of SCL at once, and others restore the
-/// default action after the first.
+/// One signal to the group is not enough: a shell may start a program after it has noted the signal, or note it in the
+/// copy of itself that becomes the program. So a program that was not there ([`programs`]) when the signal was sent,
+/// and that would be ended by it, gets it too. None gets it twice: a second signal would end a program of SCL at once,
+/// and others restore the default action after the first.
 pub(crate) fn repeat_where_missed(group: Pid, signal: Signal, reached: HashSet<Program>) {
     let mut repeats = Repeats { group, signal, reached, terminated: HashSet::new() };
     look_while(|| repeats.look());
@@ -37,8 +38,8 @@ struct Repeats {
     signal: Signal,
     /// Those that have got the signal, or have been seen to block or catch it.
     reached: HashSet<Program>,
-    /// Those that ignore the signal and got SIGTERM when the first process had ended: a shell lets its background processes
-    /// ignore SIGINT.
+    /// Those that ignore the signal and got SIGTERM when the first process had ended: a shell lets its background
+    /// processes ignore SIGINT.
     terminated: HashSet<Pid>,
 }
 
@@ -115,8 +116,8 @@ enum Disposition {
     Ignores,
 }
 
-/// From the masks of `/proc/<pid>/status`. A process that waits for a signal blocks it, and handles it. One that has ended
-/// has no masks.
+/// From the masks of `/proc/<pid>/status`. A process that waits for a signal blocks it, and handles it. One that has
+/// ended has no masks.
 fn disposition(process: Pid, signal: Signal) -> Disposition {
     let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
     let mask = |name: &str| {

@@ -23,7 +23,7 @@ pub(crate) struct ProcessStat {
 }
 
 impl ProcessStat {
-    /// `None` if the process has ended, also while nobody has reaped it.
+    /// `None` if the process has ended, even if it is not reaped yet.
     pub(crate) fn of(process: Pid) -> Option<Self> {
         Self::read(process).filter(|stat| !stat.has_ended)
     }

@@ -1,5 +1,5 @@
-//! All components of a run: when one's end is the end of all, what a request means for each. Events and times in, actions
-//! out; without processes and without a clock.
+//! All components of a run: when one's end is the end of all, what a request means for each. Events and times in,
+//! actions out; without processes and without a clock.
 
 use super::lifecycle::{Action, Input, Lifecycle, State, Verdict};
 use super::policy::Policy;
@@ -15,7 +15,7 @@ pub(crate) enum RunEvent {
     One(usize, Input),
     /// All are to stop by this signal. A second request kills them.
     Stop(Signal),
-    /// Nobody can see the output any more.
+    /// The reader of the output has gone.
     OutputLost,
     /// Time has passed.
     Time,
@@ -32,9 +32,9 @@ pub(crate) struct RunState {
     stopping: Option<Signal>,
     /// Whether the stop was asked for, and not the consequence of a failure.
     asked: bool,
-    /// When somebody asked for the stop first.
+    /// Time of the first stop request.
     requested: Option<Time>,
-    /// What the times of events have left out since.
+    /// The pauses since then, which the times of events leave out.
     paused: Duration,
     killing: bool,
 }
@@ -64,12 +64,12 @@ impl RunState {
         self.stopping
     }
 
-    /// Whether somebody asked for the stop, so that it is not the consequence of a failure.
+    /// Whether the stop was requested, rather than caused by a failure.
     pub(crate) fn was_asked(&self) -> bool {
         self.asked
     }
 
-    /// Whether somebody asked for a stop, so that the next request kills.
+    /// Whether a stop was requested, so that the next request kills.
     pub(crate) fn is_requested(&self) -> bool {
         self.requested.is_some()
     }
@@ -116,7 +116,8 @@ impl RunState {
         actions
     }
 
-    /// Takes in that the times of events leave this pause out. Somebody who asks again has waited for as long.
+    /// Notes a pause that the times of events leave out. It counts between two stop requests, because their user has
+    /// waited.
     pub(crate) fn take_pause(&mut self, lost: Duration) {
         self.paused += if self.is_requested() { lost } else { Duration::ZERO };
     }
@@ -134,7 +135,7 @@ impl RunState {
     }
 
     fn take_input(&mut self, now: Time, index: usize, input: &Input) -> Vec<(usize, Action)> {
-        // It would be started again otherwise, for components that are about to end.
+        // While all are stopping it is not started again, although it has not been told to stop yet.
         let ends_early = Some(index) == self.last && matches!(input, Input::Exited(_));
         let told = self.stopping.filter(|_| ends_early);
         let mut actions = told.map_or_else(Vec::new, |signal| self.step_one(now, index, &Input::StopAll(signal)));

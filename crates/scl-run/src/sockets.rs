@@ -37,8 +37,8 @@ struct Folders {
 }
 
 impl Sockets {
-    /// Finds the folder and opens the socket for notices. Without one, the user is told, or it is an error if a component
-    /// has to say that it is ready or alive.
+    /// Finds the folder and opens the socket for notices. Without one, the user is told, or it is an error if a
+    /// component has to say that it is ready or alive.
     ///
     /// # Errors
     ///
@@ -73,7 +73,7 @@ impl Sockets {
         self.notify.as_deref()
     }
 
-    /// Opens the socket for requests. Without a system, nobody could find it.
+    /// Opens the socket for requests. Without a system, clients could not find it.
     pub(crate) fn open_control(&self, events: &Sender<Event>) -> Option<Arc<ControlSocket>> {
         let events = events.clone();
         let receive = move |asked| {
@@ -137,7 +137,7 @@ impl Folders {
     }
 }
 
-/// What the user is told of a runtime folder that was removed and cannot be created.
+/// The report on a runtime folder that was removed and cannot be created.
 fn removed(folder: &Path, error: &str) -> String {
     let reason = error.lines().next().unwrap_or_default();
     format!(

@@ -1,4 +1,5 @@
-//! Does what the state of a run asks for: starts processes, signals them, reports. Takes in what happens, event by event.
+//! Does what the state of a run asks for: starts processes, signals them, reports. Takes in what happens, event by
+//! event.
 //!
 //! The process of a component, of which there is one at a time:
 //!
@@ -9,8 +10,9 @@
 //!     └──────────────────────────── the next start, or the end of the run ───────────────────────────┘
 //! ```
 //!
-//! Only an ended process is replaced, after its reports. The run is over when no component gets another process and all are
-//! silent. What the components do is in [`lifecycle`](super::lifecycle), what the run does in [`run_state`](super::run_state).
+//! Only an ended process is replaced, after its reports. The run is over when no component gets another process and all
+//! are silent. What the components do is in [`lifecycle`](super::lifecycle), what the run does in
+//! [`run_state`](super::run_state).
 
 mod process;
 
@@ -59,7 +61,7 @@ pub(crate) struct Surroundings<'a> {
 pub(crate) struct Supervisor<'a> {
     surroundings: Surroundings<'a>,
     notify: Option<&'a NotifySocket>,
-    // Dropped before the processes: it must not know a group any more whose number is free again.
+    // Dropped before the processes: the guard must not kill a group whose number may be reused.
     guard: OrphanGuard,
     processes: Vec<Option<Process>>,
     next_process: usize,
@@ -82,8 +84,8 @@ impl<'a> Supervisor<'a> {
         Self { surroundings, notify, guard, processes: Vec::new(), next_process: 0 }
     }
 
-    /// Starts the programs and waits until all have ended. They are stopped after a time, if one is given. `builds` are what
-    /// `scl restart` is told to run.
+    /// Starts the programs and waits until all have ended. They are stopped after a time, if one is given. `builds` are
+    /// what `scl restart` is told to run.
     pub(crate) fn run(&mut self, members: &[Member<'_>], builds: &[Build], run_for: Option<Duration>) -> Outcome {
         let last = members.iter().position(|member| member.role == Role::Gateway);
         let state = RunState::new(members.iter().map(|member| member.policy.clone()), last, run_for);
@@ -352,7 +354,7 @@ fn unusable(run: &Run<'_>, components: &[String]) -> Option<String> {
     checks.find_map(Result::err).map(|problem| problem.message().to_owned())
 }
 
-/// What the user is told of a program that opens another component than the one that it was started as.
+/// The report on a program that opens another component than the one that it was started as.
 fn wrong_program(member: &Member<'_>, opened: &str) -> String {
     let shown = match opened.rsplit_once('.') {
         Some((system, name)) => format!("`{name}` of system `{system}`"),
@@ -364,7 +366,7 @@ fn wrong_program(member: &Member<'_>, opened: &str) -> String {
     format!("wrong program: {program}opens component {shown}, but was started as `{}`{place}", member.name)
 }
 
-/// What the user is told of a program that uses a terminal that it does not have.
+/// The report on a program that uses a terminal that it does not have.
 fn stopped_by_terminal(member: &Member<'_>, signal: Signal) -> String {
     let signal = name_of(signal);
     match member.program.input {

@@ -98,7 +98,7 @@ impl Terminal {
         let _ = kill_process_group(group, Signal::CONT);
     }
 
-    /// Makes us the foreground again, with our modes, unless somebody else is by now.
+    /// Makes this process group the foreground again, with its modes, unless another group is by now.
     fn take_back(&self, group: Pid) {
         let has_it = tcgetpgrp(io::stdin()).is_ok_and(|foreground| foreground == group);
         if has_it {

@@ -1,4 +1,4 @@
-//! Where a node's files are, their names, the lock, and removing what nobody uses.
+//! Where a node's files are, their names, the lock, and removing unused ones.
 
 use crate::error::ShmError;
 use crate::limits::FOLDER;
@@ -48,7 +48,7 @@ impl Folder {
         self.path.parent() == Some(system)
     }
 
-    /// Returns true if somebody has removed it.
+    /// Returns true if it was removed.
     pub(crate) fn is_gone(&self) -> bool {
         matches!(fs::symlink_metadata(&self.path), Err(error) if error.kind() == io::ErrorKind::NotFound)
     }
@@ -85,7 +85,7 @@ impl Folder {
     pub(crate) fn check_owners(&self) -> Result<(), ShmError> {
         let user = rustix::process::geteuid().as_raw();
         for path in self.files() {
-            // One that has gone meanwhile harms nobody.
+            // Another process may have removed it meanwhile.
             let Ok(found) = fs::symlink_metadata(&path) else { continue };
             if found.uid() != user {
                 return Err(ShmError::Foreign { path, owner: found.uid() });
@@ -98,7 +98,7 @@ impl Folder {
     /// can write to it can truncate it, and so end the next program that reads it.
     pub(crate) fn close_to_others(&self) {
         for path in self.files() {
-            // One that has gone meanwhile harms nobody.
+            // Another process may have removed it meanwhile.
             let Ok(found) = fs::symlink_metadata(&path) else { continue };
             if found.mode() & 0o077 != 0 {
                 let _has_gone = fs::set_permissions(&path, Permissions::from_mode(0o600));

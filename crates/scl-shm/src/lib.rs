@@ -7,7 +7,7 @@
 //! | file | contents |
 //! |---|---|
 //! | `node` | the node of this process in the folder of a system |
-//! | `folder` | where the node's files are, their names, the lock, and removing what nobody uses |
+//! | `folder` | where the node's files are, their names, the lock, and removing unused ones |
 //! | `unfinished` | removing files that a killed program had created and not filled |
 //! | `service` | the service of one connection: its name and its settings |
 //! | `sender`, `loaned` | lending memory and sending it |
@@ -40,6 +40,6 @@ pub use receiver::SampleReceiver;
 pub use sender::SampleSender;
 pub use service::ServiceName;
 
-/// Two ends can share memory if these are equal: the version of the engine, and the width of pointers, which the layout of
-/// its files depends on.
+/// Two ends can share memory if these are equal: the version of the engine, and the width of pointers, which the layout
+/// of its files depends on.
 pub const FORMAT: &str = if cfg!(target_pointer_width = "64") { "iceoryx2-0.10-64" } else { "iceoryx2-0.10-32" };

@@ -30,8 +30,8 @@ pub struct SharedMemory {
     process: ProcessMark,
 }
 
-/// The nodes of this process, and those that it has inherited of the one that it was forked from. Two of one process in one
-/// folder would each take the other's files for those of a stranger.
+/// The nodes of this process, and those that it has inherited of the one that it was forked from. Two of one process in
+/// one folder would each take the other's files for those of a stranger.
 static NODES: Mutex<Option<HashMap<PathBuf, Weak<SharedMemory>>>> = Mutex::new(None);
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -100,10 +100,10 @@ impl Drop for SharedMemory {
         let nodes = lock(&NODES);
         let is_open_again =
             nodes.iter().flatten().any(|(system, node)| node.strong_count() > 0 && self.folder.is_of(system));
-        // A program that opens the system meanwhile waits, so what is removed is nobody's.
+        // A program that opens the system meanwhile waits, so no file in use is removed.
         let locked = self.folder.lock();
         self.node = None;
-        // Without the folder, nobody can find what is left.
+        // Without the folder, the files that are left cannot be found.
         if (locked.is_ok() || self.folder.is_gone()) && !is_open_again {
             self.folder.remove_if_unused();
         }

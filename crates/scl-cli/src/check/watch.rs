@@ -1,7 +1,7 @@
 //! `--watch`: checks again whenever a file changes.
 //!
-//! The files are looked at ten times a second. That works on every file system and with every way in which editors write
-//! files, and costs a few system calls.
+//! The files are looked at ten times a second. That works on every file system and with every way in which editors
+//! write files, and costs a few system calls.
 
 use super::checked::Checked;
 use super::report::report;
@@ -86,8 +86,8 @@ fn wait_for_change(before: Marks, stop: &Receiver<()>) -> Option<Marks> {
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Marks(Vec<(PathBuf, Option<Mark>)>);
 
-/// Inode, size, and the time of the last change of the content or the entry, in seconds and nanoseconds. `None` for a file
-/// that is not there. The time of the content alone may be set by anybody, so it is not looked at.
+/// Inode, size, and the time of the last change of the content or the entry, in seconds and nanoseconds. `None` for a
+/// file that is not there. The time of the content alone may be set by anybody, so it is not looked at.
 type Mark = (u64, u64, i64, i64);
 
 impl Marks {

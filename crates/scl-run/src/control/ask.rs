@@ -136,8 +136,8 @@ fn list(runs: Vec<ControlledRun>, problems: &mut Vec<Problem>) -> Vec<Answering>
     answering
 }
 
-/// The components that a stop of everything did not stop, because they run without `scl run`. Those of other hosts, which
-/// a gateway only shows here, do not run here.
+/// The components that a stop of everything did not stop, because they run without `scl run`. Those of other hosts,
+/// which a gateway only shows here, do not run here.
 fn still_running(folder: &SystemDir) -> Vec<Problem> {
     let is_here = |name: &String| Announcement::read(folder, name).is_none_or(|it| it.host.is_none());
     let names = folder.components().unwrap_or_default().into_iter().filter(is_here);

@@ -57,7 +57,8 @@ pub fn find_runs(runtime_folder: &Path, system: Option<&str>) -> Vec<ControlledR
         };
         sockets.into_iter().filter_map(run)
     });
-    // A connection without a request is closed by the other side, and nothing else. One that does not accept is there, too.
+    // A connection without a request is closed by the other side, and nothing else. One that does not accept is there,
+    // too.
     let is_there = |error: io::Error| error.kind() == ErrorKind::WouldBlock;
     runs.filter(|run| connect(&run.socket).map_or_else(is_there, |_| true)).collect()
 }
@@ -79,7 +80,7 @@ impl ControlledRun {
         answered
     }
 
-    /// What the user is told about a missing answer.
+    /// The problem of a missing answer.
     pub(crate) fn problem(&self, error: &NoAnswer) -> Problem {
         let process = self.process;
         let kill = format!("end it and its programs: `kill -KILL {process}`");
@@ -144,7 +145,8 @@ impl ControlledRun {
         }
     }
 
-    /// Looks whether an answer may still come: a stop takes as long as the programs take, but how they are is known at once.
+    /// Looks whether an answer may still come: a stop takes as long as the programs take, but how they are is known at
+    /// once.
     fn look(&self, command: Command, began: Instant) -> Result<(), NoAnswer> {
         if self.is_stopped() {
             return Err(NoAnswer::Stopped);

@@ -48,8 +48,8 @@ pub struct Response {
     /// The components that were asked for.
     #[serde(default)]
     pub components: Vec<ComponentReport>,
-    /// The topology file that the system has its name of, where nobody has given it another one. So another system may
-    /// have the same name.
+    /// The topology file that the system is named after, unless it has a name of its own. Another system may have the
+    /// same name then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub named_after: Option<PathBuf>,
     /// What builds the programs of the components, in this order, for [`Command::Builds`].
@@ -93,7 +93,8 @@ pub struct ComponentReport {
 impl BuildCommand {
     /// The build, in the environment of this process.
     pub(crate) fn of(build: &Build) -> Self {
-        // A variable that is no text is left out. What another `scl run` expects of us is not for builds.
+        // JSON has no place for variables that are not UTF-8. Builds do not inherit the component that this process
+        // runs as.
         let own = std::env::vars_os()
             .filter(|(name, _)| name != COMPONENT)
             .filter_map(|(name, value)| Some((name.into_string().ok()?, value.into_string().ok()?)));

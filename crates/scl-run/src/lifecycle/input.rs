@@ -23,9 +23,9 @@ pub(crate) enum Input {
     StopAll(Signal),
     /// The process must end now.
     Kill,
-    /// Somebody asks for its end.
+    /// A stop of this component is requested.
     Stop,
-    /// Somebody asks for its end and another start.
+    /// A restart of this component is requested.
     Restart,
     /// Time has passed.
     Time,

@@ -14,9 +14,10 @@ pub(crate) enum State {
     Running,
     /// Its process has said that it is ready.
     Ready,
-    /// Its process was told to end, or said that it is ending. It is killed at this time, if it has not been killed yet.
+    /// Its process was told to end, or said that it is ending. It is killed at this time, if it has not been killed
+    /// yet.
     Stopping { reason: StopReason, kill_at: Option<Time> },
-    /// It has no process, and gets none unless somebody asks for it.
+    /// It has no process, and gets one only on request.
     Ended(Verdict),
 }
 
@@ -25,11 +26,12 @@ pub(crate) enum State {
 pub(crate) enum StopReason {
     /// All components are stopped, by this signal.
     Everything(Signal),
-    /// Somebody asked for it, for this component alone.
+    /// A stop or restart of this component alone was requested.
     Request { start_again: bool },
     /// It has failed already: it was not ready or not alive in time.
     Failed,
-    /// It is the wrong program, so another start would not help. It was told so, and ends by itself.
+    /// It is the wrong program, so another start would not help. SCL in the program has refused to run, and it ends by
+    /// itself.
     Refused,
     /// It said so itself.
     Own,
@@ -42,7 +44,7 @@ pub(crate) enum StopReason {
 pub(crate) enum Verdict {
     /// As it should, also when all components were stopped.
     InOrder,
-    /// Because somebody asked for it.
+    /// On request.
     Stopped,
     /// It has failed, and is not started again.
     Failed,

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 /// Lines of programs are dropped while more bytes than this wait.
 const LONGEST: usize = 16 << 20;
-/// A longer line is no line of a log: it waits for the one before it, as long as the reader takes something.
+/// At most one longer line is queued at a time; the next one waits for it while the reader makes progress.
 const HUGE: usize = 1 << 20;
 /// After this long without a byte taken, a reader has stopped reading.
 const STALLED: Duration = Duration::from_secs(1);
@@ -49,7 +49,7 @@ struct Part {
 pub(super) struct Written {
     /// Lines by program that were dropped behind what was written.
     pub(super) dropped: BTreeMap<usize, u64>,
-    /// Whether nobody can read lines of programs any more.
+    /// Whether the reader of the programs' lines has gone.
     pub(super) is_lost: bool,
 }
 

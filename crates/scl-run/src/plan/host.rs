@@ -76,8 +76,8 @@ pub(super) fn check_names(components: &[LaunchComponent], shown: &str) -> Result
     Ok(())
 }
 
-/// The program that connects a host to the others. It is started again whenever it ends: components go on without it, and
-/// nothing else brings the connections back.
+/// The program that connects a host to the others. It is started again whenever it ends: components go on without it,
+/// and nothing else brings the connections back.
 pub(super) fn plan_gateway(
     folder: &Path,
     launch_path: &Path,
