@@ -1,6 +1,6 @@
 //! `scl call`: sends a request in place of a component, and prints the reply.
 
-use crate::observed::{COULD_NOT_DO, exit_code};
+use crate::exit::{COULD_NOT_DO, exit_code};
 use crate::play::{Plans, PlayArguments, message_type, problem_of};
 use clap::{Args, ValueEnum};
 use scl::CallError;

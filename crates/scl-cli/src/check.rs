@@ -6,6 +6,7 @@ mod fix;
 mod report;
 mod watch;
 
+use crate::exit::COULD_NOT_DO;
 #[cfg(feature = "generate")]
 use crate::generate::Language;
 use crate::load::{MaxSize, STDIN};
@@ -15,9 +16,6 @@ use deny::{Deny, parse_deny};
 use scl_terminal::print_err;
 use std::path::PathBuf;
 use std::process::ExitCode;
-
-/// Exit code: a file could not be read at all.
-const COULD_NOT_RUN: u8 = 2;
 
 /// Check topology files, with the words of the macro.
 #[derive(Args)]
@@ -94,7 +92,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> ExitCode {
     };
     if let Some((refusal, help)) = refusal {
         print_err(&format!("error: {refusal}\n  = help: {help}\n"));
-        return ExitCode::from(COULD_NOT_RUN);
+        return ExitCode::from(COULD_NOT_DO);
     }
     if arguments.watch {
         return watch::watch(arguments);

@@ -1,18 +1,16 @@
 //! `scl compare`: whether two recordings have the same messages.
 
-use crate::format::{FormatArgument, print_json};
+use crate::exit::exit_code;
+use crate::format::FormatArgument;
 use clap::Args;
 use scl_record::compare::{CompareOptions, CompareReport, compare as compare_recordings};
 use scl_record::progress::Progress;
 use scl_record::recording::{Recording, find_files};
-use scl_terminal::{Problem, parse_duration, print_err, print_out};
+use scl_terminal::{Problem, parse_duration, print_err};
 use scl_value::FieldPath;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
-
-/// Exit code: the recordings cannot be compared.
-const COULD_NOT_COMPARE: u8 = 2;
 
 /// Compare two recordings gate by gate: the same messages in the same order.
 ///
@@ -58,20 +56,11 @@ pub(crate) struct CompareArguments {
 
 /// The body of `scl compare`.
 pub(crate) fn compare(arguments: &CompareArguments) -> ExitCode {
-    match run(arguments) {
-        Ok(report) => {
-            report.notes.iter().for_each(|note| print_err(&format!("note: {note}\n")));
-            match arguments.format.is_json() {
-                true => print_json(&report.to_json()),
-                false => print_out(&report.to_text()),
-            }
-            if report.is_equal() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-        }
-        Err(problem) => {
-            print_err(&problem.to_string());
-            ExitCode::from(COULD_NOT_COMPARE)
-        }
-    }
+    exit_code(run(arguments).map(|report| {
+        report.notes.iter().for_each(|note| print_err(&format!("note: {note}\n")));
+        arguments.format.print(|| report.to_json(), || report.to_text());
+        if report.is_equal() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    }))
 }
 
 fn run(arguments: &CompareArguments) -> Result<CompareReport, Problem> {

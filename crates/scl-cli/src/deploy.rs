@@ -1,16 +1,14 @@
 //! `scl deploy`: the files by which a service manager runs a system.
 
+use crate::exit::exit_code_of_all;
 use crate::run::component_names;
 use clap::{Args, Subcommand};
 use scl_run::{Unit, UnitOptions, systemd_units};
-use scl_terminal::{Problem, parse_duration, print_err, print_out};
+use scl_terminal::{Problem, parse_duration, print_out};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
-
-/// Exit code: nothing was written.
-const COULD_NOT_WRITE: u8 = 2;
 
 /// Write the files by which a service manager runs a system, in place of `scl run`.
 #[derive(Args)]
@@ -70,13 +68,8 @@ pub(crate) fn deploy(arguments: &DeployArguments) -> ExitCode {
     };
     let options = UnitOptions { run, user: arguments.user.clone() };
     let units = systemd_units(&options, &component_names);
-    match units.and_then(|units| write(&arguments.output, &units).map_err(|problem| vec![problem])) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(problems) => {
-            problems.iter().for_each(|problem| print_err(&format!("{problem}\n")));
-            ExitCode::from(COULD_NOT_WRITE)
-        }
-    }
+    let written = units.and_then(|units| write(&arguments.output, &units).map_err(|problem| vec![problem]));
+    exit_code_of_all(written.map(|()| ExitCode::SUCCESS))
 }
 
 fn write(folder: &Path, units: &[Unit]) -> Result<(), Problem> {

@@ -9,6 +9,7 @@ mod report;
 mod revision;
 mod together;
 
+use crate::exit::{COULD_NOT_DO, exit_code};
 use crate::load::{MaxSize, STDIN, TOPOLOGY, load_file, request, show_errors};
 use change::find_changes;
 use clap::{Args, ValueEnum};
@@ -18,14 +19,11 @@ use report::{report_json, report_text};
 use revision::Revision;
 use scl_loader::{Loaded, Request, load};
 use scl_plan::SystemPlan;
-use scl_terminal::{Problem, print_err, print_out};
+use scl_terminal::{Problem, print_out};
 use scl_topology::topology::Topology;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use together::group;
-
-/// Exit code: one of the two is not a sound topology.
-const TROUBLE: u8 = 2;
 
 /// Compare two topologies, and name the components that must be rebuilt.
 ///
@@ -71,14 +69,11 @@ enum Format {
 
 /// The body of `scl diff`.
 pub(crate) fn diff(arguments: &DiffArguments) -> ExitCode {
-    let (old, new) = match sides(arguments) {
-        Ok((Some(old), Some(new))) => (old, new),
-        Ok(_) => return ExitCode::from(TROUBLE),
-        Err(problem) => {
-            print_err(&problem.to_string());
-            return ExitCode::from(TROUBLE);
-        }
-    };
+    exit_code(compare(arguments))
+}
+
+fn compare(arguments: &DiffArguments) -> Result<ExitCode, Problem> {
+    let (Some(old), Some(new)) = sides(arguments)? else { return Ok(ExitCode::from(COULD_NOT_DO)) };
     let (mut changes, rebuilds) = (find_changes(&old, &new), find_rebuilds(&old, &new));
     let messages = find_message_changes(&old, &new);
     let groups = group(&old, &new, messages.add_rebuilds(rebuilds, &new), &messages.pairs);
@@ -88,7 +83,7 @@ pub(crate) fn diff(arguments: &DiffArguments) -> ExitCode {
         Format::Json => report_json,
     };
     print_out(&report(&changes, &groups));
-    ExitCode::from(u8::from(!changes.is_empty()))
+    Ok(ExitCode::from(u8::from(!changes.is_empty())))
 }
 
 /// One of the two topologies.

@@ -1,10 +1,10 @@
 //! `scl doctor`: what is wrong with this machine or with what runs on it.
 
-use crate::format::{FormatArgument, print_json};
-use crate::observed::exit_code;
+use crate::exit::exit_code;
+use crate::format::FormatArgument;
 use clap::Args;
 use scl_observe::{Finding, Severity, examine};
-use scl_terminal::{Problem, print_out};
+use scl_terminal::Problem;
 use serde_json::{Value, json};
 use std::process::ExitCode;
 
@@ -36,10 +36,7 @@ pub(crate) fn doctor(arguments: &DoctorArguments) -> ExitCode {
 fn run(arguments: &DoctorArguments) -> Result<ExitCode, Problem> {
     let variables: Vec<_> = std::env::vars_os().collect();
     let findings = examine(arguments.system.as_deref(), &variables)?;
-    match arguments.format.is_json() {
-        true => print_json(&to_json(&findings)),
-        false => print_out(&to_text(&findings)),
-    }
+    arguments.format.print(|| to_json(&findings), || to_text(&findings));
     let has_error = findings.iter().any(|finding| finding.severity == Severity::Error);
     Ok(if has_error { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }

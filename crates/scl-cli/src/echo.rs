@@ -3,8 +3,9 @@
 mod output;
 mod watched;
 
+use crate::exit::exit_code;
 use crate::load::TOPOLOGY;
-use crate::observed::{SystemArgument, exit_code};
+use crate::observed::SystemArgument;
 use clap::{Args, ValueEnum};
 use output::Output;
 use scl::tap::TapEvent;

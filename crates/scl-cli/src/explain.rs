@@ -1,5 +1,6 @@
 //! `scl explain`: what a code of the checker or a word of the topology file or the launch file means.
 
+use crate::exit::COULD_NOT_DO;
 use clap::Args;
 use scl_terminal::{print_err, print_out};
 use scl_topology::catalogue::{self, ALL};
@@ -7,9 +8,6 @@ use scl_topology::diagnostic::{Rule, Severity};
 use scl_topology::grammar::{self, Entry};
 use scl_topology::suggest::similar;
 use std::process::ExitCode;
-
-/// Exit code: there is no such check or word.
-const UNKNOWN: u8 = 2;
 
 /// Explain a code of the checker, or a word of the topology file or the launch file; without one, list them all.
 #[derive(Args)]
@@ -48,11 +46,11 @@ pub(crate) fn explain(arguments: &ExplainArguments) -> ExitCode {
         }
         None if is_like_code(&code) => {
             print_err(&unknown(written, &code));
-            ExitCode::from(UNKNOWN)
+            ExitCode::from(COULD_NOT_DO)
         }
         None => {
             print_err(&unknown_word(written, &word));
-            ExitCode::from(UNKNOWN)
+            ExitCode::from(COULD_NOT_DO)
         }
     }
 }

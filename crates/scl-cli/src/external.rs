@@ -1,5 +1,6 @@
 //! `scl x` for a program `scl-x` beside `scl` or in `PATH`: the user's, or a part of SCL that is installed apart.
 
+use crate::exit::COULD_NOT_DO;
 use clap::Command as CommandLine;
 use scl_terminal::{Problem, closest_name, escape, print_err};
 use std::env;
@@ -10,12 +11,9 @@ use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-/// Exit code: there is no such command, or it cannot be run.
-const COULD_NOT_RUN: u8 = 2;
-
 /// Becomes the program `scl-x`; `words` are `x` and its arguments. Returns only if that fails.
 pub(crate) fn run_external(words: &[OsString], command_line: &CommandLine) -> ExitCode {
-    let Some((name, arguments)) = words.split_first() else { return ExitCode::from(COULD_NOT_RUN) };
+    let Some((name, arguments)) = words.split_first() else { return ExitCode::from(COULD_NOT_DO) };
     let problem = match find(name) {
         Found::Program(program) => {
             let mut command = Command::new(&program);
@@ -28,7 +26,7 @@ pub(crate) fn run_external(words: &[OsString], command_line: &CommandLine) -> Ex
         Found::Nothing => unknown(&name.to_string_lossy(), command_line),
     };
     print_err(&problem.to_string());
-    ExitCode::from(COULD_NOT_RUN)
+    ExitCode::from(COULD_NOT_DO)
 }
 
 /// Commands of SCL that this program does not contain, and how to get them.

@@ -25,6 +25,14 @@ impl FormatArgument {
     pub(crate) fn is_json(self) -> bool {
         self.format == OutputFormat::Json
     }
+
+    /// Prints the one value of a query.
+    pub(crate) fn print(self, json: impl FnOnce() -> Value, text: impl FnOnce() -> String) {
+        match self.format {
+            OutputFormat::Json => print_json(&json()),
+            OutputFormat::Text => print_out(&text()),
+        }
+    }
 }
 
 /// Prints the one value of a query, over several lines.

@@ -1,5 +1,6 @@
 //! `scl generate`: code and configuration for other languages.
 
+use crate::exit::COULD_NOT_DO;
 use crate::load::{MaxSize, load_file, show_diagnostics};
 use clap::{Args, ValueEnum};
 use scl_generate::{Component, File, Format, Outcome, OutputError, System, Target, is_current, write};
@@ -9,9 +10,6 @@ use scl_topology::diagnostic::Severity;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-
-/// Exit code: a file could not be read or written.
-const COULD_NOT_RUN: u8 = 2;
 
 /// Generate code for C, C++ and Python from a topology, or its sockets for any program with a ZeroMQ library.
 ///
@@ -79,12 +77,12 @@ enum TextFormat {
 pub(crate) fn generate(arguments: &GenerateArguments) -> ExitCode {
     if let Some(text) = arguments.contradiction() {
         print_err(&format!("error: {text}\n"));
-        return ExitCode::from(COULD_NOT_RUN);
+        return ExitCode::from(COULD_NOT_DO);
     }
     let loaded = load_file(&arguments.file, arguments.max_size);
     show_diagnostics(&loaded, loaded.diagnostics.iter().filter(|it| it.severity != Severity::Lint));
     let Some(mut system) = System::of(&loaded) else {
-        return ExitCode::from(if loaded.file.is_some() { 1 } else { COULD_NOT_RUN });
+        return ExitCode::from(if loaded.file.is_some() { 1 } else { COULD_NOT_DO });
     };
     if let Err(text) = select(&mut system, &arguments.components) {
         print_err(&text);
@@ -114,7 +112,7 @@ pub(crate) fn generate(arguments: &GenerateArguments) -> ExitCode {
         Err(error) => {
             let cause = error.source().map(|cause| format!(": {cause}")).unwrap_or_default();
             print_err(&format!("error: {error}{cause}\n"));
-            ExitCode::from(COULD_NOT_RUN)
+            ExitCode::from(COULD_NOT_DO)
         }
     }
 }

@@ -4,7 +4,7 @@ mod dot;
 mod edge;
 mod mermaid;
 
-use crate::load::{MaxSize, load_file, show_errors};
+use crate::load::{MaxSize, load_file, unsound};
 use clap::{Args, ValueEnum};
 use dot::draw_dot;
 use mermaid::draw_mermaid;
@@ -44,10 +44,7 @@ enum Format {
 /// The body of `scl graph`.
 pub(crate) fn graph(arguments: &GraphArguments) -> ExitCode {
     let loaded = load_file(&arguments.file, arguments.max_size);
-    let Some(topology) = &loaded.topology else {
-        show_errors(&loaded);
-        return ExitCode::from(if loaded.file.is_some() { 1 } else { 2 });
-    };
+    let Some(topology) = &loaded.topology else { return unsound(&loaded) };
     let text = match arguments.format {
         Format::Mermaid => draw_mermaid(topology),
         Format::Dot => draw_dot(topology),

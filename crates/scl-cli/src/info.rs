@@ -4,11 +4,12 @@
 mod recording;
 mod text;
 
-use crate::format::{FormatArgument, print_json};
-use crate::observed::{SystemArgument, exit_code};
+use crate::exit::exit_code;
+use crate::format::FormatArgument;
+use crate::observed::SystemArgument;
 use clap::Args;
 use scl_observe::{Component, GateRate, System, rates};
-use scl_terminal::{Problem, print_out};
+use scl_terminal::Problem;
 use serde_json::Value;
 use std::process::ExitCode;
 use std::time::{Duration, SystemTime};
@@ -55,10 +56,7 @@ fn print_info(arguments: &InfoArguments) -> Result<ExitCode, Problem> {
     let system = arguments.system.find()?;
     let (component, gate) = system.component_and_gate(&arguments.name)?;
     let reading = Reading::take(&system, component);
-    match arguments.format.is_json() {
-        true => print_json(&reading.to_json(gate)),
-        false => print_out(&reading.text(gate)),
-    }
+    arguments.format.print(|| reading.to_json(gate), || reading.text(gate));
     Ok(ExitCode::SUCCESS)
 }
 

@@ -1,7 +1,8 @@
 //! `scl list`: the components of a system, and whether they run.
 
+use crate::exit::exit_code;
 use crate::format::{FormatArgument, print_json};
-use crate::observed::{SystemArgument, exit_code};
+use crate::observed::SystemArgument;
 use clap::Args;
 use scl_observe::{Activity, Component, System, connected_peers};
 use scl_terminal::{Align, Problem, Table, age_text, print_out};

@@ -1,5 +1,6 @@
 //! Topology files from disk or standard input, for every command, and their problems on standard error.
 
+use crate::exit::COULD_NOT_DO;
 use anstream::{AutoStream, ColorChoice};
 use clap::Args;
 use scl_loader::{Loaded, Request, load, load_bytes};
@@ -9,6 +10,7 @@ use scl_topology::diagnostic::{Diagnostic, Severity, render, render_styled};
 use scl_topology::external::UNREADABLE_FILE;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 /// The topology file that is used if there is one in the working folder.
 pub(crate) const TOPOLOGY: &str = "topology.yaml";
@@ -89,6 +91,12 @@ pub(crate) fn show_diagnostics<'d>(loaded: &Loaded, shown: impl IntoIterator<Ite
     let plain = matches!(AutoStream::choice(&io::stderr()), ColorChoice::Never);
     let render = if plain { render } else { render_styled };
     shown.into_iter().for_each(|it| print_err(&format!("{}\n\n", render(it, &loaded.sources))));
+}
+
+/// The exit code of a command that needs a sound topology: 1 if the file has errors, which are shown.
+pub(crate) fn unsound(loaded: &Loaded) -> ExitCode {
+    show_errors(loaded);
+    ExitCode::from(if loaded.file.is_some() { 1 } else { COULD_NOT_DO })
 }
 
 /// Shows the errors alone, for the commands that cannot go on with them.

@@ -1,12 +1,13 @@
 //! `scl log`: what a component has printed, also after it and `scl run` have ended.
 
+use crate::exit::exit_code;
 use crate::format::FormatArgument;
 use crate::load::system_of_folder;
 use clap::{Args, ValueEnum};
 use scl_run::{LogEntry, LogFolder, LogReader, LogStream, running_systems};
 use scl_terminal::{
-    Problem, choose_system, escape, escape_json, output_is_closed, output_is_terminal, parse_duration, print_err,
-    print_out, quoted_list, timestamp,
+    Problem, choose_system, escape, escape_json, output_is_closed, output_is_terminal, parse_duration, print_out,
+    quoted_list, timestamp,
 };
 use std::collections::VecDeque;
 use std::env;
@@ -15,9 +16,6 @@ use std::io;
 use std::process::ExitCode;
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
-
-/// Exit code: there is no such log, or it cannot be read.
-const COULD_NOT_READ: u8 = 2;
 
 /// Number of lines before those that are followed.
 const LINES_BEFORE: usize = 10;
@@ -71,13 +69,7 @@ enum StreamArgument {
 
 /// The body of `scl log`.
 pub(crate) fn log(arguments: &LogArguments) -> ExitCode {
-    match show(arguments) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(problem) => {
-            print_err(&problem.to_string());
-            ExitCode::from(COULD_NOT_READ)
-        }
-    }
+    exit_code(show(arguments).map(|()| ExitCode::SUCCESS))
 }
 
 fn show(arguments: &LogArguments) -> Result<(), Problem> {

@@ -23,6 +23,7 @@ mod diff;
 mod doctor;
 #[cfg(feature = "observe")]
 mod echo;
+mod exit;
 mod explain;
 mod external;
 #[cfg(any(feature = "observe", feature = "run"))]

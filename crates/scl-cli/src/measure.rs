@@ -1,7 +1,8 @@
 //! What `scl hz`, `scl delay` and `scl bw` share: a line for each gate and second, and a summary at the end.
 
+use crate::exit::exit_code;
 use crate::format::FormatArgument;
-use crate::observed::{SystemArgument, exit_code};
+use crate::observed::SystemArgument;
 use clap::Args;
 use scl_observe::{GateReport, Measurement, Meter, ObservedGate, StopSignals, at_taps, block_on};
 use scl_terminal::{

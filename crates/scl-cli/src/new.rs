@@ -1,13 +1,11 @@
 //! `scl new`: creates a project.
 
+use crate::exit::exit_code;
 use clap::{Args, ValueEnum};
 use scl_new::{Project, Source, create};
 use scl_terminal::{print_err, print_out};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-
-/// Exit code: nothing was created.
-const COULD_NOT_RUN: u8 = 2;
 
 /// Create a project: a folder with programs that talk, tests, and a README that explains the next steps.
 ///
@@ -67,22 +65,15 @@ pub(crate) fn new(arguments: &NewArguments) -> ExitCode {
         (None, None) => Source::OfThisProgram,
     };
     let project = Project { name: name.clone(), template: arguments.template.into(), scl };
-    match create(Path::new("."), &project) {
-        Ok(created) => {
-            print_err(&format!(
-                "created `{name}` with {} files; it uses SCL from {}\n",
-                created.files.len(),
-                created.scl
-            ));
-            if let Some(note) = created.note {
-                print_err(&format!("note: {note}\n"));
-            }
-            print_out(&format!("cd {name} && scl run\n"));
-            ExitCode::SUCCESS
+    exit_code(create(Path::new("."), &project).map(|created| {
+        let count = created.files.len();
+        print_err(&format!("created `{name}` with {count} files; it uses SCL from {}
+", created.scl));
+        if let Some(note) = created.note {
+            print_err(&format!("note: {note}
+"));
         }
-        Err(problem) => {
-            print_err(&problem.to_string());
-            ExitCode::from(COULD_NOT_RUN)
-        }
-    }
+        print_out(&format!("cd {name} && scl run\n"));
+        ExitCode::SUCCESS
+    }))
 }

@@ -1,14 +1,10 @@
-//! What the commands that look at a running system share: which system, and how they fail.
+//! What the commands that look at a running system share: which system.
 
 use clap::Args;
 use scl::runtime_dir::RuntimeDir;
 use scl_observe::System;
-use scl_terminal::{Problem, choose_system, named_system, print_err};
+use scl_terminal::{Problem, choose_system, named_system};
 use std::ffi::OsString;
-use std::process::ExitCode;
-
-/// Exit code: the command could not do its work.
-pub(crate) const COULD_NOT_DO: u8 = 2;
 
 /// Which system a command looks at.
 #[derive(Debug, Clone, Args)]
@@ -64,12 +60,4 @@ impl SystemArgument {
 
 fn variable(name: &str) -> Option<OsString> {
     std::env::var_os(name)
-}
-
-/// The exit code of a command; a problem is printed and means that the command could not do its work.
-pub(crate) fn exit_code(result: Result<ExitCode, Problem>) -> ExitCode {
-    result.unwrap_or_else(|problem| {
-        print_err(&problem.to_string());
-        ExitCode::from(COULD_NOT_DO)
-    })
 }

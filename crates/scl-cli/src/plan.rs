@@ -1,6 +1,6 @@
 //! `scl plan`: the plans of a system's components as JSON.
 
-use crate::load::{MaxSize, load_file, show_errors};
+use crate::load::{MaxSize, load_file, unsound};
 use clap::Args;
 use scl_plan::SystemPlan;
 use scl_terminal::{print_err, print_out};
@@ -37,10 +37,7 @@ pub(crate) struct PlanArguments {
 /// The body of `scl plan`.
 pub(crate) fn plan(arguments: &PlanArguments) -> ExitCode {
     let loaded = load_file(&arguments.file, arguments.max_size);
-    let Some(system) = loaded.system_plan() else {
-        show_errors(&loaded);
-        return ExitCode::from(if loaded.file.is_some() { 1 } else { 2 });
-    };
+    let Some(system) = loaded.system_plan() else { return unsound(&loaded) };
     let text = match &arguments.component {
         None => system.to_json(),
         Some(name) => match system.component(name) {

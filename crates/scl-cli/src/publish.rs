@@ -3,7 +3,7 @@
 mod messages;
 mod sender;
 
-use crate::observed::exit_code;
+use crate::exit::exit_code;
 use crate::play::{Plans, PlayArguments, message_type, problem_of};
 use clap::Args;
 use messages::Messages;

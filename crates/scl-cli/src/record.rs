@@ -1,8 +1,9 @@
 //! `scl record`: records what passes the gates of a running system into MCAP files.
 
-use crate::format::{FormatArgument, print_json};
+use crate::exit::exit_code;
+use crate::format::FormatArgument;
 use crate::load::{MaxSize, parse_size, request};
-use crate::observed::{SystemArgument, exit_code};
+use crate::observed::SystemArgument;
 use clap::Args;
 use scl_observe::System;
 use scl_record::format::{LAUNCH, TOPOLOGY};
@@ -112,11 +113,7 @@ fn run(arguments: &RecordArguments) -> Result<ExitCode, Problem> {
     }
     let system = arguments.system.find_or_await()?;
     let report = record::record(&system, &options(arguments, &system)?)?;
-    if arguments.format.is_json() {
-        print_json(&report.json());
-    } else {
-        print_out(&report.text());
-    }
+    arguments.format.print(|| report.json(), || report.text());
     if let Some(problem) = &report.problem {
         print_err(&problem.to_string());
         return Ok(ExitCode::FAILURE);

@@ -1,6 +1,6 @@
 //! `scl recover`: rebuilds a recording that was cut off.
 
-use crate::observed::exit_code;
+use crate::exit::exit_code;
 use clap::Args;
 use scl_record::recover::{Recovered, recover as recover_file};
 use scl_terminal::{Problem, bytes_text, escape, print_out};

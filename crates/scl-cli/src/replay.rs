@@ -1,18 +1,16 @@
 //! `scl replay`: plays recorded components in a running system.
 
-use crate::format::{FormatArgument, print_json};
+use crate::exit::{COULD_NOT_DO, exit_code};
+use crate::format::FormatArgument;
 use crate::load::{MaxSize, load_file, show_errors};
 use clap::Args;
 use scl_record::progress::Progress;
 use scl_record::recording::{Recording, find_files};
 use scl_record::replay::{Rate, ReplayOptions, ReplayReport, replay as play};
-use scl_terminal::{Problem, parse_duration, print_err, print_out};
+use scl_terminal::{Problem, parse_duration, print_err};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
-
-/// Exit code: nothing could be replayed.
-const COULD_NOT_REPLAY: u8 = 2;
 
 /// Play recorded components in a running system.
 ///
@@ -83,7 +81,7 @@ pub(crate) fn replay(arguments: &ReplayArguments) -> ExitCode {
             let loaded = load_file(file, MaxSize::default());
             let Some(plan) = loaded.system_plan() else {
                 show_errors(&loaded);
-                return ExitCode::from(COULD_NOT_REPLAY);
+                return ExitCode::from(COULD_NOT_DO);
             };
             Some(plan)
         }
@@ -100,20 +98,11 @@ pub(crate) fn replay(arguments: &ReplayArguments) -> ExitCode {
         ready_within: arguments.ready,
         plan,
     };
-    match run(&arguments.files, &options) {
-        Ok(report) => {
-            match arguments.format.is_json() {
-                true => print_json(&report.to_json()),
-                false => print_out(&report.to_text()),
-            }
-            let is_incomplete = options.rate == Rate::Max && !report.was_stopped && report.is_incomplete();
-            if is_incomplete { ExitCode::FAILURE } else { ExitCode::SUCCESS }
-        }
-        Err(problem) => {
-            print_err(&problem.to_string());
-            ExitCode::from(COULD_NOT_REPLAY)
-        }
-    }
+    exit_code(run(&arguments.files, &options).map(|report| {
+        arguments.format.print(|| report.to_json(), || report.to_text());
+        let is_incomplete = options.rate == Rate::Max && !report.was_stopped && report.is_incomplete();
+        if is_incomplete { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+    }))
 }
 
 fn run(files: &[PathBuf], options: &ReplayOptions) -> Result<ReplayReport, Problem> {

@@ -1,15 +1,13 @@
 //! What `scl stop` and `scl restart` share: asking the `scl run` of the components, and showing what happened.
 
-use crate::format::{FormatArgument, print_json};
+use crate::exit::{exit_code_of_all, print_problems};
+use crate::format::FormatArgument;
 use crate::load::{named_after_here, system_of_folder};
 use clap::Args;
 use scl_run::control::{Command, ComponentReport, Wish, ask};
-use scl_terminal::{Problem, escape, print_err, print_out};
+use scl_terminal::{Problem, escape};
 use serde_json::json;
 use std::process::ExitCode;
-
-/// Exit code: nothing was done.
-const COULD_NOT_DO: u8 = 2;
 
 /// The options of both commands.
 #[derive(Args)]
@@ -23,28 +21,23 @@ pub(crate) struct RequestArguments {
 
 /// Asks, waits, prints what happened, and returns the exit code.
 pub(crate) fn request(command: Command, components: &[String], build: bool, arguments: &RequestArguments) -> ExitCode {
-    let system = arguments.system.as_deref();
-    let (here, named_after_here) = (&system_of_folder, &named_after_here);
-    let done = match ask(&Wish { command, components, system, here, named_after_here, build }) {
-        Ok(done) => done,
-        Err(problems) => {
-            show(&problems);
-            return ExitCode::from(COULD_NOT_DO);
-        }
-    };
-    let reports = done.components;
-    if arguments.format.is_json() {
-        print_json(&json!({ "components": reports }));
-    } else {
-        print_out(&reports.iter().map(line).collect::<String>());
-    }
-    show(&done.problems);
-    let all_done = done.problems.is_empty() && reports.iter().all(|report| report.done);
-    if all_done { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    exit_code_of_all(ask_and_print(command, components, build, arguments))
 }
 
-fn show(problems: &[Problem]) {
-    problems.iter().for_each(|problem| print_err(&format!("{problem}\n")));
+fn ask_and_print(
+    command: Command,
+    components: &[String],
+    build: bool,
+    arguments: &RequestArguments,
+) -> Result<ExitCode, Vec<Problem>> {
+    let system = arguments.system.as_deref();
+    let (here, named_after_here) = (&system_of_folder, &named_after_here);
+    let done = ask(&Wish { command, components, system, here, named_after_here, build })?;
+    let reports = done.components;
+    arguments.format.print(|| json!({ "components": reports }), || reports.iter().map(line).collect());
+    print_problems(&done.problems);
+    let all_done = done.problems.is_empty() && reports.iter().all(|report| report.done);
+    Ok(if all_done { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 fn line(report: &ComponentReport) -> String {

@@ -1,19 +1,16 @@
 //! `scl run`: builds and starts the program of every component, shows what they print, and stops them together.
 
+use crate::exit::exit_code_of_all;
 use crate::load::{MaxSize, load_file, show_errors};
 use clap::Args;
 use scl_run::SystemNames;
 use scl_terminal::parse_duration;
-use scl_terminal::print_err;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
 pub(crate) use scl_run::{GUARD_WORD, KEYS_WORD, START_WORD, keep_watch, tell_keys};
-
-/// Exit code: nothing could be started.
-const COULD_NOT_RUN: u8 = 2;
 
 /// Build and start every component of a system and show what they print.
 ///
@@ -105,14 +102,8 @@ pub(crate) fn run(arguments: &RunArguments) -> ExitCode {
         run_for: arguments.run_for,
         grace: arguments.grace,
     };
-    match scl_run::run(&options, &component_names) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(problems) => {
-            problems.iter().for_each(|problem| print_err(&format!("{problem}\n")));
-            ExitCode::from(COULD_NOT_RUN)
-        }
-    }
+    let all_ended_well = scl_run::run(&options, &component_names);
+    exit_code_of_all(all_ended_well.map(|well| if well { ExitCode::SUCCESS } else { ExitCode::FAILURE }))
 }
 
 /// The body of `scl __start`.

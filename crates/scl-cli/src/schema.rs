@@ -5,6 +5,7 @@ mod gate;
 mod names;
 mod shape;
 
+use crate::exit::COULD_NOT_DO;
 use crate::load::{MaxSize, load_file, show_errors};
 use clap::Args;
 use file::file_schema;
@@ -12,9 +13,6 @@ use names::Names;
 use scl_terminal::print_out;
 use std::path::PathBuf;
 use std::process::ExitCode;
-
-/// Exit code: the file could not be read.
-const COULD_NOT_RUN: u8 = 2;
 
 /// Print the JSON Schema (draft-07) of the topology file, which YAML language servers read.
 ///
@@ -46,7 +44,7 @@ pub(crate) fn schema(arguments: &SchemaArguments) -> ExitCode {
             let loaded = load_file(path, arguments.max_size);
             if loaded.file.is_none() {
                 show_errors(&loaded);
-                return ExitCode::from(COULD_NOT_RUN);
+                return ExitCode::from(COULD_NOT_DO);
             }
             Names::of(&loaded.model)
         }

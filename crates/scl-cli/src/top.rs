@@ -10,8 +10,9 @@ mod screen;
 #[cfg(feature = "tui")]
 mod view;
 
+use crate::exit::exit_code;
 use crate::format::{FormatArgument, print_json};
-use crate::observed::{SystemArgument, exit_code};
+use crate::observed::SystemArgument;
 use clap::{Args, ValueEnum};
 use rows::{COMPONENT_COLUMNS, GATE_COLUMNS, component_cells, gate_cells, sort, to_json};
 use scl_observe::{Snapshot, Watch};

@@ -1,8 +1,9 @@
 //! One file, checked: what is shown of it, and its exit code.
 
+use super::CheckArguments;
 use super::deny::deny;
 use super::fix::{Outcome, fix_file};
-use super::{COULD_NOT_RUN, CheckArguments};
+use crate::exit::COULD_NOT_DO;
 use crate::load::load_file;
 use scl_loader::Loaded;
 use scl_topology::diagnostic::{Diagnostic, Severity};
@@ -46,8 +47,8 @@ fn refusals(_: &Loaded, _: &CheckArguments) -> Vec<Diagnostic> {
 impl Checked {
     pub(super) fn code(&self) -> u8 {
         match &self.loaded {
-            Loaded { file: None, .. } => COULD_NOT_RUN,
-            _ if self.outcome.as_ref().is_some_and(|outcome| outcome.error.is_some()) => COULD_NOT_RUN,
+            Loaded { file: None, .. } => COULD_NOT_DO,
+            _ if self.outcome.as_ref().is_some_and(|outcome| outcome.error.is_some()) => COULD_NOT_DO,
             Loaded { topology: None, .. } => 1,
             _ => u8::from(self.number_of(Severity::Error) > 0),
         }

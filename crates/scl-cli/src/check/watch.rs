@@ -5,7 +5,8 @@
 
 use super::checked::Checked;
 use super::report::report;
-use super::{COULD_NOT_RUN, CheckArguments, check_files, worst_code};
+use super::{CheckArguments, check_files, worst_code};
+use crate::exit::COULD_NOT_DO;
 use scl_terminal::{output_is_closed, print_err};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
@@ -32,7 +33,7 @@ pub(super) fn watch(arguments: &CheckArguments) -> ExitCode {
         Ok(stop) => stop,
         Err(error) => {
             print_err(&format!("error: cannot listen for signals: {error}\n"));
-            return ExitCode::from(COULD_NOT_RUN);
+            return ExitCode::from(COULD_NOT_DO);
         }
     };
     let mut marks = Marks(Vec::new());
