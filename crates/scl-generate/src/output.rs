@@ -1,8 +1,10 @@
 //! Generated files on disk: written only when they differ, and as a whole.
 
-use std::fs::{self, OpenOptions};
+use std::fs::{self, Permissions};
 use std::io::{self, Write};
+use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
+use tempfile::Builder;
 use thiserror::Error;
 
 /// A generated file.
@@ -70,31 +72,12 @@ pub fn is_current(folder: &Path, file: &File) -> bool {
     is_candidate && fs::read(&path).is_ok_and(|bytes| bytes == file.text.as_bytes())
 }
 
-/// More files than killed processes leave behind.
-const ATTEMPTS: u32 = 1_000;
-
 fn replace(path: &Path, text: &str) -> io::Result<()> {
     let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let (temporary, mut file) = create_beside(&path)?;
-    let done = file.write_all(text.as_bytes()).and_then(|()| fs::rename(&temporary, &path));
-    if done.is_err() {
-        // The first error is the one to report.
-        let _ = fs::remove_file(&temporary);
-    }
-    done
-}
-
-/// A new file in the same folder, as only within one file system a rename is atomic. A file of that name may have been left
-/// by a killed process with the same id: containers use few ids.
-fn create_beside(path: &Path) -> io::Result<(PathBuf, fs::File)> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let mut attempt = 0;
-    loop {
-        let temporary = path.with_file_name(format!(".{name}.{}.{attempt}.tmp", std::process::id()));
-        match OpenOptions::new().write(true).create_new(true).open(&temporary) {
-            Ok(file) => return Ok((temporary, file)),
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists && attempt < ATTEMPTS => attempt += 1,
-            Err(error) => return Err(error),
-        }
-    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    // In the same folder, as only within one file system a rename is atomic; readable for all that the umask allows.
+    let mut file = Builder::new().permissions(Permissions::from_mode(0o666)).tempfile_in(folder)?;
+    file.write_all(text.as_bytes())?;
+    file.persist(path)?;
+    Ok(())
 }

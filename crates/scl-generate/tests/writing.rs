@@ -58,12 +58,12 @@ fn what_cannot_be_written_is_an_error_and_leaves_nothing() {
 }
 
 #[test]
-fn what_a_killed_process_left_is_in_nobodys_way() {
+fn leftovers_of_killed_processes_do_not_disturb() {
     let folder = tempfile::tempdir().unwrap();
-    let left = format!(".rover_scl.h.{}.0.tmp", std::process::id());
-    fs::write(folder.path().join(left), "half").unwrap();
+    fs::write(folder.path().join(".tmpabcdef"), "half").unwrap();
     write(folder.path(), &file("one")).unwrap();
     assert!(is_current(folder.path(), &file("one")));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
 }
 
 /// As other files that this user creates, not as a temporary one of this user alone.

@@ -1,8 +1,11 @@
 //! A folder of files, written all or none: beside its place first, then renamed.
 
 use scl_terminal::Problem;
+use std::fs::Permissions;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
+use tempfile::{Builder, TempDir};
 
 /// Refuses a name that something in `parent` has.
 pub(crate) fn check_absent(parent: &Path, name: &str) -> Result<(), Problem> {
@@ -19,32 +22,38 @@ pub(crate) fn check_absent(parent: &Path, name: &str) -> Result<(), Problem> {
 
 /// Writes the files into the new folder `name` of `parent`.
 pub(crate) fn write_all(parent: &Path, name: &str, files: &[(String, String)]) -> Result<(), Problem> {
-    let draft = Draft { folder: parent.join(format!(".{name}.{}", std::process::id())) };
-    draft.fill(files).and_then(|()| std::fs::rename(&draft.folder, parent.join(name))).map_err(|error| {
+    write_draft(parent, files).and_then(|draft| std::fs::rename(draft.path(), parent.join(name))).map_err(|error| {
         Problem::new(format!("cannot write the project `{name}`: {error}")).note("nothing was left behind")
     })
 }
 
-/// A folder that is removed unless it was renamed.
-struct Draft {
-    folder: PathBuf,
-}
-
-impl Draft {
-    fn fill(&self, files: &[(String, String)]) -> io::Result<()> {
-        std::fs::create_dir(&self.folder)?;
-        for (path, text) in files {
-            let path = self.folder.join(path);
-            path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
-            std::fs::write(path, text)?;
-        }
-        Ok(())
+/// Writes the files into a folder that is removed unless it is renamed.
+fn write_draft(parent: &Path, files: &[(String, String)]) -> io::Result<TempDir> {
+    // Readable for all that the umask allows.
+    let draft = Builder::new().permissions(Permissions::from_mode(0o777)).tempdir_in(parent)?;
+    for (path, text) in files {
+        let path = draft.path().join(path);
+        path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
+        std::fs::write(path, text)?;
     }
+    Ok(draft)
 }
 
-impl Drop for Draft {
-    fn drop(&mut self) {
-        // After the rename there is none.
-        let _absent = std::fs::remove_dir_all(&self.folder);
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn a_new_folder_has_the_usual_permissions_and_nothing_is_left_beside_it() {
+        let parent = tempfile::tempdir().unwrap();
+        write_all(parent.path(), "rover", &[("src/main.rs".to_owned(), "text".to_owned())]).unwrap();
+        fs::create_dir(parent.path().join("usual")).unwrap();
+        let mode = |name| fs::metadata(parent.path().join(name)).unwrap().permissions().mode();
+        assert_eq!(mode("rover"), mode("usual"));
+        assert_eq!(fs::read_to_string(parent.path().join("rover/src/main.rs")).unwrap(), "text");
+        // It cannot be replaced by a rename.
+        assert!(write_all(parent.path(), "rover", &[]).is_err());
+        assert_eq!(fs::read_dir(parent.path()).unwrap().count(), 2);
     }
 }

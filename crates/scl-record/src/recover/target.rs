@@ -8,8 +8,9 @@ use mcap::{Attachment, McapError, McapResult, Writer};
 use scl_terminal::Problem;
 use std::borrow::Cow;
 use std::fs::{self, File, Metadata};
-use std::io::BufWriter;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
 
 /// Uncompressed size of a chunk.
 const CHUNK: u64 = 1 << 20;
@@ -20,7 +21,8 @@ const PRIVATE: u8 = 0x80;
 /// A file that takes the place of another one, or none if it is not published.
 pub(super) struct Target {
     path: PathBuf,
-    temporary: PathBuf,
+    /// Beside `path`; removed unless it is published.
+    file: NamedTempFile,
     output: Output,
     messages: u64,
     /// Bytes in the open chunk.
@@ -29,21 +31,19 @@ pub(super) struct Target {
 
 enum Output {
     /// Before the header of the old file is known.
-    Empty(File),
+    Empty,
     Open(Box<Writer<NoSeek<BufWriter<File>>>>),
-    Finished,
 }
 
 impl Target {
     /// Creates the temporary file beside `path`, with the permissions of the old file.
     pub(super) fn create(path: &Path, old: &Metadata) -> Result<Self, Problem> {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let temporary = path.with_file_name(format!(".{name}.recovered"));
-        let file = File::create(&temporary)
-            .map_err(|error| Problem::new(format!("cannot create `{}`: {error}", temporary.display())))?;
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let file = NamedTempFile::new_in(folder)
+            .map_err(|error| Problem::new(format!("cannot create a file in `{}`: {error}", folder.display())))?;
         // The content is what matters; a file system may know no permissions.
-        let _copied = file.set_permissions(old.permissions());
-        Ok(Self { path: path.to_owned(), temporary, output: Output::Empty(file), messages: 0, pending: 0 })
+        let _copied = file.as_file().set_permissions(old.permissions());
+        Ok(Self { path: path.to_owned(), file, output: Output::Empty, messages: 0, pending: 0 })
     }
 
     /// Number of messages so far.
@@ -126,32 +126,24 @@ impl Target {
     }
 
     /// Gives the file its name, with its content safely on the disk.
-    pub(super) fn publish(mut self) -> Result<(), Problem> {
-        let output = std::mem::replace(&mut self.output, Output::Finished);
+    pub(super) fn publish(self) -> Result<(), Problem> {
+        let Self { path, file, output, .. } = self;
         let written = match output {
-            Output::Open(writer) => writer.into_inner().into_inner().into_inner().map_err(|error| error.into_error()),
-            Output::Empty(file) => Ok(file),
-            Output::Finished => return Ok(()),
+            Output::Open(writer) => writer.into_inner().into_inner().flush(),
+            Output::Empty => Ok(()),
         };
-        let published = written.and_then(|file| file.sync_all()).and_then(|()| fs::rename(&self.temporary, &self.path));
-        published.map_err(|error| Problem::new(format!("cannot write `{}`: {error}", self.path.display())))
+        let published = written.and_then(|()| file.as_file().sync_all()).and_then(|()| Ok(file.persist(&path)?));
+        published.map(drop).map_err(|error| Problem::new(format!("cannot write `{}`: {error}", path.display())))
     }
 
     fn open(&mut self, header: Option<Header>) -> McapResult<()> {
-        let Output::Empty(file) = &self.output else { return Ok(()) };
+        let Output::Empty = self.output else { return Ok(()) };
         let mut options = options();
         if let Some(header) = header {
             options = options.profile(header.profile).library(header.library);
         }
-        let file = file.try_clone()?;
+        let file = self.file.as_file().try_clone()?;
         self.output = Output::Open(Box::new(options.create(NoSeek::new(BufWriter::new(file)))?));
         Ok(())
-    }
-}
-
-impl Drop for Target {
-    fn drop(&mut self) {
-        // After publishing there is no file with this name.
-        let _removed = fs::remove_file(&self.temporary);
     }
 }

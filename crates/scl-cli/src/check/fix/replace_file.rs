@@ -1,8 +1,9 @@
 //! Replaces a file as a whole, so that no reader ever sees a half-written one.
 
-use std::fs::{self, OpenOptions};
+use std::fs;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use tempfile::NamedTempFile;
 
 /// Writes `new` in place of `old`, with the permissions of the file. A symbolic link stays, and what it leads to is
 /// replaced.
@@ -12,32 +13,17 @@ use std::path::{Path, PathBuf};
 /// The file no longer holds `old`, or the operating system refuses. The file is then as it was.
 pub(super) fn replace_file(path: &Path, old: &str, new: &str) -> io::Result<()> {
     let path = fs::canonicalize(path)?;
-    let temporary = beside(&path);
-    let done = write(&temporary, new, &path).and_then(|()| {
-        // As late as possible: an editor may have saved the file meanwhile.
-        match fs::read(&path)? == old.as_bytes() {
-            true => fs::rename(&temporary, &path),
-            false => Err(io::Error::other("the file changed while it was being fixed")),
-        }
-    });
-    if done.is_err() {
-        // The first error is the one to report.
-        let _ = fs::remove_file(&temporary);
+    // In the same folder, as only within one file system a rename is atomic.
+    let mut file = NamedTempFile::new_in(path.parent().unwrap_or(Path::new("/")))?;
+    file.as_file().set_permissions(fs::metadata(&path)?.permissions())?;
+    file.write_all(new.as_bytes())?;
+    file.as_file().sync_all()?;
+    // As late as possible: an editor may have saved the file meanwhile.
+    if fs::read(&path)? != old.as_bytes() {
+        return Err(io::Error::other("the file changed while it was being fixed"));
     }
-    done
-}
-
-fn write(temporary: &Path, text: &str, model: &Path) -> io::Result<()> {
-    let mut file = OpenOptions::new().write(true).create_new(true).open(temporary)?;
-    file.set_permissions(fs::metadata(model)?.permissions())?;
-    file.write_all(text.as_bytes())?;
-    file.sync_all()
-}
-
-/// A name in the same folder, as only within one file system a rename is atomic.
-fn beside(path: &Path) -> PathBuf {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!(".{name}.{}.tmp", std::process::id()))
+    file.persist(path)?;
+    Ok(())
 }
 
 #[cfg(test)]
