@@ -1,6 +1,7 @@
 //! How many bytes a gate sends: bytes per second and the sizes of its messages.
 
-use scl::tap::ObservedKind;
+use crate::measure::Meter;
+use scl::tap::{Observation, ObservedKind};
 
 /// Counts the bytes of the messages of one gate.
 #[derive(Debug, Default)]
@@ -36,7 +37,7 @@ struct Bytes {
 
 impl BandwidthMeter {
     /// Counts a message by its size in bytes and the time when it was sent. A reply belongs to the time before it.
-    pub fn observe(&mut self, kind: ObservedKind, size: usize, sent_ns: u64) {
+    fn observe(&mut self, kind: ObservedKind, size: usize, sent_ns: u64) {
         let size = size as u64;
         let duration_ns = match kind {
             // The few microseconds from a request to its reply say nothing about bytes per second.
@@ -46,19 +47,25 @@ impl BandwidthMeter {
         self.interval.add(size, duration_ns);
         self.total.add(size, duration_ns);
     }
+}
+
+impl Meter for BandwidthMeter {
+    type Figures = BandwidthFigures;
+
+    fn observe(&mut self, seen: &Observation) {
+        self.observe(seen.kind, seen.payload.len(), seen.sent_ns);
+    }
 
     /// The tap was disconnected: the time until the next message is not counted.
-    pub fn interrupt(&mut self) {
+    fn interrupt(&mut self) {
         self.previous_ns = None;
     }
 
-    /// The figures since the last call.
-    pub fn take_interval(&mut self) -> BandwidthFigures {
+    fn take_interval(&mut self) -> BandwidthFigures {
         std::mem::take(&mut self.interval).figures()
     }
 
-    /// The figures of the whole time.
-    pub fn total(&self) -> BandwidthFigures {
+    fn total(&self) -> BandwidthFigures {
         self.total.figures()
     }
 }

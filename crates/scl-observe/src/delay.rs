@@ -1,6 +1,8 @@
 //! How long messages take from being sent until this program sees them.
 
 use crate::distribution::{Distribution, Spread};
+use crate::measure::Meter;
+use scl::tap::Observation;
 
 /// Collects the delays of the messages of one gate.
 #[derive(Debug, Default)]
@@ -29,21 +31,27 @@ struct Delays {
 
 impl DelayMeter {
     /// Counts a message by the times when it was sent and received, in nanoseconds since 1970.
-    pub fn observe(&mut self, sent_ns: u64, received_ns: u64) {
+    fn observe(&mut self, sent_ns: u64, received_ns: u64) {
         self.interval.add(sent_ns, received_ns);
         self.total.add(sent_ns, received_ns);
     }
+}
 
-    /// The figures since the last call.
-    pub fn take_interval(&mut self) -> DelayFigures {
+impl Meter for DelayMeter {
+    type Figures = DelayFigures;
+
+    fn observe(&mut self, seen: &Observation) {
+        self.observe(seen.sent_ns, seen.received_ns);
+    }
+
+    fn take_interval(&mut self) -> DelayFigures {
         let figures = self.interval.figures();
         (self.interval.messages, self.interval.negative) = (0, 0);
         self.interval.distribution.clear();
         figures
     }
 
-    /// The figures of the whole time.
-    pub fn total(&self) -> DelayFigures {
+    fn total(&self) -> DelayFigures {
         self.total.figures()
     }
 }

@@ -1,7 +1,7 @@
 //! Measuring gates: what passes their taps goes to a meter for each gate.
 
 use crate::silence::describe_state;
-use crate::{BandwidthMeter, DelayMeter, ObservedGate, RateMeter, System, Tap, Taps, TapsEvent};
+use crate::{ObservedGate, System, Tap, Taps, TapsEvent};
 use scl::tap::{Observation, TapEvent};
 use std::time::SystemTime;
 
@@ -12,7 +12,7 @@ pub trait Meter {
     /// Counts a message, request or reply.
     fn observe(&mut self, seen: &Observation);
     /// The connection to the tap has ended: what comes next is not counted from what came before.
-    fn interrupt(&mut self);
+    fn interrupt(&mut self) {}
     /// The figures since the last call.
     fn take_interval(&mut self) -> Self::Figures;
     /// The figures of the whole time.
@@ -136,62 +136,4 @@ pub fn at_taps(gates: &[ObservedGate]) -> Vec<ObservedGate> {
         }
     }
     replaced
-}
-
-impl Meter for RateMeter {
-    type Figures = crate::RateFigures;
-
-    fn observe(&mut self, seen: &Observation) {
-        self.observe(seen.kind, seen.sequence, seen.sent_ns);
-    }
-
-    fn interrupt(&mut self) {
-        self.interrupt();
-    }
-
-    fn take_interval(&mut self) -> Self::Figures {
-        self.take_interval()
-    }
-
-    fn total(&self) -> Self::Figures {
-        self.total()
-    }
-}
-
-impl Meter for DelayMeter {
-    type Figures = crate::DelayFigures;
-
-    fn observe(&mut self, seen: &Observation) {
-        self.observe(seen.sent_ns, seen.received_ns);
-    }
-
-    fn interrupt(&mut self) {}
-
-    fn take_interval(&mut self) -> Self::Figures {
-        self.take_interval()
-    }
-
-    fn total(&self) -> Self::Figures {
-        self.total()
-    }
-}
-
-impl Meter for BandwidthMeter {
-    type Figures = crate::BandwidthFigures;
-
-    fn observe(&mut self, seen: &Observation) {
-        self.observe(seen.kind, seen.payload.len(), seen.sent_ns);
-    }
-
-    fn interrupt(&mut self) {
-        self.interrupt();
-    }
-
-    fn take_interval(&mut self) -> Self::Figures {
-        self.take_interval()
-    }
-
-    fn total(&self) -> Self::Figures {
-        self.total()
-    }
 }

@@ -1,7 +1,8 @@
 //! How often a gate sends: rate, periods and jitter from the sender's time stamps, and what the observer missed.
 
 use crate::distribution::{Distribution, Spread};
-use scl::tap::ObservedKind;
+use crate::measure::Meter;
+use scl::tap::{Observation, ObservedKind};
 use std::collections::VecDeque;
 
 /// Counts the frames at the tap of one gate.
@@ -79,7 +80,7 @@ impl RateMeter {
     }
 
     /// Counts a frame. Replies count only where they are missing.
-    pub fn observe(&mut self, kind: ObservedKind, sequence: u64, sent_ns: u64) {
+    fn observe(&mut self, kind: ObservedKind, sequence: u64, sent_ns: u64) {
         let step = match &mut self.session {
             Some(session) => session.step(kind, sequence, sent_ns),
             None => {
@@ -93,14 +94,21 @@ impl RateMeter {
             None => self.interval.add(&step),
         }
     }
+}
 
-    /// The tap was disconnected: what comes next is not counted from what came before.
-    pub fn interrupt(&mut self) {
+impl Meter for RateMeter {
+    type Figures = RateFigures;
+
+    fn observe(&mut self, seen: &Observation) {
+        self.observe(seen.kind, seen.sequence, seen.sent_ns);
+    }
+
+    fn interrupt(&mut self) {
         self.session = None;
     }
 
-    /// The figures since the last call, or those of the window.
-    pub fn take_interval(&mut self) -> RateFigures {
+    // Those of the window, if there is one.
+    fn take_interval(&mut self) -> RateFigures {
         if let Some(window) = &self.window {
             return window.figures();
         }
@@ -109,8 +117,7 @@ impl RateMeter {
         figures
     }
 
-    /// The figures of the whole time.
-    pub fn total(&self) -> RateFigures {
+    fn total(&self) -> RateFigures {
         self.total.figures()
     }
 }
