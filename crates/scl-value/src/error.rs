@@ -1,6 +1,6 @@
 //! Why a message is not read or written.
 
-use scl_terminal::Problem;
+use scl_terminal::{Problem, closest_name};
 use thiserror::Error;
 
 /// The messages of a type cannot be read or written.
@@ -82,6 +82,11 @@ impl EncodeError {
         self
     }
 
+    /// Suggests the one of `names` that `wrong` probably means, if one is near enough.
+    pub(crate) fn did_you_mean<'n>(self, wrong: &str, names: impl IntoIterator<Item = &'n str>) -> Self {
+        Self { help: suggestion(wrong, names).or(self.help), ..self }
+    }
+
     pub(crate) fn note(mut self, text: impl Into<String>) -> Self {
         self.note = Some(text.into());
         self
@@ -95,15 +100,19 @@ impl EncodeError {
     }
 }
 
+/// ``did you mean `name`?``
+pub(crate) fn suggestion<'n>(wrong: &str, names: impl IntoIterator<Item = &'n str>) -> Option<String> {
+    closest_name(wrong, names).map(|name| format!("did you mean `{name}`?"))
+}
+
+/// A problem with the help and the note that there may be.
+pub(crate) fn problem_of(message: String, help: Option<String>, note: Option<String>) -> Problem {
+    let problem = help.into_iter().fold(Problem::new(message), Problem::help);
+    note.into_iter().fold(problem, Problem::note)
+}
+
 impl From<EncodeError> for Problem {
     fn from(error: EncodeError) -> Self {
-        let mut problem = Problem::new(error.to_string());
-        if let Some(help) = error.help {
-            problem = problem.help(help);
-        }
-        if let Some(note) = error.note {
-            problem = problem.note(note);
-        }
-        problem
+        problem_of(error.to_string(), error.help, error.note)
     }
 }

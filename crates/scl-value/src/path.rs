@@ -1,5 +1,6 @@
 //! Paths of fields: `pose.joints[0].angle`.
 
+use crate::error::problem_of;
 use crate::value::{Value, key_text};
 use scl_terminal::Problem;
 use std::fmt;
@@ -215,14 +216,7 @@ impl From<PathError> for Problem {
 
 impl From<UnknownField> for Problem {
     fn from(error: UnknownField) -> Self {
-        let mut problem = Problem::new(error.reason);
-        if let Some(help) = error.help {
-            problem = problem.help(help);
-        }
-        if let Some(note) = error.note {
-            problem = problem.note(note);
-        }
-        problem
+        problem_of(error.reason, error.help, error.note)
     }
 }
 

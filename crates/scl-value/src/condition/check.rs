@@ -1,6 +1,7 @@
 //! Whether a condition can hold for messages of a type: its fields exist, and their values can be compared.
 
 use super::{Condition, Node, Operand, Operator};
+use crate::error::problem_of;
 use crate::field_kind::FieldKind;
 use crate::message_type::MessageType;
 use crate::path::{FieldPath, UnknownField};
@@ -29,12 +30,10 @@ pub enum ConditionMismatch {
 
 impl From<ConditionMismatch> for Problem {
     fn from(mismatch: ConditionMismatch) -> Self {
-        let (reason, help, note) = match mismatch {
-            ConditionMismatch::Field(error) => return error.into(),
-            ConditionMismatch::Kind { reason, help, note } => (reason, help, note),
-        };
-        let problem = help.into_iter().fold(Problem::new(reason), Problem::help);
-        note.into_iter().fold(problem, Problem::note)
+        match mismatch {
+            ConditionMismatch::Field(error) => error.into(),
+            ConditionMismatch::Kind { reason, help, note } => problem_of(reason, help, note),
+        }
     }
 }
 

@@ -2,10 +2,10 @@
 
 use super::from_value::known_fields;
 use super::well_known::{Short, short};
+use crate::error::suggestion;
 use crate::field_kind::FieldKind;
 use crate::path::{FieldPath, Segment, UnknownField};
 use prost_reflect::{FieldDescriptor, Kind, MessageDescriptor};
-use scl_terminal::closest_name;
 
 /// Maximum number of columns of a table.
 const MAX_COLUMNS: usize = 1000;
@@ -51,9 +51,8 @@ fn reach(message: &MessageDescriptor, path: &FieldPath) -> Result<Reached, Unkno
                 None if name.starts_with('@') => return Ok(Reached::Anything),
                 None => {
                     let names: Vec<String> = message.fields().map(|field| field.name().to_owned()).collect();
-                    let near = closest_name(name, names.iter().map(String::as_str));
                     return Err(UnknownField {
-                        help: near.map(|near| format!("did you mean `{near}`?")),
+                        help: suggestion(name, names.iter().map(String::as_str)),
                         note: Some(known_fields(&message)),
                         ..wrong(format!("message `{}` has no field `{name}`", message.full_name()))
                     });

@@ -10,7 +10,7 @@ use crate::text::from_hex;
 use crate::value::{Value, key_text};
 use number::{float, integer};
 use prost_reflect::{DynamicMessage, EnumDescriptor, FieldDescriptor, Kind, MapKey, MessageDescriptor, Value as Field};
-use scl_terminal::{closest_name, quoted_list};
+use scl_terminal::quoted_list;
 use std::collections::HashMap;
 
 /// Maximum number of names that an error lists.
@@ -86,11 +86,7 @@ pub(super) fn known_fields(message: &MessageDescriptor) -> String {
 fn unknown_field(message: &MessageDescriptor, name: &str) -> EncodeError {
     let error = EncodeError::new(format!("message `{}` has no field `{name}`", message.full_name()));
     let names: Vec<String> = message.fields().map(|field| field.name().to_owned()).collect();
-    match closest_name(name, names.iter().map(String::as_str)) {
-        Some(near) => error.help(format!("did you mean `{near}`?")),
-        None => error,
-    }
-    .note(known_fields(message))
+    error.did_you_mean(name, names.iter().map(String::as_str)).note(known_fields(message))
 }
 
 /// A field may be there once, and of a oneof only one.
@@ -234,10 +230,7 @@ fn enum_number(descriptor: &EnumDescriptor, value: &Value) -> Result<i32, Encode
         Value::Text(_) => {
             let names: Vec<String> = descriptor.values().map(|value| value.name().to_owned()).collect();
             let error = EncodeError::new(format!("`{}` has no value `{name}`", descriptor.full_name()));
-            let error = match closest_name(&name, names.iter().map(String::as_str)) {
-                Some(near) => error.help(format!("did you mean `{near}`?")),
-                None => error,
-            };
+            let error = error.did_you_mean(&name, names.iter().map(String::as_str));
             let listed = quoted_list(names.iter().take(LISTED).map(String::as_str));
             Err(error.note(format!("its values: {listed}{}", if names.len() > LISTED { ", ..." } else { "" })))
         }
