@@ -99,16 +99,34 @@ impl From<OpenError> for Failure {
     }
 }
 
-impl From<SendError> for Failure {
-    fn from(error: SendError) -> Self {
-        let status = match &error {
-            SendError::Encode { .. } => SCL_ENCODE,
-            SendError::TooLong { .. } => SCL_TOO_LONG,
-            SendError::Blocking { source, .. } => blocking(source),
-            _ => SCL_FAILED,
-        };
-        Self::of(status, &error)
+/// The statuses of errors that are not the end of the component.
+macro_rules! statuses {
+    ($($error:ident { $($variant:ident => $status:ident),+ })+) => { $(
+        impl From<$error> for Failure {
+            fn from(error: $error) -> Self {
+                let status = match &error {
+                    $($error::$variant { .. } => $status,)+
+                    $error::Blocking { source, .. } => blocking(source),
+                    _ => SCL_FAILED,
+                };
+                Self::of(status, &error)
+            }
+        }
+    )+ };
+}
+
+statuses! {
+    SendError { Encode => SCL_ENCODE, TooLong => SCL_TOO_LONG }
+    RecvError { Decode => SCL_DECODE }
+    CallError {
+        Encode => SCL_ENCODE,
+        TooLong => SCL_TOO_LONG,
+        Timeout => SCL_TIMEOUT,
+        PeerLost => SCL_PEER_LOST,
+        Refused => SCL_REFUSED,
+        Decode => SCL_DECODE
     }
+    ReplyError { Encode => SCL_ENCODE, TooLong => SCL_TOO_LONG, RequesterGone => SCL_REQUESTER_GONE }
 }
 
 impl From<TrySendError> for Failure {
@@ -129,17 +147,6 @@ impl From<SendTimeoutError> for Failure {
     }
 }
 
-impl From<RecvError> for Failure {
-    fn from(error: RecvError) -> Self {
-        let status = match &error {
-            RecvError::Decode { .. } => SCL_DECODE,
-            RecvError::Blocking { source, .. } => blocking(source),
-            _ => SCL_FAILED,
-        };
-        Self::of(status, &error)
-    }
-}
-
 impl From<RecvTimeoutError> for Failure {
     fn from(error: RecvTimeoutError) -> Self {
         match error {
@@ -156,35 +163,6 @@ impl From<WaitError> for Failure {
                 blocking(source)
             }
             WaitError::Timeout { .. } => SCL_TIMEOUT,
-            _ => SCL_FAILED,
-        };
-        Self::of(status, &error)
-    }
-}
-
-impl From<CallError> for Failure {
-    fn from(error: CallError) -> Self {
-        let status = match &error {
-            CallError::Encode { .. } => SCL_ENCODE,
-            CallError::TooLong { .. } => SCL_TOO_LONG,
-            CallError::Timeout { .. } => SCL_TIMEOUT,
-            CallError::PeerLost { .. } => SCL_PEER_LOST,
-            CallError::Refused { .. } => SCL_REFUSED,
-            CallError::Decode { .. } => SCL_DECODE,
-            CallError::Blocking { source, .. } => blocking(source),
-            _ => SCL_FAILED,
-        };
-        Self::of(status, &error)
-    }
-}
-
-impl From<ReplyError> for Failure {
-    fn from(error: ReplyError) -> Self {
-        let status = match &error {
-            ReplyError::Encode { .. } => SCL_ENCODE,
-            ReplyError::TooLong { .. } => SCL_TOO_LONG,
-            ReplyError::RequesterGone { .. } => SCL_REQUESTER_GONE,
-            ReplyError::Blocking { source, .. } => blocking(source),
             _ => SCL_FAILED,
         };
         Self::of(status, &error)

@@ -20,6 +20,7 @@ mod send;
 
 mod receive;
 
+mod marked;
 mod message;
 
 mod call;

@@ -12,6 +12,18 @@ use std::ffi::c_void;
 /// The usual result of a call that does not wait.
 pub(crate) const NOTHING: Failure = Failure::usual(SCL_NOTHING, c"no message has arrived yet");
 
+/// Receives from a gate of any kind that receives.
+macro_rules! receive_from {
+    ($gate:expr, $wait:expr) => {
+        match $wait {
+            Wait::No => $gate.try_recv()?.ok_or(NOTHING),
+            Wait::For(time) => Ok($gate.recv_timeout(time)?),
+            Wait::Forever => Ok($gate.recv_blocking()?),
+        }
+    };
+}
+pub(crate) use receive_from;
+
 /// Receives the next message of a `sub` or `pull` gate. A timeout of 0 does not wait, a negative one waits without
 /// limit.
 ///
@@ -72,13 +84,9 @@ fn receive(open: &mut OpenGate, timeout_ns: i64) -> Result<Bytes, Failure> {
         return Ok(kept);
     }
     let wait = open.patience.of(timeout_ns).ok_or(NOTHING)?;
-    match (&mut open.gate, wait) {
-        (Gate::Sub(gate), Wait::No) => gate.try_recv()?.ok_or(NOTHING),
-        (Gate::Sub(gate), Wait::For(time)) => Ok(gate.recv_timeout(time)?),
-        (Gate::Sub(gate), Wait::Forever) => Ok(gate.recv_blocking()?),
-        (Gate::Pull(gate), Wait::No) => gate.try_recv()?.ok_or(NOTHING),
-        (Gate::Pull(gate), Wait::For(time)) => Ok(gate.recv_timeout(time)?),
-        (Gate::Pull(gate), Wait::Forever) => Ok(gate.recv_blocking()?),
+    match &mut open.gate {
+        Gate::Sub(gate) => receive_from!(gate, wait),
+        Gate::Pull(gate) => receive_from!(gate, wait),
         _ => Err(open.wrong_kind("scl_recv")),
     }
 }
