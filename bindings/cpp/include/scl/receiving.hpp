@@ -1,8 +1,7 @@
 /// Gates that receive messages: `sub` and `pull`.
 #pragma once
 
-#include <scl/gate.hpp>
-#include <scl/received_range.hpp>
+#include <scl/receiver.hpp>
 
 #include <cstdint>
 
@@ -10,50 +9,20 @@ namespace scl {
 
 namespace detail {
 
-template <class T, class Format> class ReceivingGate : public Gate, public Receives {
+template <class T, class Format> class ReceivingGate : public Receiver<ReceivingGate<T, Format>, T> {
+    using Base = Receiver<ReceivingGate<T, Format>, T>;
+
   public:
     using Message = T;
 
-    ReceivingGate(const Component& component, const std::string& name) : Gate(component, name) {}
-
-    /// Waits for the next message. At a gate with `queue: 1` this is always the newest one.
-    ///
-    /// A message that the codec cannot read is counted and skipped; a gate with `undecodable: fail` throws `DecodeError`,
-    /// and the next call returns the next message. Throws `Stopped` after a stop request.
-    T recv() {
-        std::optional<T> message;
-        require(receive(message, TimeLimit::none()));
-        return std::move(*message);
-    }
-
-    /// Waits for the next message no longer than `limit`. Returns nothing if none arrived in time.
-    std::optional<T> recv(TimeLimit limit) {
-        std::optional<T> message;
-        require(receive(message, limit));
-        return message;
-    }
-
-    /// Returns the next message if one has arrived.
-    std::optional<T> try_recv() { return recv(std::chrono::nanoseconds::zero()); }
+    ReceivingGate(const Component& component, const std::string& name) : Base(component, name) {}
 
     /// Returns the newest message that has arrived, if any and if the codec can read it, and discards the older ones.
     std::optional<T> latest() {
         std::optional<T> message;
-        require(receive_latest(message));
+        this->require(receive_latest(message));
         return message;
     }
-
-    /// `recv` that reports errors as codes; it returns a message exactly if there is no error.
-    std::optional<T> recv(std::error_code& error) { return recv(TimeLimit::none(), error); }
-
-    /// Nothing in time is no error.
-    std::optional<T> recv(TimeLimit limit, std::error_code& error) {
-        std::optional<T> message;
-        attempt(error, [&] { return receive(message, limit); });
-        return message;
-    }
-
-    std::optional<T> try_recv(std::error_code& error) { return recv(std::chrono::nanoseconds::zero(), error); }
 
     std::optional<T> latest(std::error_code& error) {
         std::optional<T> message;
@@ -61,45 +30,31 @@ template <class T, class Format> class ReceivingGate : public Gate, public Recei
         return message;
     }
 
-    /// All messages, until a stop is requested or the component is closed: `for (auto& message : gate)`.
-    ReceivedIterator<ReceivingGate> begin() { return ReceivedIterator<ReceivingGate>(*this); }
-    ReceivedEnd end() const noexcept { return {}; }
-
   protected:
-    explicit ReceivingGate(Gate&& gate) noexcept : Gate(std::move(gate)) {}
+    explicit ReceivingGate(Gate&& gate) noexcept : Base(std::move(gate)) {}
 
   private:
-    friend ReceivedIterator<ReceivingGate>;
-    using Received = T;
+    friend Base;
 
-    scl_status receive(std::optional<T>& message, TimeLimit limit) const {
-        std::int64_t timeout = limit.nanoseconds();
-        scl_status status = SCL_OK;
-        while (status == SCL_OK && !message) {
-            scl_message* received = nullptr;
-            status = scl_recv(handle(), timeout, &received);
-            take(message, status, received);
-            timeout = SCL_REST;
-        }
-        return nothing_is_ok(status);
+    scl_status receive_one(std::optional<T>& message, std::int64_t timeout) const {
+        scl_message* received = nullptr;
+        scl_status status = scl_recv(this->handle(), timeout, &received);
+        take(message, status, received);
+        return status;
     }
 
     scl_status receive_latest(std::optional<T>& message) const {
         scl_message* received = nullptr;
-        scl_status status = scl_latest(handle(), &received);
+        scl_status status = scl_latest(this->handle(), &received);
         take(message, status, received);
-        return nothing_is_ok(status);
+        return this->nothing_is_ok(status);
     }
 
     /// Stores the message unless it is to be skipped.
     void take(std::optional<T>& message, scl_status status, scl_message* received) const {
         if (status == SCL_OK) {
-            message = decode<T, Format>([&] { return Bytes(received); }, handle());
+            message = decode<T, Format>([&] { return Bytes(received); }, this->handle());
         }
-    }
-
-    scl_status nothing_is_ok(scl_status status) const {
-        return status == SCL_NOTHING || status == SCL_TIMEOUT ? SCL_OK : told(status);
     }
 };
 

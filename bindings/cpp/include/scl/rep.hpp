@@ -1,9 +1,8 @@
 /// Gates that answer requests: `rep`.
 #pragma once
 
-#include <scl/gate.hpp>
 #include <scl/log.hpp>
-#include <scl/received_range.hpp>
+#include <scl/receiver.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -107,70 +106,31 @@ template <class A, class B, class Format = Native> class Request {
 };
 
 /// Answers requests of type `A` from any number of `req` gates with replies of type `B`.
-template <class A, class B, class Format = Native> class Rep : public Gate, public detail::Receives {
+template <class A, class B, class Format = Native>
+class Rep : public detail::Receiver<Rep<A, B, Format>, Request<A, B, Format>> {
+    using Base = detail::Receiver<Rep<A, B, Format>, scl::Request<A, B, Format>>;
+
   public:
     using Request = scl::Request<A, B, Format>;
 
-    Rep(const Component& component, const std::string& name) : Gate(component, name) {}
+    Rep(const Component& component, const std::string& name) : Base(component, name) {}
     Rep(Rep&&) noexcept = default;
     Rep& operator=(Rep&&) noexcept = default;
 
     /// Gives a gate of bytes message types and a codec of the program's own.
     template <class Other, std::enable_if_t<std::is_same_v<Other, Bytes> && !std::is_same_v<A, Bytes>, int> = 0>
-    explicit Rep(Rep<Other, Other>&& bytes) noexcept : Gate(std::move(bytes)) {}
-
-    /// Waits for the next request.
-    ///
-    /// Throws `Stopped` after a stop request, and `DecodeError` if the codec cannot read a request: its sender gets no
-    /// reply, and the next call returns the next request.
-    Request recv() {
-        std::optional<Request> request;
-        require(receive(request, TimeLimit::none()));
-        return std::move(*request);
-    }
-
-    /// Waits for the next request no longer than `limit`. Returns nothing if none arrived in time.
-    std::optional<Request> recv(TimeLimit limit) {
-        std::optional<Request> request;
-        require(receive(request, limit));
-        return request;
-    }
-
-    /// Returns the next request if one has arrived.
-    std::optional<Request> try_recv() { return recv(std::chrono::nanoseconds::zero()); }
-
-    /// `recv` that reports errors as codes; it returns a request exactly if there is no error.
-    std::optional<Request> recv(std::error_code& error) { return recv(TimeLimit::none(), error); }
-
-    /// Nothing in time is no error.
-    std::optional<Request> recv(TimeLimit limit, std::error_code& error) {
-        std::optional<Request> request;
-        detail::attempt(error, [&] { return receive(request, limit); });
-        return request;
-    }
-
-    std::optional<Request> try_recv(std::error_code& error) { return recv(std::chrono::nanoseconds::zero(), error); }
-
-    /// All requests, until a stop is requested or the component is closed: `for (auto& request : gate) { request.reply(...); }`.
-    detail::ReceivedIterator<Rep> begin() { return detail::ReceivedIterator<Rep>(*this); }
-    detail::ReceivedEnd end() const noexcept { return {}; }
+    explicit Rep(Rep<Other, Other>&& bytes) noexcept : Base(static_cast<Gate&&>(bytes)) {}
 
   private:
-    friend detail::ReceivedIterator<Rep>;
-    using Received = Request;
+    friend Base;
 
-    scl_status receive(std::optional<Request>& request, TimeLimit limit) const {
-        std::int64_t timeout = limit.nanoseconds();
-        scl_status status = SCL_OK;
-        while (status == SCL_OK && !request) {
-            scl_request* taken = nullptr;
-            status = scl_take_request(handle(), timeout, &taken);
-            if (status == SCL_OK) {
-                request = Request::decode(typename Request::Handle(taken), handle(), name());
-            }
-            timeout = SCL_REST;
+    scl_status receive_one(std::optional<Request>& request, std::int64_t timeout) const {
+        scl_request* taken = nullptr;
+        scl_status status = scl_take_request(this->handle(), timeout, &taken);
+        if (status == SCL_OK) {
+            request = Request::decode(typename Request::Handle(taken), this->handle(), this->name());
         }
-        return status == SCL_NOTHING || status == SCL_TIMEOUT ? SCL_OK : told(status);
+        return status;
     }
 };
 
