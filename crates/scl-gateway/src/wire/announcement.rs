@@ -8,6 +8,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use bytes::{Bytes, BytesMut};
+use zenoh::sample::Sample;
 
 use super::command::{Command, Commands, Declared, Part};
 use super::keys::Token;
@@ -105,6 +106,38 @@ impl Announcements {
             Known::Complete => None,
         };
         self.known.values().filter_map(at).min()
+    }
+}
+
+/// The answer to a query for a part of an announcement. Tells the thread what became of it, also if it is dropped without a
+/// reply.
+pub(super) struct Answer {
+    commands: Commands,
+    key: String,
+    has_come: bool,
+}
+
+impl Answer {
+    pub(super) fn new(commands: &Commands, key: &str) -> Self {
+        Answer { commands: commands.clone(), key: key.to_owned(), has_come: false }
+    }
+
+    pub(super) fn part(&mut self, sample: &Sample) {
+        let Some(place) = sample.attachment().map(|place| place.to_bytes()) else { return };
+        let Some((offset, total)) = place.split_first_chunk() else { return };
+        let Ok(total) = total.try_into() else { return };
+        let bytes = Bytes::from(sample.payload().to_bytes().into_owned());
+        let part = Part { offset: u64::from_be_bytes(*offset), total: u64::from_be_bytes(total), bytes };
+        self.has_come = true;
+        self.commands.send(Command::Part { key: self.key.clone(), part: Some(part) });
+    }
+}
+
+impl Drop for Answer {
+    fn drop(&mut self) {
+        if !self.has_come {
+            self.commands.send(Command::Part { key: self.key.clone(), part: None });
+        }
     }
 }
 

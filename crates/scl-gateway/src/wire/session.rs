@@ -14,8 +14,8 @@ use zenoh::query::{Query, Queryable};
 use zenoh::sample::{Sample, SampleKind};
 use zenoh::{Config, Session, Wait};
 
-use super::announcement::{Announcements, PART};
-use super::command::{Command, Commands, EndId, Part};
+use super::announcement::{Announcements, Answer, PART};
+use super::command::{Command, Commands, EndId};
 use super::connection_log;
 use super::error::WireError;
 use super::header::{Ack, Header};
@@ -326,7 +326,7 @@ impl Thread {
 
     /// Asks for a part of an announcement.
     fn ask(&self, key: &str, offset: usize) -> Result<()> {
-        let mut answer = Answer { commands: self.commands.clone(), key: key.to_owned(), has_come: false };
+        let mut answer = Answer::new(&self.commands, key);
         self.session
             .get(format!("{key}?offset={offset}"))
             .timeout(PART_TIMEOUT)
@@ -390,33 +390,6 @@ impl Thread {
             if let Err(error) = self.ask(&key, offset) {
                 tracing::debug!("cannot ask for `{key}`: {error}");
             }
-        }
-    }
-}
-
-/// Tells the thread what became of a query, also if it is dropped without a reply.
-struct Answer {
-    commands: Commands,
-    key: String,
-    has_come: bool,
-}
-
-impl Answer {
-    fn part(&mut self, sample: &Sample) {
-        let Some(place) = sample.attachment().map(|place| place.to_bytes()) else { return };
-        let Some((offset, total)) = place.split_first_chunk() else { return };
-        let Ok(total) = total.try_into() else { return };
-        let bytes = Bytes::from(sample.payload().to_bytes().into_owned());
-        let part = Part { offset: u64::from_be_bytes(*offset), total: u64::from_be_bytes(total), bytes };
-        self.has_come = true;
-        self.commands.send(Command::Part { key: self.key.clone(), part: Some(part) });
-    }
-}
-
-impl Drop for Answer {
-    fn drop(&mut self) {
-        if !self.has_come {
-            self.commands.send(Command::Part { key: self.key.clone(), part: None });
         }
     }
 }
