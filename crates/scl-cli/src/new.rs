@@ -67,11 +67,16 @@ pub(crate) fn new(arguments: &NewArguments) -> ExitCode {
     let project = Project { name: name.clone(), template: arguments.template.into(), scl };
     exit_code(create(Path::new("."), &project).map(|created| {
         let count = created.files.len();
-        print_err(&format!("created `{name}` with {count} files; it uses SCL from {}
-", created.scl));
+        print_err(&format!(
+            "created `{name}` with {count} files; it uses SCL from {}
+",
+            created.scl
+        ));
         if let Some(note) = created.note {
-            print_err(&format!("note: {note}
-"));
+            print_err(&format!(
+                "note: {note}
+"
+            ));
         }
         print_out(&format!("cd {name} && scl run\n"));
         ExitCode::SUCCESS

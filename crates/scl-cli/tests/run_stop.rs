@@ -1,6 +1,7 @@
 //! How `scl run` stops: by itself, on request, when a component fails, and when it is killed.
 
 use crate::system::{FOREVER, SpawnGuarded, Started, System, kill, wait_for_writers_to_end, without_times};
+use scl_needs::needs;
 use std::process::Command;
 
 /// Ignores what asks it to stop; says so each time.
@@ -65,6 +66,20 @@ fn a_signal_is_passed_on_and_a_clean_stop_is_success() {
             assert_eq!(status.code(), Some(0), "{err}");
         }
     }
+}
+
+#[needs("python3")]
+#[test]
+fn signals_that_were_blocked_where_it_was_started_are_heard() {
+    let blocking = "import os, signal, sys
+signal.pthread_sigmask(signal.SIG_BLOCK, signal.valid_signals())
+os.execv(sys.argv[1], sys.argv[1:])";
+    let system = System::of(&[("sensor", "trap 'exit 0' TERM; echo ready; tail -f /dev/null >/dev/null & wait")]);
+    let mut run = system.start_by("python3", &["-c", blocking], &NO_END_OF_GRACE);
+    run.wait_for_line("sensor | ready");
+    run.signal("-TERM");
+    let (status, _, err) = run.finish();
+    assert_eq!(status.code(), Some(0), "{err}");
 }
 
 #[test]

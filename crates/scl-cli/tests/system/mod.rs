@@ -105,10 +105,14 @@ impl System {
 
     /// Starts the system as a shell does that ignores what asks it to stop.
     pub(crate) fn start_ignoring_signals(&self, arguments: &[&str]) -> Started {
-        let script = "trap '' INT TERM HUP; exec \"$0\" run \"$@\"";
+        self.start_by("/bin/sh", &["-c", "trap '' INT TERM HUP; exec \"$0\" \"$@\""], arguments)
+    }
+
+    /// Starts the system by a program that becomes the command that it gets as further arguments.
+    pub(crate) fn start_by(&self, program: &str, by: &[&str], arguments: &[&str]) -> Started {
         let scl = self.scl(&[]);
-        let mut command = Command::new("/bin/sh");
-        command.args(["-c", script]).arg(scl.get_program()).args(arguments);
+        let mut command = Command::new(program);
+        command.args(by).arg(scl.get_program()).arg("run").args(arguments);
         command.current_dir(self.folder.path()).stdin(Stdio::null());
         command.env("SCL_RUNTIME_DIR", self.path("runtime"));
         Started::spawn(&mut command)
