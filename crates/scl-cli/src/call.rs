@@ -1,10 +1,10 @@
 //! `scl call`: sends a request in place of a component, and prints the reply.
 
 use crate::exit::{COULD_NOT_DO, exit_code};
-use crate::play::{Plans, PlayArguments, message_type, problem_of};
+use crate::play::{Plans, PlayArguments, message_type};
 use clap::{Args, ValueEnum};
 use scl::CallError;
-use scl_observe::{StopSignals, block_on};
+use scl_observe::{StopSignals, block_on, problem_of};
 use scl_plan::{ConnectionPlan, GateKind, GatePlan, Payload, Plan};
 use scl_terminal::{Problem, escape, parse_duration, print_err, print_out, quoted_list};
 use scl_value::{MessageType, read_yaml, to_json, to_yaml};

@@ -6,11 +6,10 @@ use clap::Args;
 use scl::OpenOptions;
 use scl::runtime_dir::{ComponentState, RuntimeDir, SystemDir};
 use scl::untyped::Component;
-use scl_observe::System;
+use scl_observe::{System, problem_of};
 use scl_plan::{GateKind, GatePlan, Plan, SystemPlan};
 use scl_terminal::{Problem, closest_name, escape, named_system, quoted_list};
 use scl_value::MessageType;
-use std::error::Error;
 use std::path::{Path, PathBuf};
 
 /// Where the plan of the component comes from.
@@ -159,13 +158,4 @@ pub(crate) fn message_type(plan: &Plan, gate: &GatePlan, type_name: Option<&str>
     MessageType::new(type_name, &gate.codec, descriptors).map_err(|error| {
         Problem::new(format!("messages of `{}.{}` cannot be written: {error}", plan.component, gate.name))
     })
-}
-
-/// An error of the library with its causes. Some have their way out in a line of its own.
-pub(crate) fn problem_of(error: &(dyn Error + 'static)) -> Problem {
-    let text = scl::host::text_with_causes(error);
-    match text.split_once("\nhelp: ") {
-        Some((message, help)) => Problem::new(message).help(help),
-        None => Problem::new(text),
-    }
 }

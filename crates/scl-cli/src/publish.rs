@@ -4,10 +4,10 @@ mod messages;
 mod sender;
 
 use crate::exit::exit_code;
-use crate::play::{Plans, PlayArguments, message_type, problem_of};
+use crate::play::{Plans, PlayArguments, message_type};
 use clap::Args;
 use messages::Messages;
-use scl_observe::{StopSignals, block_on};
+use scl_observe::{StopSignals, block_on, problem_of};
 use scl_plan::{GateKind, GatePlan, Plan};
 use scl_terminal::{Problem, parse_duration, print_err, quoted_list};
 use sender::Sender;

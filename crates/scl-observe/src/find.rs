@@ -1,9 +1,9 @@
 //! Which system is meant: the named one, that of the environment, the only one that runs, or that of the working folder.
 
-use scl::runtime_dir::{RuntimeDir, RuntimeDirError, SystemDir};
+use crate::scl_error::problem_of;
+use scl::runtime_dir::{RuntimeDir, SystemDir};
 use scl_loader::{Request, load};
 use scl_terminal::{Problem, choose_system, closest_name, named_system, quoted_list};
-use std::error::Error;
 use std::ffi::OsString;
 use std::path::Path;
 
@@ -18,14 +18,14 @@ pub(crate) fn find_system(
     variables: Variables<'_>,
     folder: &Path,
 ) -> Result<(String, SystemDir), Problem> {
-    let existing = RuntimeDir::existing(variables).map_err(|error| from_runtime_dir(&error))?;
+    let existing = RuntimeDir::existing(variables).map_err(|error| problem_of(&error))?;
     let Some(runtime_dir) = existing else { return Err(no_runtime_folder()) };
     let is_named = named_system(name, variables)?.is_some();
     let running = running_systems(&runtime_dir)?;
     let Some(name) = choose_system(name, variables, &running, &|| system_of_folder(folder))? else {
         return Err(no_system(&runtime_dir));
     };
-    match runtime_dir.existing_system(&name).map_err(|error| from_runtime_dir(&error))? {
+    match runtime_dir.existing_system(&name).map_err(|error| problem_of(&error))? {
         Some(dir) => Ok((name, dir)),
         None if is_named => Err(unknown_system(&runtime_dir, &name)),
         None => Err(no_system(&runtime_dir)),
@@ -43,13 +43,13 @@ pub(crate) fn find_or_create_system(
         Err(problem) => problem,
     };
     let Some(name) = named_system(name, variables)? else { return Err(problem) };
-    let existing = RuntimeDir::existing(variables).map_err(|error| from_runtime_dir(&error))?;
+    let existing = RuntimeDir::existing(variables).map_err(|error| problem_of(&error))?;
     let known = existing.map(|runtime_dir| all_systems(&runtime_dir)).transpose()?.unwrap_or_default();
     if closest_name(&name, known.iter().map(String::as_str)).is_some() {
         return Err(problem);
     }
     let created = RuntimeDir::locate(variables).and_then(|runtime_dir| runtime_dir.system(&name));
-    created.map(|dir| (name, dir)).map_err(|error| from_runtime_dir(&error))
+    created.map(|dir| (name, dir)).map_err(|error| problem_of(&error))
 }
 
 /// The named system, or all that run, or that of [`find_system`].
@@ -58,7 +58,7 @@ pub(crate) fn find_systems(
     variables: Variables<'_>,
     folder: &Path,
 ) -> Result<Vec<(String, SystemDir)>, Problem> {
-    let existing = RuntimeDir::existing(variables).map_err(|error| from_runtime_dir(&error))?;
+    let existing = RuntimeDir::existing(variables).map_err(|error| problem_of(&error))?;
     if let (None, Some(runtime_dir)) = (named_system(name, variables)?, existing) {
         let running = running_systems(&runtime_dir)?.into_iter();
         let found = running.filter_map(|name| runtime_dir.existing_system(&name).ok().flatten().map(|dir| (name, dir)));
@@ -123,25 +123,4 @@ fn unknown_system(runtime_dir: &RuntimeDir, name: &str) -> Problem {
 
 fn looked_in(runtime_dir: &RuntimeDir) -> String {
     format!("looked in `{}` (`SCL_RUNTIME_DIR` chooses another folder)", runtime_dir.path().display())
-}
-
-/// The texts of the runtime have their way out in the second line.
-fn from_runtime_dir(error: &RuntimeDirError) -> Problem {
-    let (message, help) = message_and_help(error);
-    let problem = Problem::new(message);
-    match help {
-        Some(help) => problem.help(help),
-        None => problem,
-    }
-}
-
-/// What is wrong with the runtime folder, and what to do.
-pub(crate) fn message_and_help(error: &RuntimeDirError) -> (String, Option<String>) {
-    let text = error.to_string();
-    let (message, help) = text.split_once("\nhelp: ").map_or((&*text, None), |(message, help)| (message, Some(help)));
-    let message = match error.source() {
-        Some(source) => format!("{message}: {source}"),
-        None => message.to_owned(),
-    };
-    (message, help.map(str::to_owned))
 }

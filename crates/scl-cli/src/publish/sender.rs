@@ -1,9 +1,10 @@
 //! The gate at which `scl pub` sends.
 
-use crate::play::{Plans, problem_of};
+use crate::play::Plans;
 use scl::bytes::Bytes;
 use scl::untyped::{Component, Gate};
 use scl::{PeerStats, Pub, Push};
+use scl_observe::problem_of;
 use scl_plan::GatePlan;
 use scl_terminal::Problem;
 use std::time::Duration;

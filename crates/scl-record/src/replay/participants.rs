@@ -3,6 +3,7 @@
 use super::ReplayOptions;
 use crate::recording::type_and_codec;
 use scl::runtime_dir::{AnnouncedEndpoint, Announcement, ComponentProcess, ComponentState, RuntimeDir, SystemDir};
+use scl_observe::problem_of;
 use scl_plan::{ConnectionPlan, GatePlan, Plan, SystemPlan};
 use scl_terminal::{Problem, quoted_list};
 
@@ -125,13 +126,4 @@ fn already_running(component: &str, holder: ComponentProcess) -> Problem {
 fn unknown(plan: &SystemPlan, error: &str) -> Problem {
     let names = plan.components.iter().map(|plan| plan.component.as_str());
     Problem::new(error).note(format!("the recording has {}", quoted_list(names)))
-}
-
-/// The texts of the runtime have their way out in the second line.
-pub(super) fn problem_of(error: &dyn std::error::Error) -> Problem {
-    let text = scl::host::text_with_causes(error);
-    match text.split_once("\nhelp: ") {
-        Some((message, help)) => Problem::new(message).help(help),
-        None => Problem::new(text),
-    }
 }

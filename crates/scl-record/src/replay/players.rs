@@ -2,11 +2,12 @@
 
 use super::ReplayOptions;
 use super::answers::{Answer, Answers, GateId};
-use super::participants::{Participants, problem_of};
+use super::participants::Participants;
 use super::report::{AnswerReport, NotTaken};
 use bytes::Bytes;
 use scl::untyped::{Component, Gate};
 use scl::{CallError, OpenOptions, PeerStats, Pub, Push, Rep, Req, SendError};
+use scl_observe::problem_of;
 use scl_plan::{GateKind, GatePlan, Plan, WhenFull};
 use scl_terminal::{Problem, print_err, shorten};
 use std::collections::HashMap;
