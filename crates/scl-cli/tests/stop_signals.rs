@@ -3,6 +3,10 @@
 use crate::rover::Rover;
 use crate::system::Started;
 use std::fs;
+use std::time::{Duration, Instant};
+
+/// Only ends a test that hangs.
+const LIMIT: Duration = Duration::from_secs(60);
 
 /// The signals with their numbers.
 const SIGNALS: [(&str, u32); 3] = [("-INT", 2), ("-TERM", 15), ("-HUP", 1)];
@@ -24,7 +28,10 @@ fn each_signal_ends_each_command_in_order() {
     for (arguments, code) in cases {
         for (signal, number) in SIGNALS {
             let command = Started::spawn(&mut rover.scl(arguments));
-            while !catches(command.process_id(), number) {}
+            let started = Instant::now();
+            while !catches(command.process_id(), number) {
+                assert!(started.elapsed() < LIMIT, "{arguments:?} does not handle {signal}");
+            }
             command.signal(signal);
             let (status, _, errors) = command.finish();
             assert_eq!(status.code(), Some(code), "{arguments:?} {signal}: {errors}");
