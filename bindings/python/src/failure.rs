@@ -93,16 +93,34 @@ impl From<scl::OpenError> for Failure {
     }
 }
 
-impl From<SendError> for Failure {
-    fn from(error: SendError) -> Self {
-        let class = match &error {
-            SendError::Encode { .. } => "EncodeError",
-            SendError::TooLong { .. } => "TooLong",
-            SendError::Blocking { source, .. } => class_of(*source),
-            _ => "Error",
-        };
-        Self::of(class, &error)
+/// The classes of errors that are not the end of the component.
+macro_rules! classes {
+    ($($error:ident { $($variant:ident => $class:literal),+ })+) => { $(
+        impl From<$error> for Failure {
+            fn from(error: $error) -> Self {
+                let class = match &error {
+                    $($error::$variant { .. } => $class,)+
+                    $error::Blocking { source, .. } => class_of(*source),
+                    _ => "Error",
+                };
+                Self::of(class, &error)
+            }
+        }
+    )+ };
+}
+
+classes! {
+    SendError { Encode => "EncodeError", TooLong => "TooLong" }
+    RecvError { Decode => "DecodeError" }
+    CallError {
+        Encode => "EncodeError",
+        TooLong => "TooLong",
+        Timeout => "Timeout",
+        PeerLost => "PeerLost",
+        Refused => "Refused",
+        Decode => "DecodeError"
     }
+    ReplyError { Encode => "EncodeError", TooLong => "TooLong", RequesterGone => "RequesterGone" }
 }
 
 impl From<TrySendError> for Failure {
@@ -136,17 +154,6 @@ impl From<scl::untyped::WaitError> for Failure {
     }
 }
 
-impl From<RecvError> for Failure {
-    fn from(error: RecvError) -> Self {
-        let class = match &error {
-            RecvError::Decode { .. } => "DecodeError",
-            RecvError::Blocking { source, .. } => class_of(*source),
-            _ => "Error",
-        };
-        Self::of(class, &error)
-    }
-}
-
 impl From<RecvTimeoutError> for Failure {
     fn from(error: RecvTimeoutError) -> Self {
         match error {
@@ -154,35 +161,6 @@ impl From<RecvTimeoutError> for Failure {
             RecvTimeoutError::Recv(error) => error.into(),
             _ => Self::of("Error", &error),
         }
-    }
-}
-
-impl From<CallError> for Failure {
-    fn from(error: CallError) -> Self {
-        let class = match &error {
-            CallError::Encode { .. } => "EncodeError",
-            CallError::TooLong { .. } => "TooLong",
-            CallError::Timeout { .. } => "Timeout",
-            CallError::PeerLost { .. } => "PeerLost",
-            CallError::Refused { .. } => "Refused",
-            CallError::Decode { .. } => "DecodeError",
-            CallError::Blocking { source, .. } => class_of(*source),
-            _ => "Error",
-        };
-        Self::of(class, &error)
-    }
-}
-
-impl From<ReplyError> for Failure {
-    fn from(error: ReplyError) -> Self {
-        let class = match &error {
-            ReplyError::Encode { .. } => "EncodeError",
-            ReplyError::TooLong { .. } => "TooLong",
-            ReplyError::RequesterGone { .. } => "RequesterGone",
-            ReplyError::Blocking { source, .. } => class_of(*source),
-            _ => "Error",
-        };
-        Self::of(class, &error)
     }
 }
 

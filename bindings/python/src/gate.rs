@@ -149,13 +149,25 @@ impl Gate {
         })
     }
 
-    /// The last attempt of a receiving call whose time is over, which also finds the reason.
-    fn last_attempt<R>(
+    /// Receives within a limit. When it is over, the last attempt finds the reason.
+    fn wait_to_receive<R: Send>(
         &self,
-        waited: Duration,
-        attempt: impl FnOnce(&mut AnyGate) -> Result<Result<R, RecvTimeoutError>, Failure>,
-    ) -> Result<R, Failure> {
-        self.at_once(attempt)?.map_err(|error| match error {
+        py: Python<'_>,
+        limit: Limit,
+        attempt: impl FnOnce(&Self, &mut AnyGate) -> Result<Option<R>, Failure>,
+        receive: impl Fn(&Self, &mut AnyGate, Duration) -> Result<Result<R, RecvTimeoutError>, Failure> + Sync,
+    ) -> PyResult<R> {
+        let wait_for = |gate: &mut AnyGate, within| match receive(self, gate, within)? {
+            Ok(received) => Ok(Some(received)),
+            Err(RecvTimeoutError::Timeout { .. }) => Ok(None),
+            Err(error) => Err(error.into()),
+        };
+        if let Some(received) = self.try_then_wait(py, limit, |gate| attempt(self, gate), wait_for)? {
+            return Ok(received);
+        }
+        let waited = limit.waited();
+        let last = self.at_once(|gate| receive(self, gate, Duration::ZERO))?;
+        Ok(last.map_err(|error| match error {
             RecvTimeoutError::Timeout { gate, peers, reason, .. } if waited.is_zero() => {
                 let reason = reason.map_or_else(String::new, |reason| format!(": {reason}"));
                 Failure::new("Timeout", format!("gate `{gate}` has received nothing from {peers}{reason}"))
@@ -164,7 +176,7 @@ impl Gate {
                 RecvTimeoutError::Timeout { gate, peers, reason, waited }.into()
             }
             error => error.into(),
-        })
+        })?)
     }
 
     fn receive(&self, gate: &mut AnyGate, within: Duration) -> Result<Result<Bytes, RecvTimeoutError>, Failure> {
@@ -272,13 +284,7 @@ impl Gate {
     #[pyo3(signature = (timeout=None, waited=None))]
     fn recv<'py>(&self, py: Python<'py>, timeout: Option<f64>, waited: Option<f64>) -> PyResult<Bound<'py, PyBytes>> {
         let limit = Limit::of_seconds(timeout)?.after(waited);
-        let attempt = |gate: &mut AnyGate| self.try_receive(gate);
-        let wait_for = |gate: &mut AnyGate, within| unless_timeout(self.receive(gate, within)?);
-        let received = match self.try_then_wait(py, limit, attempt, wait_for)? {
-            Some(received) => received,
-            None => self.last_attempt(limit.waited(), |gate| self.receive(gate, Duration::ZERO))?,
-        };
-        Ok(PyBytes::new(py, &received))
+        Ok(PyBytes::new(py, &self.wait_to_receive(py, limit, Self::try_receive, Self::receive)?))
     }
 
     fn try_recv<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
@@ -305,12 +311,7 @@ impl Gate {
     #[pyo3(signature = (timeout=None, waited=None))]
     fn recv_request(&self, py: Python<'_>, timeout: Option<f64>, waited: Option<f64>) -> PyResult<Request> {
         let limit = Limit::of_seconds(timeout)?.after(waited);
-        let attempt = |gate: &mut AnyGate| self.try_take_request(gate);
-        let wait_for = |gate: &mut AnyGate, within| unless_timeout(self.take_request(gate, within)?);
-        let taken = match self.try_then_wait(py, limit, attempt, wait_for)? {
-            Some(taken) => taken,
-            None => self.last_attempt(limit.waited(), |gate| self.take_request(gate, Duration::ZERO))?,
-        };
+        let taken = self.wait_to_receive(py, limit, Self::try_take_request, Self::take_request)?;
         Ok(Request::new(taken, Arc::clone(&self.shared)))
     }
 
@@ -394,13 +395,5 @@ impl Gate {
             payload => format!(" of {payload}"),
         };
         format!("<{} gate {}{payload}>", self.plan.kind.word(), self.full_name())
-    }
-}
-
-fn unless_timeout<T>(received: Result<T, RecvTimeoutError>) -> Result<Option<T>, Failure> {
-    match received {
-        Ok(message) => Ok(Some(message)),
-        Err(RecvTimeoutError::Timeout { .. }) => Ok(None),
-        Err(error) => Err(error.into()),
     }
 }

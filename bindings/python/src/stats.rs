@@ -31,33 +31,22 @@ impl Stats {
     }
 }
 
+/// Sets items by the names of the fields.
+macro_rules! set_fields {
+    ($dict:ident, $stats:ident: $($field:ident),+ $(,)?) => {
+        $($dict.set_item(stringify!($field), &$stats.$field)?;)+
+    };
+}
+
 fn counts(dict: &Bound<'_, PyDict>, stats: &GateStats) -> PyResult<()> {
     let idle = stats.last_activity.map(|last| Instant::now().saturating_duration_since(last).as_secs_f64());
-    dict.set_item("sent", stats.sent)?;
-    dict.set_item("received", stats.received)?;
-    dict.set_item("replaced", stats.replaced)?;
-    dict.set_item("dropped_oldest", stats.dropped_oldest)?;
-    dict.set_item("dropped_newest", stats.dropped_newest)?;
-    dict.set_item("dropped_for_observers", stats.dropped_for_observers)?;
-    dict.set_item("lost", stats.lost)?;
-    dict.set_item("rejected", stats.rejected)?;
-    dict.set_item("undecodable", stats.undecodable)?;
-    dict.set_item("bytes", stats.bytes)?;
-    dict.set_item("waiting", stats.waiting)?;
-    dict.set_item("peers", stats.peers)?;
+    set_fields!(dict, stats: sent, received, replaced, dropped_oldest, dropped_newest, dropped_for_observers, lost);
+    set_fields!(dict, stats: rejected, undecodable, bytes, waiting, peers);
     dict.set_item("idle_seconds", idle)
 }
 
 fn of_peer<'py>(py: Python<'py>, stats: &PeerStats) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
-    dict.set_item("peer", &stats.peer)?;
-    dict.set_item("connected", stats.connected)?;
-    dict.set_item("published", stats.published)?;
-    dict.set_item("taken", stats.taken)?;
-    dict.set_item("replaced", stats.replaced)?;
-    dict.set_item("dropped_oldest", stats.dropped_oldest)?;
-    dict.set_item("dropped_newest", stats.dropped_newest)?;
-    dict.set_item("lost", stats.lost)?;
-    dict.set_item("waiting", stats.waiting)?;
+    set_fields!(dict, stats: peer, connected, published, taken, replaced, dropped_oldest, dropped_newest, lost, waiting);
     Ok(dict)
 }

@@ -25,6 +25,8 @@ R = TypeVar("R")
 
 _NOT_GIVEN: Any = object()
 """Stands for a default that was not given: any other value may be one."""
+_NOTHING: Any = object()
+"""Stands for no message: `None` may be one."""
 
 # How many seconds a call that does not wait may be held up by undecodable messages.
 _LONGEST_SKIP = 0.01
@@ -139,33 +141,91 @@ class _Sender(Gate, Generic[T]):
         )
 
 
-class _Receiver(Gate, Generic[T]):
-    __slots__ = ("_decode", "_recv", "type")
+class _Receiving(Gate, Generic[T]):
+    """What gates have in common that receive messages or requests."""
+
+    __slots__ = ("_decode", "_poll", "_recv", "_try")
+
+    _decode: Callable[[Any], T]
+    _recv: Callable[..., Any]
+    _poll: Callable[[Readiness], Any]
+    _try: Callable[[], Any]
+
+    def recv(self, timeout: float | None = None) -> T:
+        """Waits for the next message or request, at most `timeout` seconds, with 0 not at all. Raises `Timeout` then.
+
+        A frame that does not decode is counted and skipped; at a gate with `undecodable: fail` it raises `DecodeError`.
+        Either way the call of a requester whose request it was raises `Refused`.
+        """
+        started, received = monotonic(), self._recv(timeout)
+        while True:
+            try:
+                return self._decode(received)
+            except DecodeError as error:
+                self._skip(error, received)
+            received = self._recv(_rest(timeout, started), monotonic() - started)
+
+    def _try_next(self, default: D) -> T | D:
+        started = 0.0
+        while (received := self._try()) is not None:
+            try:
+                return self._decode(received)
+            except DecodeError as error:
+                self._skip(error, received)
+            started = started or monotonic()
+            if monotonic() - started > _LONGEST_SKIP:
+                break
+        return default
+
+    async def recv_async(self, timeout: float | None = None) -> T:
+        """`recv` for asyncio. Cancel safe: a call that is cancelled has taken nothing."""
+        started, rest = monotonic(), timeout
+        while True:
+            received = await self._until(self._poll, rest, lambda _waited: self._recv(0, timeout))
+            try:
+                return self._decode(received)
+            except DecodeError as error:
+                self._skip(error, received)
+            await _others_turn()
+            rest = _rest(timeout, started)
+
+    def _skip(self, error: DecodeError, received: Any) -> None:
+        """Reports a frame that does not decode, and raises the error unless such frames are skipped."""
+        request = received if isinstance(received, _native.Request) else None
+        if not self._native.reject(error.reason, request):
+            raise error
+
+    def __iter__(self) -> Iterator[T]:
+        """Yields what arrives until the component is closed or SIGTERM asks the program to stop."""
+        while True:
+            try:
+                received = self.recv()
+            except (Closed, Stopped):
+                return
+            yield received
+
+    async def __aiter__(self) -> AsyncIterator[T]:
+        """`__iter__` for asyncio."""
+        while True:
+            try:
+                received = await self.recv_async()
+            except (Closed, Stopped):
+                return
+            yield received
+
+
+class _Receiver(_Receiving[T]):
+    __slots__ = ("type",)
 
     type: builtins.type[T]
     """The class of the messages."""
 
     _can = "`recv`, `try_recv`, `latest` and iteration"
-    _decode: Callable[[bytes], T]
-    _recv: Callable[..., bytes]
 
     def __init__(self, native: NativeGate, loops: Loops, codec: Codec) -> None:
         super().__init__(native, loops)
-        self._set(type=codec.type, _decode=codec.decode, _recv=native.recv)
-
-    def recv(self, timeout: float | None = None) -> T:
-        """Waits for the next message, no longer than `timeout` seconds, with 0 not at all. Raises `Timeout` then.
-
-        A frame that is not a message is counted and skipped; at a gate with `undecodable: fail` it raises `DecodeError`.
-        """
-        started, frame = monotonic(), self._recv(timeout)
-        while True:
-            try:
-                message: T = self._decode(frame)
-                return message
-            except DecodeError as error:
-                self._skip(error)
-            frame = self._recv(_rest(timeout, started), monotonic() - started)
+        self._set(type=codec.type, _decode=codec.decode)
+        self._set(_recv=native.recv, _poll=native.poll_recv, _try=native.try_recv)
 
     @overload
     def try_recv(self) -> T | None: ...
@@ -176,20 +236,7 @@ class _Receiver(Gate, Generic[T]):
 
         Raises `NoneReceived` without a `default` if the message itself is `None`, which only plain values can be.
         """
-        started = 0.0
-        while (frame := self._native.try_recv()) is not None:
-            try:
-                message = self._decode(frame)
-            except DecodeError as error:
-                self._skip(error)
-                started = started or monotonic()
-                if monotonic() - started > _LONGEST_SKIP:
-                    break
-                continue
-            if message is None and default is _NOT_GIVEN:
-                raise self._none_received("try_recv")
-            return message
-        return None if default is _NOT_GIVEN else default
+        return self._unambiguous("try_recv", self._try_next(_NOTHING), default)
 
     @overload
     def latest(self) -> T | None: ...
@@ -197,59 +244,24 @@ class _Receiver(Gate, Generic[T]):
     def latest(self, default: D) -> T | D: ...
     def latest(self, default: Any = _NOT_GIVEN) -> Any:
         """Returns the newest message that has arrived and discards the older ones; as `try_recv`, if there is none."""
-        frame = self._native.latest()
-        if frame is None:
-            return None if default is _NOT_GIVEN else default
-        try:
-            message = self._decode(frame)
-        except DecodeError as error:
-            self._skip(error)
-            return None if default is _NOT_GIVEN else default
-        if message is None and default is _NOT_GIVEN:
-            raise self._none_received("latest")
-        return message
-
-    def _none_received(self, call: str) -> NoneReceived:
-        return NoneReceived(
-            f"gate `{self.name}` received the message `None`, which `{call}()` returns for no message; give it another value "
-            f"for that: `{call}(default)`"
-        )
-
-    async def recv_async(self, timeout: float | None = None) -> T:
-        """`recv` for asyncio. Cancel safe: a call that is cancelled has taken no message."""
-        started, rest = monotonic(), timeout
-        while True:
-            frame = await self._until(self._native.poll_recv, rest, lambda _waited: self._recv(0, timeout))
+        frame, newest = self._native.latest(), _NOTHING
+        if frame is not None:
             try:
-                message: T = self._decode(frame)
-                return message
+                newest = self._decode(frame)
             except DecodeError as error:
-                self._skip(error)
-            await _others_turn()
-            rest = _rest(timeout, started)
+                self._skip(error, frame)
+        return self._unambiguous("latest", newest, default)
 
-    def _skip(self, error: DecodeError) -> None:
-        """Reports a frame that is not a message, and raises the error unless such frames are skipped."""
-        if not self._native.reject(error.reason):
-            raise error
-
-    def __iter__(self) -> Iterator[T]:
-        """Yields messages until the component is closed or SIGTERM asks the program to stop."""
-        while True:
-            try:
-                message = self.recv()
-            except (Closed, Stopped):
-                return
-            yield message
-
-    async def __aiter__(self) -> AsyncIterator[T]:
-        """`__iter__` for asyncio."""
-        while True:
-            try:
-                message = await self.recv_async()
-            except (Closed, Stopped):
-                return
-            yield message
+    def _unambiguous(self, call: str, received: Any, default: Any) -> Any:
+        """Returns what was received, or the default."""
+        if received is _NOTHING:
+            return None if default is _NOT_GIVEN else default
+        if received is None and default is _NOT_GIVEN:
+            raise NoneReceived(
+                f"gate `{self.name}` received the message `None`, which `{call}()` returns for no message; give it another "
+                f"value for that: `{call}(default)`"
+            )
+        return received
 
 
 class Pub(_Sender[T]):
@@ -357,10 +369,10 @@ class Request(Generic[A, B]):
         return f"Request({self.message!r})"
 
 
-class Rep(Gate, Generic[A, B]):
+class Rep(_Receiving[Request[A, B]], Generic[A, B]):
     """Answers the requests of any number of requesters."""
 
-    __slots__ = ("_reply", "_request", "reply_type", "type")
+    __slots__ = ("reply_type", "type")
 
     type: builtins.type[A]
     """The class of requests."""
@@ -368,74 +380,17 @@ class Rep(Gate, Generic[A, B]):
     """The class of replies."""
 
     _can = "`recv`, `try_recv` and iteration, which give requests with `reply`"
-    _request: Codec
-    _reply: Codec
 
     def __init__(self, native: NativeGate, loops: Loops, request: Codec, reply: Codec) -> None:
         super().__init__(native, loops)
-        self._set(type=request.type, reply_type=reply.type, _request=request, _reply=reply)
-
-    def recv(self, timeout: float | None = None) -> Request[A, B]:
-        """Waits for the next request, no longer than `timeout` seconds, with 0 not at all. Raises `Timeout` then.
-
-        A frame that is not a request is counted and skipped; at a gate with `undecodable: fail` it raises `DecodeError`.
-        Either way the call of its sender raises `Refused`.
-        """
-        started, received = monotonic(), self._native.recv_request(timeout)
-        while (request := self._decoded(received)) is None:
-            received = self._native.recv_request(_rest(timeout, started), monotonic() - started)
-        return request
+        decode = request.decode
+        self._set(type=request.type, reply_type=reply.type)
+        self._set(_decode=lambda received: Request(received, decode(received.data), reply))
+        self._set(_recv=native.recv_request, _poll=native.poll_recv_request, _try=native.try_recv_request)
 
     def try_recv(self) -> Request[A, B] | None:
         """Returns the next request if one has arrived, else `None`."""
-        started = 0.0
-        while (received := self._native.try_recv_request()) is not None:
-            request = self._decoded(received)
-            started = started or monotonic()
-            if request is not None or monotonic() - started > _LONGEST_SKIP:
-                return request
-        return None
-
-    async def recv_async(self, timeout: float | None = None) -> Request[A, B]:
-        """`recv` for asyncio. Cancel safe: a call that is cancelled has taken no request."""
-        native, started, rest = self._native, monotonic(), timeout
-        while True:
-            received = await self._until(
-                native.poll_recv_request, rest, lambda _waited: native.recv_request(0, timeout)
-            )
-            request = self._decoded(received)
-            if request is not None:
-                return request
-            await _others_turn()
-            rest = _rest(timeout, started)
-
-    def __iter__(self) -> Iterator[Request[A, B]]:
-        """Yields requests until the component is closed or SIGTERM asks the program to stop."""
-        while True:
-            try:
-                request = self.recv()
-            except (Closed, Stopped):
-                return
-            yield request
-
-    async def __aiter__(self) -> AsyncIterator[Request[A, B]]:
-        """`__iter__` for asyncio."""
-        while True:
-            try:
-                request = await self.recv_async()
-            except (Closed, Stopped):
-                return
-            yield request
-
-    def _decoded(self, request: _native.Request) -> Request[A, B] | None:
-        """Returns `None` for one that is to be skipped."""
-        try:
-            message: A = self._request.decode(request.data)
-        except DecodeError as error:
-            if not self._native.reject(error.reason, request):
-                raise
-            return None
-        return Request(request, message, self._reply)
+        return self._try_next(None)
 
 
 def _rest(timeout: float | None, started: float) -> float | None:
