@@ -48,6 +48,7 @@ CANARIES = {
     "format": Canary(TESTS, "fn  canary( ) {}\n", ["exit code"]),
     "cycles": Canary("crates/scl-terminal/src/print.rs", "use crate::table::Table;\n", ["exit code"]),
     "promises": Canary("docs/shutdown.md", "exit::canary", ["exit code"], old="exit::a_panic_is_exit_code_101"),
+    "style": Canary("crates/scl-terminal/src/print.rs", f"// {'word ' * 30}\n", ["exit code"]),
     "lints": Canary(TESTS, "fn canary() {}\n", ["exit code"]),
     "docs": Canary("tests/src/lib.rs", "/// [`Nothing`]\npub fn canary() {}\n", ["exit code"]),
     "dependencies": Canary("deny.toml", "", ["exit code"], old='"MIT", '),

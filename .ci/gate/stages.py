@@ -74,6 +74,7 @@ CHECKS = [
     Stage("tools", ".ci/tools"),
     Stage("format", "cargo fmt --all --check"),
     Stage("cycles", ".ci/cycles"),
+    Stage("style", ".ci/style"),
     Stage("promises", ".ci/promises"),
     # `--all-targets` leaves out the tests that `cargo test` leaves out.
     Stage("lints", f"{clippy('--all-targets')} && {clippy(ALL_TESTS)}"),

@@ -109,8 +109,8 @@ async fn run(folder: &str, options: &FreshOptions) -> scl::Result<Vec<Measuremen
 }
 
 impl Measurement {
-    /// Opens the publisher and starts the subscriber. The publishers of SCL wait for theirs; the others drop values until they
-    /// have connected.
+    /// Opens the publisher and starts the subscriber. The publishers of SCL wait for theirs; the others drop values
+    /// until they have connected.
     async fn start(variant: &Variant, folder: &str, subscriber: &[&str]) -> scl::Result<Self> {
         let paths = SocketPaths::new(folder, variant.id);
         let raw = match variant.id {

@@ -41,8 +41,8 @@ impl GatewayGrowthOptions {
 ///
 /// # Errors
 ///
-/// This program was built without the feature `gateway`, `scl-gateway` is not found, the folder for temporary files cannot
-/// be used, or a connection fails.
+/// This program was built without the feature `gateway`, `scl-gateway` is not found, the folder for temporary files
+/// cannot be used, or a connection fails.
 pub fn measure_gateway_growth(options: &GatewayGrowthOptions) -> scl::Result<Report> {
     Transport::Gateway.check_is_built_in()?;
     #[cfg(feature = "gateway")]

@@ -94,7 +94,8 @@ impl Drop for Participant {
 }
 
 impl Sending {
-    /// Sends `bytes` bytes: a copy of `received` or of a payload of its own, or a loan with whatever the memory contains.
+    /// Sends `bytes` bytes: a copy of `received` or of a payload of its own, or a loan with whatever the memory
+    /// contains.
     pub(crate) fn send(&self, bytes: usize, received: Option<&Payload>, time: u64) -> scl::Result<()> {
         let loan = |bytes| self.publisher.loan_slice_uninit(bytes);
         let mut sample = match (&self.copied, received) {

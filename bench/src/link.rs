@@ -1,5 +1,5 @@
-//! Both ends of a variant, opened in one order: the near end listens, the worker opens its end and says so, the near end
-//! connects, and each end that sends waits for its subscriber.
+//! Both ends of a variant, opened in one order: the near end listens, the worker opens its end and says so, the near
+//! end connects, and each end that sends waits for its subscriber.
 
 use crate::components::{one_way, roundtrip};
 use crate::engines::{self, FAR, NEAR, options};

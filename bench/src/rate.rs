@@ -83,8 +83,8 @@ struct Measurement {
 ///
 /// # Errors
 ///
-/// A size is outside [`RateOptions::BYTES`], this program was built without the transport, the folder for temporary files cannot be used, a process cannot be
-/// started, or a connection fails.
+/// A size is outside [`RateOptions::BYTES`], this program was built without the transport, the folder for temporary
+/// files cannot be used, a process cannot be started, or a connection fails.
 pub fn measure_rate(options: &RateOptions) -> scl::Result<Report> {
     options.transport.check_is_built_in()?;
     check_message_sizes(&options.bytes, RateOptions::BYTES)?;

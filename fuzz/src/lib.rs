@@ -1,8 +1,8 @@
-//! What the fuzz targets of the checker do with their input. What those of the runtime do is in `tests/src/fuzz`, because
-//! `cargo test` does it too.
+//! What the fuzz targets of the checker do with their input. What those of the runtime do is in `tests/src/fuzz`,
+//! because `cargo test` does it too.
 //!
-//! `cargo fuzz run yaml_to_topology -- -max_total_time=300`; without a nightly toolchain, put `RUSTC_BOOTSTRAP=1` before
-//! it. `crates/scl-topology/tests/files` is a good corpus to start from.
+//! `cargo fuzz run yaml_to_topology -- -max_total_time=300`; without a nightly toolchain, put `RUSTC_BOOTSTRAP=1`
+//! before it. `crates/scl-topology/tests/files` is a good corpus to start from.
 
 mod model;
 

@@ -49,8 +49,8 @@ pub fn __topology(input: TokenStream) -> TokenStream {
 /// | receives a second signal, half a second later or more | 128 + its number |
 /// | panics | 101 |
 ///
-/// Messages count as left if the peer is running or the connection has `when_full: wait`. For a peer that is not running
-/// there is only a warning.
+/// Messages count as left if the peer is running or the connection has `when_full: wait`. For a peer that is not
+/// running there is only a warning.
 ///
 /// SIGTERM and SIGINT stop an async program at its next `.await`, which drops the function's future, and another one at
 /// its next call to a gate, which fails. What connected peers still receive is flushed. A program that has something to

@@ -68,7 +68,8 @@ fn returned_span(function: &ItemFn) -> Span {
     }
 }
 
-/// Keeps the function, so that mistakes in it are reported too, and adds a `main` so that rustc does not report a missing one as well.
+/// Keeps the function, so that mistakes in it are reported too, and adds a `main` so that rustc does not report a
+/// missing one as well.
 fn expand_broken(function: &ItemFn, problems: &[TokenStream]) -> TokenStream {
     if function.sig.ident != "main" {
         return quote! { #(#problems)* #function };

@@ -1,5 +1,5 @@
-//! With the feature `nightly`, rustc reports problems at their positions in the topology file. Each file is compiled in a
-//! crate of its own, by a nightly compiler, or without one by the compiler of the tests, which is told to be nightly.
+//! With the feature `nightly`, rustc reports problems at their positions in the topology file. Each file is compiled in
+//! a crate of its own, by a nightly compiler, or without one by the compiler of the tests, which is told to be nightly.
 #![allow(clippy::unwrap_used)]
 
 use serde_json::Value;

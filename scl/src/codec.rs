@@ -96,8 +96,8 @@ pub trait Codec<T>: Send + Sync + 'static {
     /// The codec's name in error messages, as in the topology file.
     const NAME: &'static str;
 
-    /// The length of every message in bytes, if all are equally long. Transports that reserve memory for the longest message
-    /// of a connection then reserve no more than that. Default: they are not.
+    /// The length of every message in bytes, if all are equally long. Transports that reserve memory for the longest
+    /// message of a connection then reserve no more than that. Default: they are not.
     const FIXED_LENGTH: Option<usize> = None;
 
     /// Encodes `message` and appends the bytes to `buffer`. What `buffer` contained before stays unchanged, also on

@@ -199,7 +199,8 @@ pub enum BlockingError {
     /// The async runtime on which the component was opened has ended.
     #[error("the async runtime on which the component was opened has ended; keep it running while the gates are used")]
     RuntimeEnded,
-    /// The calling thread is ending and its thread-local values are gone, so it cannot wait. Closing a component works there.
+    /// The calling thread is ending and its thread-local values are gone, so it cannot wait. Closing a component works
+    /// there.
     #[error(
         "the calling thread is ending and cannot wait for gates any more; make the call earlier or on another thread"
     )]
@@ -321,7 +322,8 @@ pub enum SendTimeoutError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RecvError {
-    /// The codec cannot read a message, and the gate declares `undecodable: fail`. The next call returns the next message.
+    /// The codec cannot read a message, and the gate declares `undecodable: fail`. The next call returns the next
+    /// message.
     #[error("gate `{gate}` received an undecodable message from {peers}")]
     Decode {
         /// The gate.

@@ -37,8 +37,8 @@ pub fn wrong_variables(variables: Variables<'_>) -> Vec<OpenError> {
 
 /// Why ends of connections of a running component do not connect to their running peers: each gate, and what differs.
 ///
-/// The texts call the component "this program". Only the ends that connect are checked (`sub`, `req` and `push`), as when
-/// they run. Each different plan is kept in memory until the process ends.
+/// The texts call the component "this program". Only the ends that connect are checked (`sub`, `req` and `push`), as
+/// when they run. Each different plan is kept in memory until the process ends.
 ///
 /// # Errors
 /// [`OpenError`] if the announced plan contradicts itself.

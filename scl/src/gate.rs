@@ -71,8 +71,8 @@ pub trait AnyGate: sealed::Sealed {
 
 /// A gate that receives: `sub`, `pull` or `rep`. Only SCL's gates implement it.
 pub trait ReceivingGate: AnyGate {
-    /// Ready when the gate has a message or a request, which `try_recv` then returns. It takes none, so it may be called
-    /// as often as one likes, also by the wait for several gates.
+    /// Ready when the gate has a message or a request, which `try_recv` then returns. It takes none, so it may be
+    /// called as often as one likes, also by the wait for several gates.
     ///
     /// ```no_run
     /// use scl::ReceivingGate;

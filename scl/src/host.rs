@@ -1,8 +1,8 @@
 //! For bindings to other languages: what [`main`](macro@crate::main) does around a Rust program, piece by piece.
 //!
-//! A program whose main function is not Rust's needs signals and a log as any other component does, but its language may
-//! handle signals in a way of its own. A binding either lets SCL watch for them, with [`watch_signals`], or reports what it
-//! has seen, with [`request_stop`]. Either way a stop request ends the waiting calls of all gates with
+//! A program whose main function is not Rust's needs signals and a log as any other component does, but its language
+//! may handle signals in a way of its own. A binding either lets SCL watch for them, with [`watch_signals`], or reports
+//! what it has seen, with [`request_stop`]. Either way a stop request ends the waiting calls of all gates with
 //! [`BlockingError::Stopped`](crate::BlockingError::Stopped).
 //!
 //! ```no_run
@@ -33,16 +33,16 @@ pub fn start_log() -> Result<(), OpenError> {
     Ok(())
 }
 
-/// From now on a service manager such as systemd or `scl run`, if one has started the process, is told when the components
-/// that are opened are ready, that a stop was requested, and that the program is alive, as `docs/service.md` describes.
-/// Without one, and when called again, does nothing.
+/// From now on a service manager such as systemd or `scl run`, if one has started the process, is told when the
+/// components that are opened are ready, that a stop was requested, and that the program is alive, as `docs/service.md`
+/// describes. Without one, and when called again, does nothing.
 pub fn notify_service_manager() {
     service::start(&environment::of_process);
 }
 
 /// Tells the service manager, if one has started the process, something that `sd_notify(3)` describes: `READY=1` and a
-/// line break. For programs without components; for others, [`notify_service_manager`] does it. Returns at once: a manager
-/// that does not read misses the notification, which is logged.
+/// line break. For programs without components; for others, [`notify_service_manager`] does it. Returns at once: a
+/// manager that does not read misses the notification, which is logged.
 pub fn tell_service_manager(text: &str) {
     service::tell(&environment::of_process, text);
 }
@@ -56,9 +56,9 @@ pub fn watch_signals() -> Result<()> {
     Ok(stop::watch_signals(grace_period()?)?)
 }
 
-/// Applies the real-time settings `SCL_SCHED` and `SCL_CPU` to the calling thread and to those that it starts from now on,
-/// and logs a warning for what the operating system refuses. To be called after [`watch_signals`], whose thread must run
-/// while a thread with these settings computes. Further calls do nothing.
+/// Applies the real-time settings `SCL_SCHED` and `SCL_CPU` to the calling thread and to those that it starts from now
+/// on, and logs a warning for what the operating system refuses. To be called after [`watch_signals`], whose thread
+/// must run while a thread with these settings computes. Further calls do nothing.
 ///
 /// # Errors
 /// [`OpenError::Environment`] if a setting is not understood.
@@ -72,9 +72,9 @@ pub fn apply_real_time() -> Result<(), OpenError> {
     Ok(())
 }
 
-/// Makes what calls to components need of the calling thread's thread-local values. For bindings whose programs make calls in
-/// destructors and at their exit: a thread-local value that the binding makes after this call is destroyed before those, so
-/// its destructor tells when calls have to be made on another thread.
+/// Makes what calls to components need of the calling thread's thread-local values. For bindings whose programs make
+/// calls in destructors and at their exit: a thread-local value that the binding makes after this call is destroyed
+/// before those, so its destructor tells when calls have to be made on another thread.
 pub fn prepare_thread() {
     state::prepare_thread();
 }
@@ -87,8 +87,8 @@ pub fn grace_period() -> Result<Duration, OpenError> {
     stop::grace_period(&environment::of_process)
 }
 
-/// Requests the stop, for a binding that watches for signals itself. Ending the process after the grace period is left to
-/// the binding, too.
+/// Requests the stop, for a binding that watches for signals itself. Ending the process after the grace period is left
+/// to the binding, too.
 pub fn request_stop(signal: StopSignal) {
     stop::request(signal);
 }
@@ -104,8 +104,8 @@ pub fn end_grace_period() {
     stop::end_grace_period();
 }
 
-/// Returns true if a stop was requested. Unlike [`is_stop_requested`](crate::is_stop_requested), asking does not mean that
-/// the program handles the request itself.
+/// Returns true if a stop was requested. Unlike [`is_stop_requested`](crate::is_stop_requested), asking does not mean
+/// that the program handles the request itself.
 pub fn is_stop_requested() -> bool {
     stop::was_requested()
 }

@@ -1,7 +1,7 @@
 //! Typed components and gates, wired by one checked YAML file, over ZeroMQ.
 //!
-//! A system is made of several programs. One YAML file, the topology, says which components exist, which gates they have
-//! and which gates are connected. [`topology!`] checks that file while a program compiles and makes one struct a
+//! A system is made of several programs. One YAML file, the topology, says which components exist, which gates they
+//! have and which gates are connected. [`topology!`] checks that file while a program compiles and makes one struct a
 //! component, with one field a gate; [`main`](macro@main) opens a component and runs a program with it.
 //!
 //! ```yaml
@@ -59,16 +59,16 @@
 //! Large messages of fixed layout (`codec: raw`) are written in place with [`Pub::loan`] and read in place with
 //! [`Sub::recv_view`]: then they are never copied on a transport with shared memory.
 //!
-//! [`ReceivingGate::poll_ready`] tells whether a gate has something without taking it; [`untyped`] waits for several gates at
-//! once and has a file descriptor for event loops.
+//! [`ReceivingGate::poll_ready`] tells whether a gate has something without taking it; [`untyped`] waits for several
+//! gates at once and has a file descriptor for event loops.
 //!
 //! Programs may start in any order, restart, and be killed: messages wait in the sending program, up to the receiving
 //! gate's `queue`, and connections come back by themselves.
 //!
 //! # Where programs meet
 //!
-//! In the runtime folder, see [`runtime_dir`], under names that the topology fixes. What is said there is plain ZeroMQ, so a
-//! program in any language can take a component's place.
+//! In the runtime folder, see [`runtime_dir`], under names that the topology fixes. What is said there is plain ZeroMQ,
+//! so a program in any language can take a component's place.
 //!
 //! # Features
 //!
@@ -148,8 +148,8 @@ pub use transport_kind::TransportKind;
 /// ```
 ///
 /// The file is looked for beside the calling source file, then in the package root, then in the workspace root. Cargo
-/// builds again when it changes, or a schema that it names. With `schemas:` in the file, each protobuf package becomes a
-/// module with its messages.
+/// builds again when it changes, or a schema that it names. With `schemas:` in the file, each protobuf package becomes
+/// a module with its messages.
 ///
 /// A struct has the functions `open`, `open_blocking`, `ready` and `close`. In unit tests, `Component::test()` gives it
 /// together with the other ends of all its gates.

@@ -36,8 +36,8 @@ impl Level {
     }
 }
 
-/// Logs a warning about the end of a component. Its thread may be ending, too, and a log that keeps something in a destroyed
-/// thread-local value would panic there.
+/// Logs a warning about the end of a component. Its thread may be ending, too, and a log that keeps something in a
+/// destroyed thread-local value would panic there.
 pub(crate) fn warn(text: &str) {
     match is_thread_ending() {
         true => on_another_thread(|| tracing::warn!("{text}")),
@@ -67,8 +67,8 @@ pub(crate) fn start(level: Level) {
     let _already_set = log.with_target(false).without_time().try_init();
 }
 
-/// Colour only on terminals, never if `NO_COLOR` is set (<https://no-color.org>), and as `CLICOLOR` and `CLICOLOR_FORCE`
-/// say (<https://bixense.com/clicolors>).
+/// Colour only on terminals, never if `NO_COLOR` is set (<https://no-color.org>), and as `CLICOLOR` and
+/// `CLICOLOR_FORCE` say (<https://bixense.com/clicolors>).
 #[cfg(any(feature = "logging", test))]
 fn use_colour(terminal: bool, variables: Variables<'_>) -> bool {
     let is_set = |name| variables(name).is_some_and(|value| !value.is_empty());

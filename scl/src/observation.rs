@@ -5,8 +5,8 @@ use bytes::Bytes;
 /// What happens at a tap.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TapEvent {
-    /// The component shows this observer every message that passes the gate from now on. What passed shortly before this
-    /// event may be observed, too.
+    /// The component shows this observer every message that passes the gate from now on. What passed shortly before
+    /// this event may be observed, too.
     Connected,
     /// A message, request or reply.
     Observed(Observation),

@@ -60,8 +60,8 @@ impl OpenOptions {
         self
     }
 
-    /// The transport of the connections of one gate, named as `component.gate`: a gate of this component or of a peer. Of
-    /// several that apply to a connection, the last one counts. The listening end of the connection decides.
+    /// The transport of the connections of one gate, named as `component.gate`: a gate of this component or of a peer.
+    /// Of several that apply to a connection, the last one counts. The listening end of the connection decides.
     ///
     /// Opening fails if this component has no gate of this name.
     pub fn transport_of(mut self, gate: impl Into<String>, transport_kind: TransportKind) -> Self {
@@ -69,8 +69,8 @@ impl OpenOptions {
         self
     }
 
-    /// What [`transport_kind`](Self::transport_kind) and [`transport_of`](Self::transport_of) say, from a text like the value of
-    /// `SCL_TRANSPORT`, which then has no effect.
+    /// What [`transport_kind`](Self::transport_kind) and [`transport_of`](Self::transport_of) say, from a text like the
+    /// value of `SCL_TRANSPORT`, which then has no effect.
     pub fn transports(mut self, choice: TransportChoice) -> Self {
         self.transport_kind = Some(choice.default_kind());
         self.transport_of.extend(choice.of_gates);
@@ -79,8 +79,9 @@ impl OpenOptions {
 
     /// A transport of your own, or `scl::transport::memory::Memory` for gates within this process.
     ///
-    /// The component then uses no runtime folder: it reads and writes no files, the options of the runtime folder have no
-    /// effect, and only the transport or a [`registry`](Self::registry) can keep the component from being opened twice.
+    /// The component then uses no runtime folder: it reads and writes no files, the options of the runtime folder have
+    /// no effect, and only the transport or a [`registry`](Self::registry) can keep the component from being opened
+    /// twice.
     ///
     /// Opening fails if its gates need more than [the transport guarantees](Transport::guarantees).
     pub fn transport(mut self, transport: impl Transport) -> Self {
@@ -88,15 +89,17 @@ impl OpenOptions {
         self
     }
 
-    /// A registry of your own, beside a [`transport`](Self::transport) of your own: it keeps the component from being opened
-    /// twice, and knows which peers run. Without such a transport it has no effect, because the runtime folder is a registry.
+    /// A registry of your own, beside a [`transport`](Self::transport) of your own: it keeps the component from being
+    /// opened twice, and knows which peers run. Without such a transport it has no effect, because the runtime folder
+    /// is a registry.
     pub fn registry(mut self, registry: impl Registry) -> Self {
         self.registry = Some(Arc::new(registry));
         self
     }
 
     /// For `test()`: on this transport, a component is alone with its counterpart, which plays all peers of a gate at
-    /// the endpoint of its first connection. The other connections are left out, and what nobody receives is no warning.
+    /// the endpoint of its first connection. The other connections are left out, and what nobody receives is no
+    /// warning.
     #[cfg(feature = "memory")]
     #[doc(hidden)]
     pub fn of_test(transport: crate::transport::memory::Memory) -> Self {

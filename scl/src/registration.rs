@@ -46,8 +46,8 @@ struct Held {
 
 impl Registration {
     /// Takes the component's lock, removes what a killed process left behind, and publishes the messages and the
-    /// announcement. The gates are opened after that, on these transports. The component writes its stats with the given
-    /// period, if any.
+    /// announcement. The gates are opened after that, on these transports. The component writes its stats with the
+    /// given period, if any.
     pub(crate) fn in_folder(
         spec: &'static ComponentSpec,
         dir: SystemDir,
@@ -82,8 +82,8 @@ impl Registration {
         &self.files.dir
     }
 
-    /// Creates the component's files again if they were removed, for a process that watches the folder by itself. Returns
-    /// true if something was missing.
+    /// Creates the component's files again if they were removed, for a process that watches the folder by itself.
+    /// Returns true if something was missing.
     #[cfg(feature = "zeromq")]
     pub(crate) fn restore_if_removed(&self) -> Result<bool, RuntimeDirError> {
         if self.files.are_in_place() { Ok(false) } else { self.files.restore() }
@@ -110,7 +110,8 @@ impl Registered for Registration {
 
     fn end_check(&self, peer: &'static str) -> Option<EndCheck> {
         let dir = self.files.dir.clone();
-        // A crashed or killed process leaves its announcement behind. One that closes removes it before it releases its lock.
+        // A crashed or killed process leaves its announcement behind. One that closes removes it before it releases its
+        // lock.
         Some(Arc::new(move || !dir.has_announcement(peer)))
     }
 

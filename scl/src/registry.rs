@@ -2,8 +2,8 @@
 //!
 //! Between programs that is the runtime folder ([`runtime_dir`](crate::runtime_dir)). A
 //! [`transport`](crate::OpenOptions::transport) of your own comes without a registry, unless you bring one with
-//! [`OpenOptions::registry`](crate::OpenOptions::registry): then a component can be opened once only, errors say who runs it
-//! and why a peer is missing, and closing waits for peers that are running but not connected yet.
+//! [`OpenOptions::registry`](crate::OpenOptions::registry): then a component can be opened once only, errors say who
+//! runs it and why a peer is missing, and closing waits for peers that are running but not connected yet.
 
 use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::transport::PeerCheck;
@@ -51,8 +51,8 @@ use std::sync::Arc;
 /// let options = OpenOptions::new().transport(Memory::new()).registry(InProcess::default());
 /// ```
 pub trait Registry: Send + Sync + 'static {
-    /// Takes the component's name and announces it; its plan is in `component`. Called before its gates are opened, inside a
-    /// tokio runtime of any kind.
+    /// Takes the component's name and announces it; its plan is in `component`. Called before its gates are opened,
+    /// inside a tokio runtime of any kind.
     ///
     /// # Errors
     /// [`RegistryError`]: the name is taken, or cannot be taken.
@@ -70,8 +70,8 @@ pub trait Registered: Send + Sync {
         None
     }
 
-    /// What a sending end calls before it warns that it drops messages for `peer`, which was connected before. The default
-    /// misses every peer.
+    /// What a sending end calls before it warns that it drops messages for `peer`, which was connected before. The
+    /// default misses every peer.
     fn end_check(&self, peer: &'static str) -> Option<EndCheck> {
         let _misses_every_peer = peer;
         None

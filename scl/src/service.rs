@@ -1,10 +1,10 @@
 //! Telling a service manager how this process fares, as `sd_notify(3)` describes: systemd, or `scl run`.
 //!
-//! The manager names a socket in `NOTIFY_SOCKET`. Each component of the process is a member; the process is ready when all
-//! members have been, and alive while all are. `docs/service.md` says what is sent when.
+//! The manager names a socket in `NOTIFY_SOCKET`. Each component of the process is a member; the process is ready when
+//! all members have been, and alive while all are. `docs/service.md` says what is sent when.
 //!
-//! The datagrams are sent without waiting: a manager that does not read must not hold up a control loop, which rules out
-//! libraries whose socket may block.
+//! The datagrams are sent without waiting: a manager that does not read must not hold up a control loop, which rules
+//! out libraries whose socket may block.
 
 mod member;
 mod socket;
@@ -23,8 +23,8 @@ use std::time::{Duration, Instant};
 
 static SERVICE: OnceLock<Option<Arc<Service>>> = OnceLock::new();
 
-/// From now on the components that this process opens are reported to the service manager, if there is one. Further calls
-/// do nothing.
+/// From now on the components that this process opens are reported to the service manager, if there is one. Further
+/// calls do nothing.
 pub(crate) fn start(variables: Variables<'_>) {
     SERVICE.get_or_init(|| Service::of(variables).map(Arc::new));
 }

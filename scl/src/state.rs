@@ -210,8 +210,8 @@ impl ComponentState {
         lock(&self.ends).push(Registered { end, _task: None });
     }
 
-    /// Makes an end acknowledge what its program has received when the component is closed. Gates that are dropped do so
-    /// themselves.
+    /// Makes an end acknowledge what its program has received when the component is closed. Gates that are dropped do
+    /// so themselves.
     pub(crate) fn register_receiving(&self, end: Weak<Mutex<dyn ReceivingEnd>>) {
         lock(&self.receiving).push(end);
     }
@@ -242,7 +242,8 @@ impl ComponentState {
             lock(&self.given_up).extend(waiting);
             return self.remove(&end);
         }
-        // Weak, so that the socket is freed when the component is dropped, and not only when the runtime drops the task.
+        // Weak, so that the socket is freed when the component is dropped, and not only when the runtime drops the
+        // task.
         let (state, end) = (Arc::downgrade(self), Arc::downgrade(&end));
         self.handle.spawn(async move {
             let done = poll_fn(|cx| match (state.upgrade(), end.upgrade()) {
@@ -291,8 +292,8 @@ impl ComponentState {
         missing.refusal.clone().unwrap_or_else(explain)
     }
 
-    /// Returns true if another process runs a component. One of this process cannot be waited for while its thread may be
-    /// the one that waits.
+    /// Returns true if another process runs a component. One of this process cannot be waited for while its thread may
+    /// be the one that waits.
     fn runs_elsewhere(&self, component: &str) -> bool {
         self.registration.neighbour(component) == Some(Neighbour::OtherProcess)
     }
@@ -389,7 +390,8 @@ impl Drop for ComponentState {
             true => on_another_thread(|| self.hand_over(&ends)),
             false => self.hand_over(&ends),
         }
-        // Their tasks have been aborted, but one may be in the middle of a poll. Sockets must be gone before the lock is.
+        // Their tasks have been aborted, but one may be in the middle of a poll. Sockets must be gone before the lock
+        // is.
         ends.iter().for_each(owner::await_other_users);
     }
 }

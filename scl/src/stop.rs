@@ -34,8 +34,8 @@ static WATCHING: AtomicBool = AtomicBool::new(false);
 /// By default a stop request ends a program that [`main`](macro@crate::main) runs at its next call to any gate. Once
 /// the program has called this function, [`stop_requested_blocking`] or [`is_stop_requested`], it handles stop requests
 /// itself: its gates keep working after the request, and it has the time given by `SCL_STOP_WITHIN` (default `3s`) to
-/// return from `main`. After that it is ended with exit code 128 + the number of the signal; a second signal, half a second after
-/// the first or later, ends it at once.
+/// return from `main`. After that it is ended with exit code 128 + the number of the signal; a second signal, half a
+/// second after the first or later, ends it at once.
 ///
 /// Programs without [`main`](macro@crate::main) can use these functions, too: the first call starts to watch for the
 /// signals, which from then on do not end the program by themselves.

@@ -1,9 +1,9 @@
 //! A client of taps: everything that passes a gate, with number and time, as a stream of events.
 //!
 //! Every `pub`, `pull` and `rep` gate listens at its tap, whose name is in the component's plan
-//! ([`GatePlan::tap`](crate::plan::GatePlan::tap)). Observers come and go; none of them delays the gate. The component keeps
-//! up to 8192 messages and 16 MiB for an observer that does not read (a single longer message may always wait). Beyond that
-//! it drops the oldest, which an observer sees as a gap in [`Observation::sequence`].
+//! ([`GatePlan::tap`](crate::plan::GatePlan::tap)). Observers come and go; none of them delays the gate. The component
+//! keeps up to 8192 messages and 16 MiB for an observer that does not read (a single longer message may always wait).
+//! Beyond that it drops the oldest, which an observer sees as a gap in [`Observation::sequence`].
 //!
 //! # Example
 //!

@@ -1,11 +1,12 @@
 //! Components without generated code: opened at run time from a [`Plan`], with gates by name and bytes as messages.
 //!
 //! For programs that learn only when they run which component they are: tools, recorders, gateways, bindings for other
-//! languages. Everything else uses [`topology!`](crate::topology), which checks names, kinds and types while it compiles.
+//! languages. Everything else uses [`topology!`](crate::topology), which checks names, kinds and types while it
+//! compiles.
 //!
-//! An untyped component keeps every promise of a typed one, because it consists of the same gates: it takes the same lock,
-//! announces itself, and compares contracts and messages with its peers, which may be typed or not. Only encoding and
-//! decoding are left to the program: [`GatePlan::payload`] and [`GatePlan::codec`] say what the bytes are.
+//! An untyped component keeps every promise of a typed one, because it consists of the same gates: it takes the same
+//! lock, announces itself, and compares contracts and messages with its peers, which may be typed or not. Only encoding
+//! and decoding are left to the program: [`GatePlan::payload`] and [`GatePlan::codec`] say what the bytes are.
 //!
 //! `scl plan topology.yaml` prints the plans of a system.
 //!
@@ -86,15 +87,15 @@ pub struct Component {
 }
 
 impl Component {
-    /// Opens a component on the tokio runtime of the caller, whatever its flavour: registers the component, announces it
-    /// and opens its gates. Peers connect by themselves, in whatever order they start.
+    /// Opens a component on the tokio runtime of the caller, whatever its flavour: registers the component, announces
+    /// it and opens its gates. Peers connect by themselves, in whatever order they start.
     ///
-    /// Each different plan is kept in memory until the process ends, usually some kilobytes; opening an equal plan again
-    /// needs no more. All of them may take 64 MiB.
+    /// Each different plan is kept in memory until the process ends, usually some kilobytes; opening an equal plan
+    /// again needs no more. All of them may take 64 MiB.
     ///
     /// # Errors
-    /// [`OpenError`]: another process runs this component, the runtime folder cannot be used, the plan contradicts itself,
-    /// or there is no tokio runtime; the text says which.
+    /// [`OpenError`]: another process runs this component, the runtime folder cannot be used, the plan contradicts
+    /// itself, or there is no tokio runtime; the text says which.
     ///
     /// # Cancel safety
     /// It never waits.
@@ -227,8 +228,8 @@ impl Component {
         })
     }
 
-    /// Waits until all required peers are connected, also those of gates that were taken. Gates that listen for any number
-    /// of peers (`rep`, `pull`) have none to wait for, and neither have gates that were dropped.
+    /// Waits until all required peers are connected, also those of gates that were taken. Gates that listen for any
+    /// number of peers (`rep`, `pull`) have none to wait for, and neither have gates that were dropped.
     ///
     /// # Errors
     /// The peers that are missing after `timeout`, and why.
@@ -258,8 +259,8 @@ impl Component {
     /// Waits until every peer that is running has taken all messages, then closes. Peers that are running but not
     /// connected yet are waited for; one that is not running is named in a log line.
     ///
-    /// Messages of gates that were taken are waited for, too. As long as such a gate exists, the component stays open and
-    /// the gate works; [`closer`](Self::closer) ends its calls.
+    /// Messages of gates that were taken are waited for, too. As long as such a gate exists, the component stays open
+    /// and the gate works; [`closer`](Self::closer) ends its calls.
     ///
     /// Dropping the component hands over what is left, too, but waits no longer than a second, and only until it is
     /// written.
@@ -315,9 +316,9 @@ impl Component {
         Readiness::open(self, |_gate| true)
     }
 
-    /// [`readiness`](Self::readiness) of some gates only, also of such that were taken. Without any, the descriptor reports
-    /// wake-ups and stop requests: for event loops that await futures, and do not want to hear of messages that nobody
-    /// awaits.
+    /// [`readiness`](Self::readiness) of some gates only, also of such that were taken. Without any, the descriptor
+    /// reports wake-ups and stop requests: for event loops that await futures, and do not want to hear of messages that
+    /// nobody awaits.
     ///
     /// # Errors
     /// [`GateError::Unknown`] if the component has no gate with one of the names; the operating system provides no file

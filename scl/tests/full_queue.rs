@@ -1,5 +1,5 @@
-//! A gate whose queue is full does not look at its peers. It must do so again when its program has received a message, although
-//! the program may not receive another one for long: a sender that closes waits for the gate's answer.
+//! A gate whose queue is full does not look at its peers. It must do so again when its program has received a message,
+//! although the program may not receive another one for long: a sender that closes waits for the gate's answer.
 #![allow(clippy::unwrap_used)]
 
 use super::untyped::on_each_transport_async;

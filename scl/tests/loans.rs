@@ -1,5 +1,5 @@
-//! Messages that are written and read in place: over each transport, with every policy, and without copies where memory is
-//! lent.
+//! Messages that are written and read in place: over each transport, with every policy, and without copies where memory
+//! is lent.
 #![allow(clippy::unwrap_used)]
 
 mod accounts;

@@ -40,7 +40,8 @@ async fn a_job_goes_where_there_is_room_and_nothing_is_dropped() {
 #[tokio::test]
 async fn a_publisher_that_waits_goes_on_when_an_optional_reader_has_gone() {
     let (mut sensor, watcher) = sensor_and_watcher().await;
-    // The watcher's gate takes in as many as its own queue holds; the transport and the publisher's queue hold the rest.
+    // The watcher's gate takes in as many as its own queue holds; the transport and the publisher's queue hold the
+    // rest.
     let mut sent = 0;
     for _ in 0..100 {
         sent += (0..).take_while(|number| sensor.readings.try_send(number).is_ok()).count();

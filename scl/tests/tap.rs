@@ -62,7 +62,8 @@ async fn observed(observer: &mut Observer) -> Observation {
     }
 }
 
-/// The promise: messages, requests and replies are observed with what belongs to them, in whatever order the programs start.
+/// The promise: messages, requests and replies are observed with what belongs to them, in whatever order the programs
+/// start.
 #[test]
 fn everything_at_a_gate_is_observed() {
     on_each_transport(async |stage| {

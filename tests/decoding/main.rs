@@ -1,5 +1,5 @@
-//! How much memory decoding takes, counted by an allocator. A program of its own, whose tests take turns, because nothing else may
-//! allocate meanwhile.
+//! How much memory decoding takes, counted by an allocator. A program of its own, whose tests take turns, because
+//! nothing else may allocate meanwhile.
 
 mod estimate;
 mod gates;

@@ -1,5 +1,5 @@
-//! Finds what some tests need. Runs again when something is installed in a folder of `PATH`, and tests that were ignored
-//! for want of it are compiled again.
+//! Finds what some tests need. Runs again when something is installed in a folder of `PATH`, and tests that were
+//! ignored for want of it are compiled again.
 
 use std::env;
 use std::fmt::Write as _;
@@ -33,8 +33,8 @@ fn in_path(name: &str) -> Option<PathBuf> {
     folders.iter().map(|folder| folder.join(name)).find(|program| program.is_file())
 }
 
-/// The one that `.ci/rust-analyzer` builds, or else the one of the user's editor. What counts is that it runs: the proxy of
-/// rustup is there without the component behind it.
+/// The one that `.ci/rust-analyzer` builds, or else the one of the user's editor. What counts is that it runs: the
+/// proxy of rustup is there without the component behind it.
 fn rust_analyzer() -> Option<PathBuf> {
     let home = env::var_os("HOME").map(PathBuf::from);
     let cache = env::var_os("XDG_CACHE_HOME").map(PathBuf::from).or_else(|| Some(home?.join(".cache")));

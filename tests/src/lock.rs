@@ -3,8 +3,8 @@
 use std::fs::File;
 use std::path::Path;
 
-/// Locks a file, which it creates if need be, until the result is dropped. A test that fails, or is killed, does not keep
-/// others out.
+/// Locks a file, which it creates if need be, until the result is dropped. A test that fails, or is killed, does not
+/// keep others out.
 ///
 /// # Panics
 /// If the file cannot be created.

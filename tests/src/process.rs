@@ -238,8 +238,8 @@ impl Lines {
         self.0.recv_timeout(HANG_LIMIT)
     }
 
-    /// The next line that contains a text, or else those that came until the end of the stream or the time limit: a program
-    /// may print an endless stream of other lines.
+    /// The next line that contains a text, or else those that came until the end of the stream or the time limit: a
+    /// program may print an endless stream of other lines.
     fn find(&self, text: &str) -> Result<String, Vec<String>> {
         let (start, mut seen) = (Instant::now(), Vec::new());
         while start.elapsed() < HANG_LIMIT {

@@ -1,8 +1,8 @@
-//! The virtual environment of all tests: pyzmq, which brings libzmq, and protobuf as independent implementations of what
-//! SCL sends, and on demand the package `scl` of this workspace.
+//! The virtual environment of all tests: pyzmq, which brings libzmq, and protobuf as independent implementations of
+//! what SCL sends, and on demand the package `scl` of this workspace.
 //!
-//! It is made once per build folder, and again when `tests/requirements.txt` changes. The package is built whenever it is
-//! asked for, which takes a moment if nothing has changed. A lock keeps concurrent tests from making either twice.
+//! It is made once per build folder, and again when `tests/requirements.txt` changes. The package is built whenever it
+//! is asked for, which takes a moment if nothing has changed. A lock keeps concurrent tests from making either twice.
 
 use crate::cargo::{build, build_folder, workspace};
 use crate::{Process, lock_file};

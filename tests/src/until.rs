@@ -1,4 +1,5 @@
-//! How long tests wait, and waiting for what has no event of its own, such as a file that appears or a counter in `/proc`.
+//! How long tests wait, and waiting for what has no event of its own, such as a file that appears or a counter in
+//! `/proc`.
 
 use std::thread::park_timeout;
 use std::time::{Duration, Instant};
@@ -6,8 +7,8 @@ use std::time::{Duration, Instant};
 /// How long a test waits for an expected event. Only a test that would hang otherwise ever reaches this limit.
 pub const HANG_LIMIT: Duration = Duration::from_secs(300);
 
-/// `SCL_STOP_WITHIN` of programs under test: longer than a test waits, so that none that hangs, or that a busy machine delays, is
-/// ended by it.
+/// `SCL_STOP_WITHIN` of programs under test: longer than a test waits, so that none that hangs, or that a busy machine
+/// delays, is ended by it.
 pub const NEVER: &str = "1000s";
 
 /// Checks a condition again and again until it holds.

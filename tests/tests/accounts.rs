@@ -5,14 +5,15 @@ use crate::stats::dir;
 use scl::runtime_dir::{ComponentStats, ConnectionFigures};
 use scl_tests::{Process, System, on_each_transport, wait_until};
 
-/// The promise: what a program has received stays taken when it ends, and only what it has not received is lost. That holds for
-/// what waited in its gate, too. Shared memory: `shm/exit.rs`.
+/// The promise: what a program has received stays taken when it ends, and only what it has not received is lost. That
+/// holds for what waited in its gate, too. Shared memory: `shm/exit.rs`.
 #[test]
 fn what_a_program_received_stays_taken_when_it_ends() {
     on_each_transport(|system| {
         let mut source = open(&system, "source");
         let (mut published, mut taken) = (0, 0);
-        // Never more than may be on its way, and it arrives before the sink ends, so that nothing waits for the next one.
+        // Never more than may be on its way, and it arrives before the sink ends, so that nothing waits for the next
+        // one.
         for (count, length) in [(300, 0), (40, 20_000), (900, 100)] {
             let mut sink = open(&system, "sink");
             source.get_ready();
@@ -39,8 +40,8 @@ fn what_a_program_received_stays_taken_when_it_ends() {
     });
 }
 
-/// The promise: in the figures that tools read, `taken` and `lost` never fall, whether peers end in order or are killed, and they
-/// add up to what was published.
+/// The promise: in the figures that tools read, `taken` and `lost` never fall, whether peers end in order or are
+/// killed, and they add up to what was published.
 #[test]
 fn figures_of_what_was_taken_never_fall() {
     on_each_transport(|system| {
@@ -81,8 +82,8 @@ fn figures_of_what_was_taken_never_fall() {
     });
 }
 
-/// The promise: values that a newer one replaces in a `queue: 1` are no drops, neither for the component nor for a plain ZeroMQ
-/// program.
+/// The promise: values that a newer one replaces in a `queue: 1` are no drops, neither for the component nor for a
+/// plain ZeroMQ program.
 #[test]
 fn replaced_values_are_not_dropped() {
     on_each_transport(|system| {
@@ -111,13 +112,14 @@ fn ends() -> u64 {
     std::env::var("SCL_TEST_KILLS").map_or(6, |number| number.parse().expect("a number"))
 }
 
-/// The connection from `source.readings` to `sink.readings`, as tools see it; `None` if the figures are just being written.
+/// The connection from `source.readings` to `sink.readings`, as tools see it; `None` if the figures are just being
+/// written.
 fn figures(system: &System) -> Option<ConnectionFigures> {
     ComponentStats::read(&dir(system), "source").map(|found| found.gates[0].connections[0])
 }
 
-/// The promise: published = taken + replaced + dropped + lost + waiting, for each connection, at any time: before the peer has
-/// started, while it reads, while it is paused, after it was killed, and for its successor.
+/// The promise: published = taken + replaced + dropped + lost + waiting, for each connection, at any time: before the
+/// peer has started, while it reads, while it is paused, after it was killed, and for its successor.
 #[test]
 fn the_accounts_of_a_connection_are_exact_at_any_time() {
     on_each_transport(|system| {

@@ -1,7 +1,7 @@
 //! Bad input at every listening and every dialling end of a program.
 //!
-//! Each attack hits all ends of the twin `left`. During and after it, `left` stays idle and its memory bounded, and then
-//! exchanges messages of every kind with a good peer.
+//! Each attack hits all ends of the twin `left`. During and after it, `left` stays idle and its memory bounded, and
+//! then exchanges messages of every kind with a good peer.
 
 mod attacks;
 mod end;

@@ -1,4 +1,5 @@
-//! Kills, orderly ends and pauses of both peers in random order, while all six kinds of gates are busy: the accounts add up.
+//! Kills, orderly ends and pauses of both peers in random order, while all six kinds of gates are busy: the accounts
+//! add up.
 //!
 //! `SCL_TEST_KILLS` is the number of these events over each transport.
 
@@ -42,8 +43,8 @@ struct Chaos<'s> {
     watcher: Process,
     /// How many sources have been started.
     sources: u64,
-    /// The accounts of the source before the sink was started, in the order of [`GATES`]. `None` if the source is younger than
-    /// the sink.
+    /// The accounts of the source before the sink was started, in the order of [`GATES`]. `None` if the source is
+    /// younger than the sink.
     before: Option<[Account; 4]>,
 }
 

@@ -28,8 +28,8 @@ fn a_child_keeps_nothing_of_the_component() {
     assert_eq!(child.name(), "sleep", "the child outlived its parent");
 }
 
-/// The promise: a child that goes on with the program's code cannot use the component, and its end disturbs nothing of the
-/// parent.
+/// The promise: a child that goes on with the program's code cannot use the component, and its end disturbs nothing of
+/// the parent.
 #[test]
 fn a_forked_child_cannot_use_the_component() {
     let system = System::new();

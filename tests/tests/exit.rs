@@ -111,7 +111,8 @@ fn without_peers_every_program_ends() {
     }
 }
 
-/// The promise: a peer with `when_full: wait` that did not get everything makes the exit code 1, one that did makes it 0.
+/// The promise: a peer with `when_full: wait` that did not get everything makes the exit code 1, one that did makes it
+/// 0.
 #[test]
 fn a_slow_peer_with_backpressure_decides_about_the_exit_code() {
     for runtime in ["main", "main_blocking"] {

@@ -30,7 +30,8 @@ impl Forking {
         system.start_with(program, &[component], &environment)
     }
 
-    /// Forks a program, which has no other child, and gives the child commands. Returns what the child said until its end.
+    /// Forks a program, which has no other child, and gives the child commands. Returns what the child said until its
+    /// end.
     pub(crate) fn fork(&self, parent: &Process, commands: &str) -> String {
         fs::write(self.input(), format!("{commands}\n")).expect("written");
         parent.signal(Signal::USR1);

@@ -47,8 +47,8 @@ fn calls_that_wait_return_the_newest(kind: TransportKind) {
     }
 }
 
-/// On a machine with other work the publisher may need longer than the call gives it, so this demands most of the values
-/// to be fresh. Without asking the publisher, none of them would be.
+/// On a machine with other work the publisher may need longer than the call gives it, so this demands most of the
+/// values to be fresh. Without asking the publisher, none of them would be.
 fn calls_that_do_not_wait_return_the_newest(kind: TransportKind) {
     for call in NOT_WAITING {
         for clock in ["async", "blocking"] {
@@ -82,7 +82,8 @@ impl Pair {
         Self { name: format!("{clock} clock, {mode} {call}"), viewer, _clock: clock_process, _system: system }
     }
 
-    /// How many newer messages had been sent before the call was made. A value younger than two periods has one at most.
+    /// How many newer messages had been sent before the call was made. A value younger than two periods has one at
+    /// most.
     fn read_age(&mut self) -> u64 {
         let line = self.viewer.next_line();
         let (sent, received) = line.split_once(' ').unwrap_or_else(|| panic!("{}: {line}", self.name));

@@ -1,5 +1,5 @@
-//! `latched: true` between processes: subscribers with every kind of queue that start late or again, over each transport, and
-//! plain ZeroMQ programs among them.
+//! `latched: true` between processes: subscribers with every kind of queue that start late or again, over each
+//! transport, and plain ZeroMQ programs among them.
 
 use crate::programs::{LATCHED, open_with};
 use scl::TransportKind;

@@ -1,4 +1,5 @@
-//! What programs tell a service manager: that they are ready, for whom they wait, that they stop, and that they are alive.
+//! What programs tell a service manager: that they are ready, for whom they wait, that they stop, and that they are
+//! alive.
 
 use crate::programs::{FRESH, WATCHED};
 use rustix::process::Signal;
@@ -11,8 +12,8 @@ const PERIOD: Duration = Duration::from_millis(600);
 /// More notifications than a program sends that hangs, and fewer than one that does not.
 const MANY: usize = 12;
 
-/// The promise: a program is ready when its required peers are connected, although it never asks for that; until then it
-/// names them. A stop request is reported.
+/// The promise: a program is ready when its required peers are connected, although it never asks for that; until then
+/// it names them. A stop request is reported.
 #[test]
 fn readiness_and_stops_are_reported() {
     for mode in MODES {
@@ -32,8 +33,8 @@ fn readiness_and_stops_are_reported() {
     }
 }
 
-/// The promise: a program that waits for a silent peer is alive, as is one that calls its gates less often than the manager
-/// asks but within its period, and one that has not called any yet.
+/// The promise: a program that waits for a silent peer is alive, as is one that calls its gates less often than the
+/// manager asks but within its period, and one that has not called any yet.
 #[test]
 fn a_program_that_waits_or_takes_its_time_is_alive() {
     for mode in MODES {

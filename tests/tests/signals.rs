@@ -8,7 +8,8 @@ const MODES: [&str; 2] = ["async", "blocking"];
 const SIGNALS: [Signal; 2] = [Signal::TERM, Signal::INT];
 const TASKS: [&str; 6] = ["send", "try_send", "receive", "pull", "call", "serve"];
 
-/// The promise: whatever a program does, waiting or not, with or without a peer, a signal ends it, and that is a success.
+/// The promise: whatever a program does, waiting or not, with or without a peer, a signal ends it, and that is a
+/// success.
 #[test]
 fn every_program_ends_cleanly() {
     for has_peer in [false, true] {
@@ -80,7 +81,8 @@ fn a_second_signal_ends_a_program_at_once() {
     }
 }
 
-/// The promise: what a connected peer does not take of the last messages is a log line after a stop request, and no failure.
+/// The promise: what a connected peer does not take of the last messages is a log line after a stop request, and no
+/// failure.
 #[test]
 fn what_is_not_taken_after_a_stop_request_is_a_log_line() {
     for mode in MODES {
@@ -97,8 +99,8 @@ fn what_is_not_taken_after_a_stop_request_is_a_log_line() {
     }
 }
 
-/// The promise: a peer that is running and not connected is not waited for after a stop request, because all programs are
-/// stopping.
+/// The promise: a peer that is running and not connected is not waited for after a stop request, because all programs
+/// are stopping.
 #[test]
 fn a_peer_that_is_not_connected_is_not_waited_for_after_a_stop_request() {
     for mode in MODES {

@@ -1,5 +1,5 @@
-//! Plain ZeroMQ peers that do what ZeroMQ allows and SCL does not use: heartbeats, subscriptions to some messages. Hostile
-//! peers are in `bad_input`.
+//! Plain ZeroMQ peers that do what ZeroMQ allows and SCL does not use: heartbeats, subscriptions to some messages.
+//! Hostile peers are in `bad_input`.
 
 use crate::programs::open;
 use scl_tests::zmtp::{COMMAND, command, message, subscribe};

@@ -1,5 +1,5 @@
-//! Programs without generated code, with typed ones and with each other: they exchange everything, and refuse each other
-//! for the same reasons and in the same words.
+//! Programs without generated code, with typed ones and with each other: they exchange everything, and refuse each
+//! other for the same reasons and in the same words.
 
 use crate::programs::{SHAPES, UNTYPED};
 use crate::shapes::{answer, assert_names, exchange};
@@ -14,7 +14,8 @@ enum Program {
 }
 use Program::{Typed, Untyped};
 
-/// The promise: what an untyped component sends and receives is what a typed one does, in all patterns and both directions.
+/// The promise: what an untyped component sends and receives is what a typed one does, in all patterns and both
+/// directions.
 #[test]
 fn typed_and_untyped_programs_exchange_everything() {
     on_each_transport(|system| {

@@ -1,5 +1,5 @@
-//! Programs without async: a message is on its way when the call returns, and late peers are served although the program
-//! never waits.
+//! Programs without async: a message is on its way when the call returns, and late peers are served although the
+//! program never waits.
 
 use crate::programs::{PEER, PLAIN, open_with};
 use scl_tests::on_each_transport;

@@ -128,7 +128,8 @@ impl NearHost {
         Ok(Self { requests, publishers, _components: components })
     }
 
-    /// The processor time of a process in percent of one core, while every connection publishes `rate` messages per second.
+    /// The processor time of a process in percent of one core, while every connection publishes `rate` messages per
+    /// second.
     async fn processor_percent(&mut self, process: u32, time: Duration, rate: u32) -> scl::Result<f64> {
         let (before, started) = (processor_ms(process)?, Instant::now());
         if rate == 0 {

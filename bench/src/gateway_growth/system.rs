@@ -1,7 +1,7 @@
 //! A system with a number of connections between one host and some others.
 //!
-//! The first connection asks and answers, so that a round trip takes one connection. All others publish, from the near host
-//! to the far hosts in turn.
+//! The first connection asks and answers, so that a round trip takes one connection. All others publish, from the near
+//! host to the far hosts in turn.
 
 use crate::gateway::Host;
 use scl::plan::SystemPlan;

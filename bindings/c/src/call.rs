@@ -13,8 +13,8 @@ use std::ffi::c_void;
 ///
 /// On success, `*reply` is the reply, to be freed with scl_message_free; otherwise it is NULL.
 ///
-/// Calls of one gate follow each other, also with `in_flight`: SCL_BUSY says that another thread is calling. For several calls
-/// at once, declare several gates.
+/// Calls of one gate follow each other, also with `in_flight`: SCL_BUSY says that another thread is calling. For
+/// several calls at once, declare several gates.
 ///
 /// Errors: SCL_TIMEOUT, SCL_PEER_LOST, SCL_REFUSED, SCL_TOO_LONG, SCL_ENCODE, SCL_KIND, SCL_STOPPED, SCL_CLOSED,
 /// SCL_BUSY, SCL_HANDLE. A reply that comes too late is discarded; the next call never receives it.

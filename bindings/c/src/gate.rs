@@ -40,9 +40,10 @@ pub unsafe extern "C" fn scl_is_connected(gate: *const scl_gate) -> bool {
     border::value(|| Ok(lock(gate)?.gate.is_connected())).unwrap_or(false)
 }
 
-/// Returns the age, in nanoseconds, of the message that a `sub` gate received last, if its publisher has `latched: true` and
-/// had sent it before this gate was connected to it. -1 for every other message, before the first one, for gates of other
-/// kinds, and for an invalid handle or a gate that another thread is using; `scl_error` then says so.
+/// Returns the age, in nanoseconds, of the message that a `sub` gate received last, if its publisher has
+/// `latched: true` and had sent it before this gate was connected to it. -1 for every other message, before the first
+/// one, for gates of other kinds, and for an invalid handle or a gate that another thread is using; `scl_error` then
+/// says so.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_latched_age(gate: *const scl_gate) -> i64 {
     let nanoseconds = |age: Duration| i64::try_from(age.as_nanos()).unwrap_or(i64::MAX);

@@ -18,15 +18,15 @@ pub unsafe extern "C" fn scl_fail(status: scl_status, text: *const c_char) -> sc
     })
 }
 
-/// Reports that the message or reply that this gate received last cannot be decoded, or this request, which is freed whatever the result: its
-/// sender is told, so its call fails. `request` is NULL unless the gate is `rep`. `reason` follows "cannot decode this
-/// message: ". It is counted. For generated code and for codecs of your own.
+/// Reports that the message or reply that this gate received last cannot be decoded, or this request, which is freed
+/// whatever the result: its sender is told, so its call fails. `request` is NULL unless the gate is `rep`. `reason`
+/// follows "cannot decode this message: ". It is counted. For generated code and for codecs of your own.
 ///
-/// Returns SCL_OK if the gate skips such messages: receive the next one, with the timeout SCL_REST. They are logged once for
-/// each peer.
+/// Returns SCL_OK if the gate skips such messages: receive the next one, with the timeout SCL_REST. They are logged
+/// once for each peer.
 ///
-/// Errors: SCL_DECODE for a gate with `undecodable: fail` and for replies; the text names the gate and its peers. SCL_KIND,
-/// SCL_HANDLE.
+/// Errors: SCL_DECODE for a gate with `undecodable: fail` and for replies; the text names the gate and its peers.
+/// SCL_KIND, SCL_HANDLE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_undecodable(
     gate: *mut scl_gate,

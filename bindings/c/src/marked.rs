@@ -1,5 +1,5 @@
-//! What the program holds by a pointer: messages and requests. Each begins with a mark while it lives, so that a pointer to one
-//! that was freed is an error where that can be known.
+//! What the program holds by a pointer: messages and requests. Each begins with a mark while it lives, so that a
+//! pointer to one that was freed is an error where that can be known.
 
 use crate::border;
 use crate::error::Failure;

@@ -3,8 +3,8 @@
 use crate::border::Wait;
 use std::time::{Duration, Instant};
 
-/// As a timeout of scl_recv and scl_take_request: what is left of the timeout of the previous call. For code that goes on
-/// after scl_undecodable.
+/// As a timeout of scl_recv and scl_take_request: what is left of the timeout of the previous call. For code that goes
+/// on after scl_undecodable.
 pub const SCL_REST: i64 = -9223372036854775807;
 
 /// How long a call that does not wait may be held up by undecodable messages.

@@ -7,8 +7,8 @@ use scl::host;
 ///
 /// A stop request ends all calls that wait, and makes later ones fail, with SCL_STOPPED, so that a program that returns
 /// from `main` after any error stops by itself. If it still runs after the time given by SCL_STOP_WITHIN (default 3s),
-/// or when a second signal arrives, half a second after the first or later, it is ended with exit code 128 + the number of
-/// the signal.
+/// or when a second signal arrives, half a second after the first or later, it is ended with exit code 128 + the number
+/// of the signal.
 #[unsafe(no_mangle)]
 pub extern "C" fn scl_stop_requested() -> bool {
     border::value(|| Ok(host::is_stop_requested())).unwrap_or(false)

@@ -1,7 +1,7 @@
 //! The texts of a thread's last errors, where a C program can read them.
 //!
-//! A program may hold on to a text while other calls fail, if only by calling `scl_error` twice in one expression. So a thread
-//! keeps several, and their memory is never freed: it is used again, by this thread or by a later one.
+//! A program may hold on to a text while other calls fail, if only by calling `scl_error` twice in one expression. So a
+//! thread keeps several, and their memory is never freed: it is used again, by this thread or by a later one.
 
 use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
@@ -64,8 +64,8 @@ impl Texts {
         if buffer.capacity < bytes.len() {
             mem::replace(buffer, Buffer::of(bytes.len())).spare();
         }
-        // SAFETY: the buffer has room for the bytes and belongs to these texts alone. Only C code reads it meanwhile: this
-        // thread makes this call, and other threads may not use its texts once it goes on.
+        // SAFETY: the buffer has room for the bytes and belongs to these texts alone. Only C code reads it meanwhile:
+        // this thread makes this call, and other threads may not use its texts once it goes on.
         unsafe { buffer.start.copy_from_nonoverlapping(bytes.as_ptr(), bytes.len()) };
         buffer.start.cast()
     }

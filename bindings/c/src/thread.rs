@@ -1,8 +1,8 @@
 //! Calls of threads that are ending.
 //!
-//! A program may make its last calls late: in destructors of static and thread-local objects, in functions of `atexit`. By then
-//! the thread-local values of this library are destroyed, and tokio panics without its own. Such calls are made on a thread
-//! that lives as long as the call.
+//! A program may make its last calls late: in destructors of static and thread-local objects, in functions of `atexit`.
+//! By then the thread-local values of this library are destroyed, and tokio panics without its own. Such calls are made
+//! on a thread that lives as long as the call.
 
 use crate::error::Failure;
 use crate::status::SCL_SYSTEM;
@@ -67,8 +67,8 @@ pub(crate) fn call_elsewhere<T>(call: impl FnOnce() -> Result<T, Failure>) -> Re
 /// Something of a thread that waits until another one has used it.
 struct Lent<T>(T);
 
-// SAFETY: only one of the two threads runs at a time, and nothing that a call takes or gives is tied to a thread: pointers of
-// the program, failures, and what the registry finds. Locks are released by the thread that has taken them.
+// SAFETY: only one of the two threads runs at a time, and nothing that a call takes or gives is tied to a thread:
+// pointers of the program, failures, and what the registry finds. Locks are released by the thread that has taken them.
 unsafe impl<T> Send for Lent<T> {}
 
 impl<T> Lent<T> {

@@ -16,8 +16,8 @@ fn wrong_arguments_are_explained() {
 
 /// The promise: a forked child can use nothing of its parent, and harms nothing.
 ///
-/// Without AddressSanitizer: that of GCC 12 does not protect the locks of its allocator when a process forks, so a child hangs in
-/// `malloc` if another thread of the parent was in there.
+/// Without AddressSanitizer: that of GCC 12 does not protect the locks of its allocator when a process forks, so a
+/// child hangs in `malloc` if another thread of the parent was in there.
 #[test]
 fn a_forked_child_is_refused() {
     let program = Program::new(System::new(), Build::Plain);
@@ -30,7 +30,8 @@ fn a_forked_child_is_refused() {
     expect_success(c);
 }
 
-/// The promise: a peer with another contract, or with messages of another shape, is not connected, and the text says why.
+/// The promise: a peer with another contract, or with messages of another shape, is not connected, and the text says
+/// why.
 #[test]
 fn other_contracts_and_shapes_are_refused() {
     for (theirs, words) in

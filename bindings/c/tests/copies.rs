@@ -3,8 +3,8 @@
 use crate::programs::{Build, Program, expect_success};
 use scl_tests::{System, c_library};
 
-/// The promise: a component runs once, whichever copy has opened it, and looking for it from another copy does not give its
-/// lock away.
+/// The promise: a component runs once, whichever copy has opened it, and looking for it from another copy does not give
+/// its lock away.
 #[test]
 fn two_copies_in_one_process_respect_each_others_locks() {
     let program = Program::new(System::new(), Build::Plain);

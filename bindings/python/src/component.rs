@@ -92,7 +92,8 @@ impl Component {
         self.gates.iter().map(|gate| gate.clone_ref(py)).collect()
     }
 
-    /// Waits until all required peers are connected. `waited` is for the message of the error, if the caller has waited before.
+    /// Waits until all required peers are connected. `waited` is for the message of the error, if the caller has waited
+    /// before.
     #[pyo3(signature = (timeout=None, waited=None))]
     fn ready(&self, py: Python<'_>, timeout: Option<f64>, waited: Option<f64>) -> PyResult<()> {
         let limit = Limit::of_seconds(timeout)?.after(waited);

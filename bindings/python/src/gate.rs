@@ -86,8 +86,8 @@ impl Gate {
         no_panic(|| claim.step(step).map_err(|error| self.failed(error)))
     }
 
-    /// A call that tries at once, and if that was not enough, waits without the interpreter. `Ok(None)` when the time is
-    /// over.
+    /// A call that tries at once, and if that was not enough, waits without the interpreter. `Ok(None)` when the time
+    /// is over.
     fn try_then_wait<R: Send>(
         &self,
         py: Python<'_>,
@@ -326,8 +326,8 @@ impl Gate {
         Ok(taken.map(|request| Request::new(request, Arc::clone(&self.shared))))
     }
 
-    /// Reports that the package could not decode the message or reply that the gate received last, or this request. Returns
-    /// true if the gate skips such messages.
+    /// Reports that the package could not decode the message or reply that the gate received last, or this request.
+    /// Returns true if the gate skips such messages.
     #[pyo3(signature = (reason, request=None))]
     fn reject(&self, reason: String, request: Option<&Bound<'_, Request>>) -> PyResult<bool> {
         let request = request.and_then(|request| request.get().take());

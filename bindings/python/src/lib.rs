@@ -1,8 +1,8 @@
 //! `scl._native`: components and gates for the Python package `scl`.
 //!
-//! Messages cross the border as bytes; the package encodes and decodes them. Every promise of a gate is kept by the crate
-//! `scl`, of which this is a thin layer: which call releases the interpreter, when a wait looks for signals, and which
-//! exception an error becomes.
+//! Messages cross the border as bytes; the package encodes and decodes them. Every promise of a gate is kept by the
+//! crate `scl`, of which this is a thin layer: which call releases the interpreter, when a wait looks for signals, and
+//! which exception an error becomes.
 
 mod claimed;
 mod component;

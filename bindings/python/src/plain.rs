@@ -1,5 +1,5 @@
-//! Whether a value consists of what the codecs for plain values document. The libraries encode more, for example sets as tags
-//! of CBOR, which programs in other languages do not read.
+//! Whether a value consists of what the codecs for plain values document. The libraries encode more, for example sets
+//! as tags of CBOR, which programs in other languages do not read.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyBytes, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
@@ -7,7 +7,8 @@ use pyo3::types::{PyByteArray, PyBytes, PyDict, PyFloat, PyInt, PyList, PyString
 /// Deeper values are looked at in Python, which limits its recursion.
 const DEPTH: usize = 64;
 
-/// Returns true if a value is certainly plain; false asks for a closer look. With `text_keys`, as JSON has no other keys.
+/// Returns true if a value is certainly plain; false asks for a closer look. With `text_keys`, as JSON has no other
+/// keys.
 #[pyfunction]
 pub(crate) fn is_plain(value: &Bound<'_, PyAny>, text_keys: bool) -> PyResult<bool> {
     is_plain_within(value, text_keys, DEPTH)

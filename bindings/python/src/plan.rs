@@ -1,5 +1,5 @@
-//! The plans of a system: from their JSON text, or from a topology file that is checked when the program starts, with the
-//! words of `scl check`.
+//! The plans of a system: from their JSON text, or from a topology file that is checked when the program starts, with
+//! the words of `scl check`.
 
 use crate::failure::{Failure, no_panic};
 use crate::process::detach;
@@ -32,7 +32,8 @@ impl Plan {
         Ok(Self { plan })
     }
 
-    /// Reads and checks a topology file. Returns the plans and the warnings; all errors together are one `TopologyError`.
+    /// Reads and checks a topology file. Returns the plans and the warnings; all errors together are one
+    /// `TopologyError`.
     #[staticmethod]
     fn of_file(py: Python<'_>, path: PathBuf) -> PyResult<(Self, Vec<String>)> {
         let (plan, warnings) = detach(py, || no_panic(|| check(path)))??;

@@ -17,10 +17,10 @@ const RETURN_LOOK: Duration = Duration::from_millis(1);
 
 /// Says that this thread is about to end the interpreter, and waits until no other thread is in a call that waits.
 ///
-/// All other threads are daemon threads then, which Python stops where they are. Those in a call must not return into an
-/// interpreter that is gone, and must not stay in the call either: they may hold a lock that the end of the interpreter needs,
-/// for example that of a logging handler. So their calls raise `SystemExit`, which releases what they hold, and which
-/// `threading` does not print.
+/// All other threads are daemon threads then, which Python stops where they are. Those in a call must not return into
+/// an interpreter that is gone, and must not stay in the call either: they may hold a lock that the end of the
+/// interpreter needs, for example that of a logging handler. So their calls raise `SystemExit`, which releases what
+/// they hold, and which `threading` does not print.
 #[pyfunction]
 pub(crate) fn exiting(py: Python<'_>) {
     EXITING.store(this_thread(), Ordering::SeqCst);

@@ -33,11 +33,11 @@ impl Shared {
         self.driver.clone()
     }
 
-    /// Fails if no call may be made, or go on waiting. What a forked child inherits is looked at first: its locks may be
-    /// held by threads that exist in the parent only.
+    /// Fails if no call may be made, or go on waiting. What a forked child inherits is looked at first: its locks may
+    /// be held by threads that exist in the parent only.
     ///
-    /// A stop request comes before the end of the component, which often follows it: `Closed` is an `Exception`, and a task or
-    /// thread that handles those would go on.
+    /// A stop request comes before the end of the component, which often follows it: `Closed` is an `Exception`, and a
+    /// task or thread that handles those would go on.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         if !self.is_inherited() && host::gates_stopped() {
             return Err(Failure::new("Stopped", "stop requested"));

@@ -14,7 +14,8 @@ use std::time::Duration;
 
 static HANDLED: AtomicBool = AtomicBool::new(false);
 
-/// How long the flush after a stop request may take, on top of the grace period, for a program that handles the request.
+/// How long the flush after a stop request may take, on top of the grace period, for a program that handles the
+/// request.
 const LAST_FLUSH: Duration = Duration::from_millis(500);
 /// How long the last log line may take to be written.
 const LOG_WRITE: Duration = Duration::from_millis(100);

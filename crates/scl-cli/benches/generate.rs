@@ -1,5 +1,5 @@
-//! How long `scl generate` takes as a process, beside the code generator of the paper: 2 s, and 0.1 s with its cache, on
-//! an ARMv7 with 500 MHz.
+//! How long `scl generate` takes as a process, beside the code generator of the paper: 2 s, and 0.1 s with its cache,
+//! on an ARMv7 with 500 MHz.
 //!
 //! `cargo bench -p scl-cli --bench generate` prints a line per output: the time into a fresh folder, and the time when
 //! everything is up to date already. The system is about as large as the largest ones of the paper's authors: 26

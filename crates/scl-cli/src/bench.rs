@@ -174,8 +174,8 @@ enum Benchmark {
         #[arg(long, default_value_t = 100_000, value_parser = within(MESSAGES))]
         messages: usize,
     },
-    /// Measure how the cost of a gateway grows with its connections: time until all are matched, memory, processor time,
-    /// round trip.
+    /// Measure how the cost of a gateway grows with its connections: time until all are matched, memory, processor
+    /// time, round trip.
     ///
     /// Needs the program `scl-gateway` beside this one or in `PATH`, and the feature `gateway` of this program.
     GatewayGrowth {

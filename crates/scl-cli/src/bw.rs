@@ -9,8 +9,8 @@ use std::process::ExitCode;
 
 /// Show how many bytes gates send in a second, and the sizes of their messages.
 ///
-/// Counted are the bytes of the encoded messages, requests and replies, without those of the protocol. A message to three
-/// subscribers counts once.
+/// Counted are the bytes of the encoded messages, requests and replies, without those of the protocol. A message to
+/// three subscribers counts once.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

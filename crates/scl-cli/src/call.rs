@@ -30,7 +30,8 @@ wrong or missing.")]
 pub(crate) struct CallArguments {
     /// The `rep` gate, as `component.gate`.
     gate: String,
-    /// The request, as YAML or JSON; `{}` has the default in each field. Without, an example is printed and nothing sent.
+    /// The request, as YAML or JSON; `{}` has the default in each field. Without, an example is printed and nothing
+    /// sent.
     #[arg(conflicts_with = "template", allow_hyphen_values = true)]
     request: Option<String>,
     /// The component that asks [default: the only one that is connected to the gate and not running].

@@ -14,8 +14,8 @@ use std::time::Duration;
 
 /// Compare two recordings gate by gate: the same messages in the same order.
 ///
-/// Numbers may differ by a tolerance, everything else must be equal. Times are compared only with `--times-within`. A message
-/// that is missing or additional is one difference, also when others follow it.
+/// Numbers may differ by a tolerance, everything else must be equal. Times are compared only with `--times-within`. A
+/// message that is missing or additional is one difference, also when others follow it.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

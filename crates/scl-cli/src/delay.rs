@@ -10,9 +10,9 @@ use std::process::ExitCode;
 
 /// Show how long messages take from being sent until this program sees them.
 ///
-/// A `pub` gate's messages are stamped when they are sent, those of a `pull` or `rep` gate when they are received. Both times
-/// are of the real-time clock, so a clock that is set while messages are on their way, or that differs between two hosts,
-/// makes the delay wrong and perhaps negative.
+/// A `pub` gate's messages are stamped when they are sent, those of a `pull` or `rep` gate when they are received. Both
+/// times are of the real-time clock, so a clock that is set while messages are on their way, or that differs between
+/// two hosts, makes the delay wrong and perhaps negative.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

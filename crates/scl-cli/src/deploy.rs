@@ -24,8 +24,8 @@ enum Manager {
 
 /// Write systemd unit files: a service for each component and for the gateway, and a target for all of them.
 ///
-/// To be run on the machine where the services will run: the files contain the absolute paths of the programs here. Builds are not
-/// run.
+/// To be run on the machine where the services will run: the files contain the absolute paths of the programs here.
+/// Builds are not run.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

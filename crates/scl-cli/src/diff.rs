@@ -27,11 +27,11 @@ use together::group;
 
 /// Compare two topologies, and name the components that must be rebuilt.
 ///
-/// Positions, comments, order and spelling do not count, only what the files mean. A component must be rebuilt if its plan
-/// differs (see `scl plan`): its gates, their options, its connections, and their contracts. Components are rebuilt together
-/// if a connection between them differs in its contract, or is new or gone, or if a message that they exchange differs in a
-/// way that keeps them from understanding each other: one that is left as it was does not connect to the others. Fields
-/// that are only new or gone are compatible and are not listed.
+/// Positions, comments, order and spelling do not count, only what the files mean. A component must be rebuilt if its
+/// plan differs (see `scl plan`): its gates, their options, its connections, and their contracts. Components are
+/// rebuilt together if a connection between them differs in its contract, or is new or gone, or if a message that they
+/// exchange differs in a way that keeps them from understanding each other: one that is left as it was does not connect
+/// to the others. Fields that are only new or gone are compatible and are not listed.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

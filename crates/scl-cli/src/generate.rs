@@ -13,8 +13,8 @@ use std::process::ExitCode;
 
 /// Generate code for C, C++ and Python from a topology, or its sockets for any program with a ZeroMQ library.
 ///
-/// A file is written only if its content changes, and replaced as a whole: a build system rebuilds nothing without need,
-/// and any number of programs may generate into one folder at once.
+/// A file is written only if its content changes, and replaced as a whole: a build system rebuilds nothing without
+/// need, and any number of programs may generate into one folder at once.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -42,7 +42,8 @@ pub(crate) struct GenerateArguments {
     /// Generate only this component; may be repeated.
     #[arg(long = "component", value_name = "NAME")]
     components: Vec<String>,
-    /// For unit tests, also generate `test()` of each component, which opens it together with the other ends of its gates.
+    /// For unit tests, also generate `test()` of each component, which opens it together with the other ends of its
+    /// gates.
     #[arg(long)]
     testable: bool,
     /// Write nothing; fail if a file is not up to date.

@@ -10,9 +10,9 @@ use std::process::ExitCode;
 
 /// Show how often gates send: rate, periods between messages, jitter, and messages that were missed.
 ///
-/// Messages are counted at the gate's tap, and not decoded. Periods are measured by the sender's time stamps, so they do not
-/// contain the delay until a message arrives here. The jitter is the standard deviation of the period. Messages that this
-/// program was too slow to see count as lost; no subscriber loses anything by that.
+/// Messages are counted at the gate's tap, and not decoded. Periods are measured by the sender's time stamps, so they
+/// do not contain the delay until a message arrives here. The jitter is the standard deviation of the period. Messages
+/// that this program was too slow to see count as lost; no subscriber loses anything by that.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

@@ -19,8 +19,8 @@ const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Show everything about a gate, or about a component and its gates, or what is in a recording.
 ///
-/// Type, codec, queue, contract and peers are those that the running program was built with. Rates are measured between two
-/// figures that the component writes, half a second apart by default.
+/// Type, codec, queue, contract and peers are those that the running program was built with. Rates are measured between
+/// two figures that the component writes, half a second apart by default.
 ///
 /// A name with a slash or the ending `.mcap` is that of a recording, for which all of it is read.
 #[derive(Args)]

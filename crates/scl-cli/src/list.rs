@@ -10,12 +10,12 @@ use serde_json::{Value, json};
 use std::process::ExitCode;
 use std::time::SystemTime;
 
-/// List the components of a running system: which run, since when, and in which process. If several systems run, all are
-/// listed.
+/// List the components of a running system: which run, since when, and in which process. If several systems run, all
+/// are listed.
 ///
 /// States: `running`; `waiting` (running, but required peers are not connected); `hangs` (running, but it has not
-/// written its figures for some time); `dead` (killed or crashed); `stopped` (closed in order, or known only as the peer
-/// of another component).
+/// written its figures for some time); `dead` (killed or crashed); `stopped` (closed in order, or known only as the
+/// peer of another component).
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

@@ -25,7 +25,8 @@ const LOOK: Duration = Duration::from_millis(100);
 
 /// Show what a component has printed under `scl run`, also after both have ended.
 ///
-/// The log is in files below `$XDG_STATE_HOME/scl`, or `~/.local/state/scl`; the newest 12 to 16 MiB of each component are kept.
+/// The log is in files below `$XDG_STATE_HOME/scl`, or `~/.local/state/scl`; the newest 12 to 16 MiB of each component
+/// are kept.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -52,7 +53,8 @@ pub(crate) struct LogArguments {
     /// Show lines of this stream only.
     #[arg(long, value_enum, value_name = "STREAM")]
     stream: Option<StreamArgument>,
-    /// The system [default: $SCL_SYSTEM, or the only one that runs, or that of ./topology.yaml, or the only one with logs].
+    /// The system [default: $SCL_SYSTEM, or the only one that runs, or that of ./topology.yaml, or the only one with
+    /// logs].
     #[arg(long, value_name = "NAME")]
     system: Option<String>,
     #[command(flatten)]

@@ -27,7 +27,8 @@ pub(crate) struct NewArguments {
     /// Which files to begin with.
     #[arg(long, value_enum, default_value_t = Template::Control)]
     template: Template,
-    /// A git repository with SCL [default: that of the checkout that this `scl` was built from, if others can reach it].
+    /// A git repository with SCL [default: that of the checkout that this `scl` was built from, if others can reach
+    /// it].
     #[arg(long, value_name = "URL", conflicts_with = "path")]
     git: Option<String>,
     /// The commit or tag of `--git` [default: the commit that this `scl` was built from].

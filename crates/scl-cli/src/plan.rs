@@ -13,8 +13,8 @@ const LISTED: usize = 10;
 /// Print the plan of a system as JSON: for each component everything its program needs to run.
 ///
 /// That is its gates with kind, type, codec, options, and every connection with its peer, socket and contract, and the
-/// protobuf messages as a descriptor set. Programs in other languages and `scl::untyped` open components from this text; no
-/// program needs the topology file to run. Readers refuse a plan of another version of the format.
+/// protobuf messages as a descriptor set. Programs in other languages and `scl::untyped` open components from this
+/// text; no program needs the topology file to run. Readers refuse a plan of another version of the format.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

@@ -17,8 +17,9 @@ use std::time::Duration;
 /// Record messages, requests and replies of a running system into an MCAP file.
 ///
 /// The gates are observed at their taps; a recorder that cannot keep up never slows them down. Components that start
-/// later or start again are recorded too; a system that is named with `--system` may itself start later. Ctrl-C or SIGTERM ends the recording; then, and in the file, each gate's
-/// messages are counted that were recorded and that were lost.
+/// later or start again are recorded too; a system that is named with `--system` may itself start later. Ctrl-C or
+/// SIGTERM ends the recording; then, and in the file, each gate's messages are counted that were recorded and that were
+/// lost.
 ///
 /// Everything is handed to the operating system each second, so that a crash of the recorder loses at most that second.
 /// `scl recover` rebuilds the index of such a file.

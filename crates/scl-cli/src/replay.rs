@@ -14,11 +14,11 @@ use std::time::Duration;
 
 /// Play recorded components in a running system.
 ///
-/// Sends what the played components have sent, at the recorded distances in time; their repliers answer as recorded. Peers
-/// cannot tell them from the real programs. Without `--as`, plays all recorded components that are not running.
+/// Sends what the played components have sent, at the recorded distances in time; their repliers answer as recorded.
+/// Peers cannot tell them from the real programs. Without `--as`, plays all recorded components that are not running.
 ///
-/// What a gate receives is recorded without its sender, so a component that is one of several pushers or requesters of a
-/// gate is replayed only together with the others.
+/// What a gate receives is recorded without its sender, so a component that is one of several pushers or requesters of
+/// a gate is replayed only together with the others.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

@@ -17,8 +17,8 @@ pub(crate) use scl_run::{GUARD_WORD, KEYS_WORD, START_WORD, keep_watch, tell_key
 /// Reads `launch.yaml` in FOLDER, which says how each component is built and started. Without one, builds the cargo
 /// package in FOLDER and starts the program named like each component of `topology.yaml`.
 ///
-/// When a component fails, the others are stopped, unless the launch file says that it is restarted or not essential. Ctrl-C
-/// and SIGTERM are passed on to all; a second one kills at once.
+/// When a component fails, the others are stopped, unless the launch file says that it is restarted or not essential.
+/// Ctrl-C and SIGTERM are passed on to all; a second one kills at once.
 #[derive(Args)]
 #[command(after_help = after_help())]
 pub(crate) struct RunArguments {

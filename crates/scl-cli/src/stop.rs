@@ -7,8 +7,8 @@ use std::process::ExitCode;
 
 /// Stop components that `scl run` has started, and wait until they have ended.
 ///
-/// Without a name, everything is stopped and each `scl run` of the system ends. A component that is stopped by its name is
-/// not restarted, whatever its `restart` says; the others keep running.
+/// Without a name, everything is stopped and each `scl run` of the system ends. A component that is stopped by its name
+/// is not restarted, whatever its `restart` says; the others keep running.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

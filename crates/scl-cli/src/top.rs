@@ -27,9 +27,9 @@ const SHORTEST_PERIOD: Duration = Duration::from_millis(100);
 
 /// Show the components and gates of a running system, live.
 ///
-/// Everything is read from the files that components write twice a second, and from /proc, so watching costs them nothing.
-/// If several systems run, all are shown.
-/// Keys: q ends, arrows choose a gate, Enter shows its connections, s changes the order, space pauses.
+/// Everything is read from the files that components write twice a second, and from /proc, so watching costs them
+/// nothing. If several systems run, all are shown. Keys: q ends, arrows choose a gate, Enter shows its connections, s
+/// changes the order, space pauses.
 #[derive(Args)]
 #[command(after_help = "\
 Columns: CPU is the part of one processor, MEM the resident memory, RATE the messages per second (each once for all peers),

@@ -1,7 +1,8 @@
-//! Files that earlier releases wrote, kept as they were: today's tools read them. `docs/compatibility.md` has the promise.
+//! Files that earlier releases wrote, kept as they were: today's tools read them. `docs/compatibility.md` has the
+//! promise.
 //!
-//! A folder of `tests/kept` has what one release wrote for the quick start: a recording, and the files of a controller that was
-//! killed. A change of a format adds a folder and changes none.
+//! A folder of `tests/kept` has what one release wrote for the quick start: a recording, and the files of a controller
+//! that was killed. A change of a format adds a folder and changes none.
 
 use crate::system::System;
 use serde_json::{Value, json};

@@ -6,7 +6,8 @@ use std::collections::BTreeSet;
 use std::fs::OpenOptions;
 use std::process::{Command, Output, Stdio};
 
-/// Each command with arguments with which it prints something, and its exit code then. They run beside [`Rover`], in order.
+/// Each command with arguments with which it prints something, and its exit code then. They run beside [`Rover`], in
+/// order.
 const COMMANDS: &[(&[&str], i32)] = &[
     (&["bw", "sensor.measurements", "--once"], 0),
     (&["call", "controller.commands", "--template"], 0),

@@ -178,7 +178,8 @@ fn the_time_of_the_run_begins_after_the_builds() {
 fn a_build_may_replace_the_running_command() {
     let launch = "components: {a: {build: rm ./scl, command: echo started}}";
     let system = System::of_files(&[("launch.yaml", launch)]);
-    // By another program: a process that this one forks meanwhile would inherit the open file, which could not be executed.
+    // By another program: a process that this one forks meanwhile would inherit the open file, which could not be
+    // executed.
     let copied = std::process::Command::new("cp").arg(env!("CARGO_BIN_EXE_scl")).arg(system.path("scl")).status();
     assert!(copied.unwrap().success());
     let mut command = std::process::Command::new(system.path("scl"));

@@ -1,4 +1,5 @@
-//! A program that opens another component than the one that it was started as: an error in the program and in `scl run`.
+//! A program that opens another component than the one that it was started as: an error in the program and in
+//! `scl run`.
 
 use crate::system::System;
 use scl::plan::SystemPlan;

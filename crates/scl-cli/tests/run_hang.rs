@@ -1,5 +1,5 @@
-//! `alive_within` with components of SCL that hang in a computation: `scl run` notices, restarts them, and their peers get
-//! messages again.
+//! `alive_within` with components of SCL that hang in a computation: `scl run` notices, restarts them, and their peers
+//! get messages again.
 
 use crate::system::{System, without_times};
 use scl::bytes::Bytes;

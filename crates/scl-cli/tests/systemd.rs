@@ -28,7 +28,8 @@ fn systemd_accepts_the_unit() {
     let path = folder.path().join("rover-sensor.service");
     std::fs::write(&path, unit().replace("/opt/rover/bin/sensor", "/bin/true")).unwrap();
     let verified = Command::new("systemd-analyze").arg("verify").arg(&path).output().unwrap();
-    // It succeeds in spite of unknown keys and only warns of them. What it says about units of the machine does not count.
+    // It succeeds in spite of unknown keys and only warns of them. What it says about units of the machine does not
+    // count.
     let err = String::from_utf8_lossy(&verified.stderr);
     let complaints: Vec<&str> = err.lines().filter(|line| line.contains("rover-sensor")).collect();
     assert!(complaints.is_empty(), "{err}");

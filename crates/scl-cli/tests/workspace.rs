@@ -3,8 +3,8 @@
 use cargo_metadata::MetadataCommand;
 use std::collections::HashMap;
 
-/// Cargo puts all programs into one folder, where the last one built would replace another one of the same name: tests and
-/// `scl run` would start a stranger.
+/// Cargo puts all programs into one folder, where the last one built would replace another one of the same name: tests
+/// and `scl run` would start a stranger.
 #[test]
 fn programs_have_names_of_their_own() {
     let workspace = MetadataCommand::new().no_deps().exec().unwrap();

@@ -1,8 +1,9 @@
 //! Values that belong to the process that created them.
 //!
-//! A process that forks shares open files, sockets and memory with its child, and the child has a copy of every value. What
-//! releases something shared must not do so there: it is still in use in the parent. And what the threads of the parent had
-//! locked, or half changed, at the moment of the fork stays so in the child, which has none of these threads.
+//! A process that forks shares open files, sockets and memory with its child, and the child has a copy of every value.
+//! What releases something shared must not do so there: it is still in use in the parent. And what the threads of the
+//! parent had locked, or half changed, at the moment of the fork stays so in the child, which has none of these
+//! threads.
 //!
 //! ```
 //! use scl_fork::ProcessOwned;
@@ -36,7 +37,8 @@ impl ProcessMark {
         Self(Guard::try_new().map_or_else(|_| Mark::Process(std::process::id()), Mark::Forks))
     }
 
-    /// Returns true in the process that created the mark, and false in a child forked from it. Cheap enough for every message.
+    /// Returns true in the process that created the mark, and false in a child forked from it. Cheap enough for every
+    /// message.
     pub fn is_own(&self) -> bool {
         match &self.0 {
             // The guard reports a fork once, so it is a copy that is asked.

@@ -21,8 +21,8 @@ pub struct System {
 }
 
 impl System {
-    /// Reads a launch file, or the one in a folder, and its topology file; `topology` is for another topology file than the
-    /// launch file names.
+    /// Reads a launch file, or the one in a folder, and its topology file; `topology` is for another topology file than
+    /// the launch file names.
     ///
     /// # Errors
     ///

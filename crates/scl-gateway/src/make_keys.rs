@@ -11,8 +11,9 @@ use std::time::SystemTime;
 
 /// Make a certificate authority, and a certificate for each host.
 ///
-/// Writes them into the folder `certificates` of `gateway` in the launch file: a folder for the authority, which stays where it
-/// is, and one for each host, which is copied there. What exists already is kept, so that hosts can be added later.
+/// Writes them into the folder `certificates` of `gateway` in the launch file: a folder for the authority, which stays
+/// where it is, and one for each host, which is copied there. What exists already is kept, so that hosts can be added
+/// later.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

@@ -1,9 +1,9 @@
 //! Lets the network library read and write its connections on one thread.
 //!
-//! Its TLS connections (zenoh 1.10) are used by one task that reads and one that writes, without a lock between them, though
-//! both change the state of TLS. On two threads that is a data race: under load, healthy connections end with "handshake not
-//! complete" several times in a second. The library takes its threads from an environment variable alone, which a running
-//! program cannot set safely. So this program starts itself again, as the same process.
+//! Its TLS connections (zenoh 1.10) are used by one task that reads and one that writes, without a lock between them,
+//! though both change the state of TLS. On two threads that is a data race: under load, healthy connections end with
+//! "handshake not complete" several times in a second. The library takes its threads from an environment variable
+//! alone, which a running program cannot set safely. So this program starts itself again, as the same process.
 
 use scl_terminal::Problem;
 use std::convert::Infallible;

@@ -23,7 +23,8 @@ pub(crate) struct Account {
     /// On their way when the connection broke: each of them may have arrived, or not.
     pub(crate) lost: u64,
     pub(crate) waiting: u64,
-    /// Arrived in the receiving program: what its gate returned, which the program counts itself, and what its gate dropped.
+    /// Arrived in the receiving program: what its gate returned, which the program counts itself, and what its gate
+    /// dropped.
     pub(crate) received: u64,
 }
 
@@ -55,8 +56,8 @@ impl Fleet {
         account
     }
 
-    /// The account when all messages have arrived that were not dropped, where `sink` ran all the time and nothing may be
-    /// lost.
+    /// The account when all messages have arrived that were not dropped, where `sink` ran all the time and nothing may
+    /// be lost.
     #[track_caller]
     pub(crate) fn exact_account(&mut self, connection: Connection) -> Account {
         let mut account = self.account(connection);
@@ -116,8 +117,8 @@ impl Fleet {
         })
     }
 
-    /// Starts what the tests of faults interrupt: a control loop, readings that may be dropped, and two ways on which nothing
-    /// may be.
+    /// Starts what the tests of faults interrupt: a control loop, readings that may be dropped, and two ways on which
+    /// nothing may be.
     pub(crate) fn send_all(&mut self) {
         let source = self.player("source");
         source.ask("control", "send 0 500 64");

@@ -1,9 +1,9 @@
 //! The cable between the hosts: a hub that this test program plays, in a process and a network namespace of its own.
 //!
-//! Why not `tc netem`: kernels of virtual machines are often built without it, and then these tests could not run. The hub
-//! moves Ethernet frames from each port to all others, and does to them what a bad network does: it loses, delays, reorders
-//! and drops what is more than the rate allows. A cut port loses all frames, as a cable that is pulled out of a switch that
-//! is farther away; the host's own network card notices nothing.
+//! Why not `tc netem`: kernels of virtual machines are often built without it, and then these tests could not run. The
+//! hub moves Ethernet frames from each port to all others, and does to them what a bad network does: it loses, delays,
+//! reorders and drops what is more than the rate allows. A cut port loses all frames, as a cable that is pulled out of
+//! a switch that is farther away; the host's own network card notices nothing.
 
 mod checksum;
 mod hub;

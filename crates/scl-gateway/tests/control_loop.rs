@@ -30,8 +30,8 @@ impl Reference {
         Self { ends, thread }
     }
 
-    /// Compares the loops. The control loop of `source` publishes for the other host 500 times in a second; one that ever
-    /// waited for the network would have far fewer rounds. Returns the time of its longest call.
+    /// Compares the loops. The control loop of `source` publishes for the other host 500 times in a second; one that
+    /// ever waited for the network would have far fewer rounds. Returns the time of its longest call.
     #[track_caller]
     pub(crate) fn compare(self, fleet: &mut Fleet, during: &str) -> Duration {
         let answer = fleet.player("source").counts("control", "pace");

@@ -1,5 +1,5 @@
-//! Gateways that have right certificates, but are not what they should be: of another system, of another topology, a second
-//! one for the same host, or one that claims what runs elsewhere.
+//! Gateways that have right certificates, but are not what they should be: of another system, of another topology, a
+//! second one for the same host, or one that claims what runs elsewhere.
 
 use crate::files::{Files, launch};
 use crate::fleet::{BOARD, Fleet, GROUND};

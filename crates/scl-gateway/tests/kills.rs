@@ -63,8 +63,8 @@ fn a_gateway_that_is_stopped_in_order() {
 }
 
 impl Fleet {
-    /// The account after programs were killed that held messages. Whether those arrived is unknown, but a gateway that gave
-    /// them up has counted them. What was published and is not counted has arrived.
+    /// The account after programs were killed that held messages. Whether those arrived is unknown, but a gateway that
+    /// gave them up has counted them. What was published and is not counted has arrived.
     #[track_caller]
     pub(crate) fn account_after(&mut self, connection: Connection) -> Account {
         let (mut account, mut given_up) = (self.account(connection), 0);

@@ -1,5 +1,5 @@
-//! Components of two hosts and their gateways in one process, over loopback: the components are those of `scl`, and know
-//! nothing of gateways.
+//! Components of two hosts and their gateways in one process, over loopback: the components are those of `scl`, and
+//! know nothing of gateways.
 #![allow(clippy::unwrap_used)]
 
 mod accounts;

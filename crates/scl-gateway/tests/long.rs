@@ -1,7 +1,8 @@
 //! How long the tests take.
 //!
-//! By default the faults are short and few, so that all tests take some minutes. With `SCL_TEST_LONG=1` in the environment
-//! they are as long and as many as the gateway promises to survive: half a minute without a network, a hundred kills.
+//! By default the faults are short and few, so that all tests take some minutes. With `SCL_TEST_LONG=1` in the
+//! environment they are as long and as many as the gateway promises to survive: half a minute without a network, a
+//! hundred kills.
 
 //! Only then rates are judged, which tell as much of the machine as of the gateway.
 

@@ -1,7 +1,7 @@
 //! Network namespaces: to the programs in it, each is a machine of its own, as far as the network goes.
 //!
-//! A namespace lives as long as the process that holds it, which ends with the test, however the test ends. So nothing is
-//! left behind, and tests need no names that are free. Without root, a user namespace surrounds all of them.
+//! A namespace lives as long as the process that holds it, which ends with the test, however the test ends. So nothing
+//! is left behind, and tests need no names that are free. Without root, a user namespace surrounds all of them.
 
 use std::ffi::OsStr;
 use std::io::{BufRead, BufReader, Read};
@@ -25,8 +25,8 @@ impl Namespace {
         Self::hold(unshare, 0)
     }
 
-    /// A namespace that can be connected with this one. Its clocks that count from the start of the machine are this many
-    /// seconds ahead.
+    /// A namespace that can be connected with this one. Its clocks that count from the start of the machine are this
+    /// many seconds ahead.
     pub(crate) fn beside(&self, clocks_ahead: u32) -> Self {
         let unshare = if is_root() { Command::new("unshare") } else { self.command("unshare") };
         Self::hold(unshare, clocks_ahead)

@@ -1,4 +1,5 @@
-//! `scl run --host` on both hosts of `examples/hosts`, as its README has it, on ports and with certificates of their own.
+//! `scl run --host` on both hosts of `examples/hosts`, as its README has it, on ports and with certificates of their
+//! own.
 
 use rustix::process::Signal;
 use scl_tests::Process;

@@ -38,7 +38,8 @@ fn a_good_network_delivers_everything_in_time() {
     // To a queue of one goes one message at a time, the newest then; the others give way to newer ones.
     let control = fleet.account(CONTROL);
     assert!(control.received - before[2].received > 20, "{control:?}");
-    // The rates are those of `send_all`; a network that delays each message by its own round trip would not keep them up.
+    // The rates are those of `send_all`; a network that delays each message by its own round trip would not keep them
+    // up.
     let lossless = fleet.account(LOSSLESS).published - before[3].published;
     assert!(!is_long() || lossless as f64 > 0.5 * 200.0 * took.as_secs_f64(), "{lossless} in {took:?}");
 }

@@ -57,8 +57,8 @@ pub struct Loaded {
 
 /// Reads, parses and checks one topology file.
 ///
-/// Never panics and never waits: what is no regular file is not opened, and no file is read past its limit. Each problem
-/// is in [`Loaded::diagnostics`], all of them at once.
+/// Never panics and never waits: what is no regular file is not opened, and no file is read past its limit. Each
+/// problem is in [`Loaded::diagnostics`], all of them at once.
 pub fn load(request: &Request) -> Loaded {
     let mut loaded = Loaded::default();
     let mut problems = Diagnostics::new();
@@ -75,8 +75,8 @@ pub fn load(request: &Request) -> Loaded {
 
 /// As [`load`], with the bytes of the topology file from elsewhere, for example standard input.
 ///
-/// The request's path is not read; it says where schemas are looked for and gives the system its default name. Bytes past
-/// the limit, and bytes that are no UTF-8, are refused as those of a file.
+/// The request's path is not read; it says where schemas are looked for and gives the system its default name. Bytes
+/// past the limit, and bytes that are no UTF-8, are refused as those of a file.
 pub fn load_bytes(request: &Request, bytes: Vec<u8>) -> Loaded {
     let mut loaded = Loaded::default();
     let mut problems = Diagnostics::new();

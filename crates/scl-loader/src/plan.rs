@@ -7,8 +7,8 @@ use scl_topology::socket_paths::SocketPaths;
 use scl_topology::source::Span;
 use scl_topology::topology::{ComponentId, Topology};
 
-/// The paths of sockets on Linux: the runtime folder of the user with the largest id there is, and `sun_path` without its
-/// final zero. The longest usual folder counts, so that one file works for every user.
+/// The paths of sockets on Linux: the runtime folder of the user with the largest id there is, and `sun_path` without
+/// its final zero. The longest usual folder counts, so that one file works for every user.
 pub(crate) fn socket_paths() -> SocketPaths {
     SocketPaths { longest_root: "/run/user/4294967295/scl".to_owned(), limit: 107 }
 }

@@ -96,7 +96,8 @@ fn not_utf8(request: &Request, bad: BadByte, sources: &mut Sources) -> Diagnosti
     }
 }
 
-/// A name in one of the folders that was looked in which is nearly the wanted one; `.yml` and `.yaml` count as the same.
+/// A name in one of the folders that was looked in which is nearly the wanted one; `.yml` and `.yaml` count as the
+/// same.
 pub(crate) fn similar_file(wanted: &Path, looked_in: &[&Path]) -> Option<String> {
     let name = wanted.file_name()?.to_str()?;
     let paths = if looked_in.is_empty() { &[wanted][..] } else { looked_in };

@@ -30,8 +30,8 @@ pub(crate) fn head(repository: &Path) -> Option<String> {
     is_top.then(|| git(repository, &["rev-parse", "HEAD"]))?
 }
 
-/// The commit that is checked out in the folder, if a remote that others can reach has it, and nothing was changed since.
-/// What the remote has is known from the last fetch or push; no network is used.
+/// The commit that is checked out in the folder, if a remote that others can reach has it, and nothing was changed
+/// since. What the remote has is known from the last fetch or push; no network is used.
 pub(crate) fn published(repository: &Path) -> Option<Revision> {
     let commit = head(repository)?;
     if git(repository, &["status", "--porcelain", "--untracked-files=no"]).is_some_and(|changes| !changes.is_empty()) {

@@ -26,8 +26,8 @@ pub(crate) enum Dependency {
 }
 
 impl Dependency {
-    /// The revision that this program was built from, if its checkout has a remote that has it, too; otherwise the folder
-    /// of the checkout. Once that is gone, or if the program comes from the registry, the registry.
+    /// The revision that this program was built from, if its checkout has a remote that has it, too; otherwise the
+    /// folder of the checkout. Once that is gone, or if the program comes from the registry, the registry.
     pub(crate) fn of_this_program() -> Self {
         let Some(found) = own_sources() else { return Self::Registry };
         match (found.parent().and_then(published), found.to_str()) {

@@ -32,8 +32,8 @@ pub struct Project {
 /// Where a project finds SCL.
 #[derive(Debug, Clone)]
 pub enum Source {
-    /// The revision that this program was built from, if its checkout has a remote that others can reach and that has this
-    /// revision; else the folder of the checkout; if it is gone, the package registry.
+    /// The revision that this program was built from, if its checkout has a remote that others can reach and that has
+    /// this revision; else the folder of the checkout; if it is gone, the package registry.
     OfThisProgram,
     /// SCL's repository on this machine, or the crate `scl` in it, from the folder in which the project is created.
     Folder(PathBuf),

@@ -1,4 +1,5 @@
-//! A gate at 1 kHz and its subscriber, to measure what tools cost: `cargo run --release -p scl-observe --example ticks`.
+//! A gate at 1 kHz and its subscriber, to measure what tools cost:
+//! `cargo run --release -p scl-observe --example ticks`.
 //!
 //! Prints every two seconds how long messages took from gate to gate.
 

@@ -53,8 +53,8 @@ impl Component {
         self.plan().map_or(&[], |plan| &plan.gates)
     }
 
-    /// What the ends of a gate listen on, `ipc`, `tcp` or `shm`, each with the peers it is for. Empty for a gate that only
-    /// connects.
+    /// What the ends of a gate listen on, `ipc`, `tcp` or `shm`, each with the peers it is for. Empty for a gate that
+    /// only connects.
     pub fn transports(&self, gate: &str) -> Vec<(&str, Vec<&str>)> {
         let endpoints = self.announcement.iter().flat_map(|announcement| &announcement.endpoints);
         let mut transports: Vec<(&str, Vec<&str>)> = Vec::new();

@@ -1,4 +1,5 @@
-//! Which system is meant: the named one, that of the environment, the only one that runs, or that of the working folder.
+//! Which system is meant: the named one, that of the environment, the only one that runs, or that of the working
+//! folder.
 
 use crate::scl_error::problem_of;
 use scl::runtime_dir::{RuntimeDir, SystemDir};

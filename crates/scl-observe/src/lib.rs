@@ -1,5 +1,5 @@
-//! What runs in a system: components and gates as their programs announce them, their figures, and the messages at their
-//! taps. Everything here only reads; no program is delayed, restarted or asked to cooperate.
+//! What runs in a system: components and gates as their programs announce them, their figures, and the messages at
+//! their taps. Everything here only reads; no program is delayed, restarted or asked to cooperate.
 //!
 //! ```no_run
 //! use scl_observe::{System, Taps, TapsEvent};

@@ -18,8 +18,8 @@ impl System {
         component(self, &self.components(), name).cloned()
     }
 
-    /// A component, or a gate and its component, by name: `component` or `component.gate`. The gate is its number in the
-    /// plan. The component runs or was killed; otherwise nothing is known about it.
+    /// A component, or a gate and its component, by name: `component` or `component.gate`. The gate is its number in
+    /// the plan. The component runs or was killed; otherwise nothing is known about it.
     ///
     /// # Errors
     /// There is no such component or gate, or the component is stopped.
@@ -89,8 +89,8 @@ fn gate_number(all: &[Component], component: &Component, gate: &str) -> Result<u
     number.ok_or_else(|| unknown_gate(all, component, gate))
 }
 
-/// Where the messages of a running component's gate are seen: at its own tap, or at those of its running peers. A component
-/// of another host has its taps there.
+/// Where the messages of a running component's gate are seen: at its own tap, or at those of its running peers. A
+/// component of another host has its taps there.
 fn taps(all: &[Component], component: &Component, plan: &GatePlan) -> Vec<Tap> {
     match own_tap(&component.name, plan) {
         Some(_) if component.host().is_some() => Vec::new(),

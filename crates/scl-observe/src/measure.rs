@@ -46,8 +46,8 @@ pub struct GateReport<F> {
 }
 
 impl<M: Meter> Measurement<M> {
-    /// Measures these gates; those that receive are measured at their peers' taps, see [`at_taps`]. Must be called inside a
-    /// tokio runtime.
+    /// Measures these gates; those that receive are measured at their peers' taps, see [`at_taps`]. Must be called
+    /// inside a tokio runtime.
     pub fn of(system: &System, gates: &[ObservedGate], new_meter: impl Fn() -> M + 'static) -> Self {
         let gates = at_taps(gates);
         let taps = Taps::open(system, gates.clone());
@@ -56,7 +56,8 @@ impl<M: Meter> Measurement<M> {
         measurement
     }
 
-    /// Measures all gates that have a tap, also those of components that start later. Must be called inside a tokio runtime.
+    /// Measures all gates that have a tap, also those of components that start later. Must be called inside a tokio
+    /// runtime.
     pub fn of_all(system: &System, new_meter: impl Fn() -> M + 'static) -> Self {
         let taps = Taps::follow_all(system, |_| true);
         Self::empty(system, taps, new_meter)

@@ -10,8 +10,8 @@ use std::path::Path;
 
 /// Gates and whole components, named by the user.
 ///
-/// A component stands for its `pub`, `rep` and `pull` gates, where messages are seen. A `sub`, `req` or `push` gate stands
-/// for the gates of its peers where its messages are seen.
+/// A component stands for its `pub`, `rep` and `pull` gates, where messages are seen. A `sub`, `req` or `push` gate
+/// stands for the gates of its peers where its messages are seen.
 #[derive(Debug, Clone)]
 pub struct Selection {
     /// Empty: all.
@@ -28,8 +28,8 @@ struct Name {
 }
 
 impl Selection {
-    /// Looks up the names: in what runs, and, for components that do not run, in the topology file if that describes this
-    /// system. Without it, a component that nothing is known about is taken to start later.
+    /// Looks up the names: in what runs, and, for components that do not run, in the topology file if that describes
+    /// this system. Without it, a component that nothing is known about is taken to start later.
     ///
     /// # Errors
     /// A name is unknown, or its component runs on another host.

@@ -1,5 +1,5 @@
-//! A system at one moment: its components and gates, with rates since the moment before. Only files are read, so it costs
-//! the components nothing.
+//! A system at one moment: its components and gates, with rates since the moment before. Only files are read, so it
+//! costs the components nothing.
 
 use crate::activity::Activity;
 use crate::process::ProcessFigures;

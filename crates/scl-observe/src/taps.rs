@@ -31,10 +31,11 @@ pub struct Taps {
 /// What happened at one of the taps.
 #[derive(Debug)]
 pub enum TapsEvent {
-    /// A gate was added: its number is one more than that of the gate before. Only from [`Taps::follow_all`], and before
-    /// the first event of the gate.
+    /// A gate was added: its number is one more than that of the gate before. Only from [`Taps::follow_all`], and
+    /// before the first event of the gate.
     ///
-    /// A gate that starts again with another type, codec or schema is added once more, and the one before becomes silent.
+    /// A gate that starts again with another type, codec or schema is added once more, and the one before becomes
+    /// silent.
     Started(ObservedGate),
     /// An event at a tap of a gate.
     Event {
@@ -104,8 +105,8 @@ impl Taps {
         if let Some(gate) = self.started.pop_front() {
             return Poll::Ready(TapsEvent::Started(gate));
         }
-        // One turn for each: with its budget used up, a future of tokio wakes itself at once and needs another poll of the
-        // whole task.
+        // One turn for each: with its budget used up, a future of tokio wakes itself at once and needs another poll of
+        // the whole task.
         for _ in 0..self.woken.len() {
             let Some(index) = self.woken.take() else { break };
             let watched = &mut self.observers[index];

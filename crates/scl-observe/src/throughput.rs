@@ -18,8 +18,8 @@ pub struct GateRate {
     pub bytes: f64,
 }
 
-/// Number of messages that passed a gate: at a `pub` gate those that were published, however many subscribers there are;
-/// at `req` and `rep` gates the requests.
+/// Number of messages that passed a gate: at a `pub` gate those that were published, however many subscribers there
+/// are; at `req` and `rep` gates the requests.
 pub fn message_count(kind: GateKind, figures: &GateFigures) -> u64 {
     match kind {
         GateKind::Pub => {
@@ -31,8 +31,8 @@ pub fn message_count(kind: GateKind, figures: &GateFigures) -> u64 {
     }
 }
 
-/// The rates of a component's gates between two readings, in the plan's order. `None` if the readings are not of the same
-/// run and plan, or the later one is not newer.
+/// The rates of a component's gates between two readings, in the plan's order. `None` if the readings are not of the
+/// same run and plan, or the later one is not newer.
 pub fn rates(plan: &Plan, earlier: &ComponentStats, later: &ComponentStats) -> Option<Vec<GateRate>> {
     let seconds = later.written.duration_since(earlier.written).ok()?.as_secs_f64();
     let same_run = earlier.started == later.started && earlier.pid == later.pid;

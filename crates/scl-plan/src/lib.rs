@@ -1,9 +1,9 @@
 //! The plan of a component: everything a program needs to run it, as owned values and as JSON.
 //!
-//! `scl-topology` makes plans from a checked topology. Generated code contains them as constants, `scl::untyped` opens a
-//! component from one at run time, and `scl plan` prints them: the JSON text is the only thing of SCL that programs in
-//! other languages have to read. This crate knows neither YAML nor sockets nor files, so a finished program may contain
-//! it.
+//! `scl-topology` makes plans from a checked topology. Generated code contains them as constants, `scl::untyped` opens
+//! a component from one at run time, and `scl plan` prints them: the JSON text is the only thing of SCL that programs
+//! in other languages have to read. This crate knows neither YAML nor sockets nor files, so a finished program may
+//! contain it.
 //!
 //! The JSON text needs the feature `json`, which is off by default: the macros use the values only.
 //!

@@ -21,7 +21,8 @@ pub struct GateOptions {
     pub timeout: Duration,
     /// How many calls may be in progress at once, at least one. It has an effect for `req`.
     pub in_flight: u32,
-    /// What a receiving call does with a message that the codec cannot read. It has an effect for `sub`, `pull` and `rep`.
+    /// What a receiving call does with a message that the codec cannot read. It has an effect for `sub`, `pull` and
+    /// `rep`.
     pub undecodable: Undecodable,
 }
 
@@ -43,8 +44,8 @@ impl GateOptions {
         self.backpressure && when_full == WhenFull::Wait
     }
 
-    /// A gate of a component's counterpart in unit tests: it drops and refuses nothing. A call that takes longer fails the
-    /// test, so its timeout is long, and so does a message that it cannot decode.
+    /// A gate of a component's counterpart in unit tests: it drops and refuses nothing. A call that takes longer fails
+    /// the test, so its timeout is long, and so does a message that it cannot decode.
     pub(crate) const COUNTERPART: Self = Self {
         max_size: u64::MAX,
         queue: u32::MAX,

@@ -75,7 +75,8 @@ pub struct ConnectionPlan {
     pub queue: u32,
     /// What happens when it is full.
     pub when_full: WhenFull,
-    /// The longest message that the peer accepts from this gate, in bytes. For a gate that only receives, its own limit.
+    /// The longest message that the peer accepts from this gate, in bytes. For a gate that only receives, its own
+    /// limit.
     pub max_size: u64,
 }
 

@@ -1,7 +1,8 @@
 //! Comparing two recordings: the same messages in the same order, gate by gate.
 //!
-//! Times are not compared unless asked for, so a recording can be compared with one of its replay at another rate. A message
-//! that one recording has and the other lacks is found by what follows it, so one lost message is one difference.
+//! Times are not compared unless asked for, so a recording can be compared with one of its replay at another rate. A
+//! message that one recording has and the other lacks is found by what follows it, so one lost message is one
+//! difference.
 
 mod align;
 mod report;
@@ -40,8 +41,8 @@ pub struct CompareOptions {
 /// Compares two recordings. `progress` is told the position in the first one.
 ///
 /// # Errors
-/// A recording cannot be read; they have no such gate, or its types differ; no message has such a field; there is nothing
-/// to compare.
+/// A recording cannot be read; they have no such gate, or its types differ; no message has such a field; there is
+/// nothing to compare.
 pub fn compare(
     first: &Recording,
     second: &Recording,

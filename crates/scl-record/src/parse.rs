@@ -1,7 +1,7 @@
 //! Parsing records whose lengths cannot be trusted, for everything that reads recordings.
 //!
-//! The library reserves as much memory as a length says. So a record's lengths are compared with its content first, and a
-//! chunk may become no longer than its compression allows.
+//! The library reserves as much memory as a length says. So a record's lengths are compared with its content first, and
+//! a chunk may become no longer than its compression allows.
 
 use mcap::parse_record;
 use mcap::records::{Record, op};
@@ -143,8 +143,8 @@ mod tests {
         );
     }
 
-    /// With any four bytes replaced by a huge number, which often makes one of the lengths huge, nothing is reserved for
-    /// it: the address space of this test would not be large enough for all of them.
+    /// With any four bytes replaced by a huge number, which often makes one of the lengths huge, nothing is reserved
+    /// for it: the address space of this test would not be large enough for all of them.
     #[test]
     fn lengths_beyond_the_record_are_refused() {
         let mut refused = 0;

@@ -1,8 +1,8 @@
 //! Reading recordings: one file or several in a row, from start to end, in bounded memory.
 //!
-//! A file is read linearly and needs no index, so one that was cut off at any byte gives everything before that byte, and a
-//! note. [`Recording::open`] walks over the file without reading its messages, to learn what it must know beforehand: the
-//! plan, the duration, the totals.
+//! A file is read linearly and needs no index, so one that was cut off at any byte gives everything before that byte,
+//! and a note. [`Recording::open`] walks over the file without reading its messages, to learn what it must know
+//! beforehand: the plan, the duration, the totals.
 
 mod channel;
 mod chunk;

@@ -1,8 +1,8 @@
 //! Replay: playing recorded components in a running system.
 //!
 //! Each played component is opened from the recording's plan, under its own lock, so its peers cannot tell it from the
-//! program that was recorded. Its `pub`, `push` and `req` gates send what was recorded, at the same distances in time. Its
-//! `rep` gates answer with the recorded replies, and what its other gates receive is taken and discarded.
+//! program that was recorded. Its `pub`, `push` and `req` gates send what was recorded, at the same distances in time.
+//! Its `rep` gates answer with the recorded replies, and what its other gates receive is taken and discarded.
 
 mod alarm;
 mod answers;
@@ -74,8 +74,8 @@ impl Rate {
 /// `survey` is what the recording contains, and `progress` is told the position in it.
 ///
 /// # Errors
-/// The recording cannot be read, has no plan, or does not fit the running system; a component cannot be opened; a peer is
-/// missing.
+/// The recording cannot be read, has no plan, or does not fit the running system; a component cannot be opened; a peer
+/// is missing.
 pub async fn replay(
     recording: &Recording,
     survey: &Survey,

@@ -1,5 +1,5 @@
-//! Programs that cargo builds: `cargo run` in a launch file becomes a build and the program that cargo names, so that cargo is
-//! never the running component.
+//! Programs that cargo builds: `cargo run` in a launch file becomes a build and the program that cargo names, so that
+//! cargo is never the running component.
 
 mod artifacts;
 mod metadata;

@@ -30,8 +30,8 @@ impl<'a> LaunchText<'a> {
         Problem::new(headline).at(format!("{}:{line}:{column}", self.path))
     }
 
-    /// Position of the last of these keys, as `launch.yaml:3:5`. Each is searched for after the one before it. If one is
-    /// not found (for example because it is written with escapes), the position of the key before it.
+    /// Position of the last of these keys, as `launch.yaml:3:5`. Each is searched for after the one before it. If one
+    /// is not found (for example because it is written with escapes), the position of the key before it.
     pub(crate) fn place(&self, keys: &[&str]) -> String {
         let mut at = keys.first().and_then(|key| self.find_top_key(key));
         for key in keys.iter().skip(1) {

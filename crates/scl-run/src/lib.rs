@@ -232,7 +232,8 @@ fn stopped_build(signal: Signal) -> Problem {
 /// Programs inherit which signals are ignored, but not which are handled. A shell that starts `scl run` in the
 /// background ignores SIGINT, and without a handler the programs could not be stopped by it.
 fn listen_for_signals(events: Sender<Event>) -> io::Result<()> {
-    // A program that waits for signals, and started this one, may have blocked them. All threads inherit this one's mask.
+    // A program that waits for signals, and started this one, may have blocked them. All threads inherit this one's
+    // mask.
     SigSet::empty().thread_set_mask()?;
     let mut signals = Signals::new(STOP_SIGNALS)?;
     thread::Builder::new().spawn(move || {

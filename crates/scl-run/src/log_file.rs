@@ -71,12 +71,12 @@ impl LogFile {
         Ok(Self { component: component.to_owned(), path, earlier_runs, state: Mutex::new(state) })
     }
 
-    /// Adds a line without its line break. `run` counts the processes of this component that were started by this process,
-    /// from 1.
+    /// Adds a line without its line break. `run` counts the processes of this component that were started by this
+    /// process, from 1.
     ///
     /// # Errors
-    /// The first failure, as a text for the user. Later ones are silent, and the next line is tried again: a full disk may
-    /// have room later.
+    /// The first failure, as a text for the user. Later ones are silent, and the next line is tried again: a full disk
+    /// may have room later.
     pub(crate) fn write(&self, stream: LogStream, run: u64, text: &[u8]) -> Result<(), String> {
         let run = self.earlier_runs + run;
         let entry = Entry { time: SystemTime::now(), component: &self.component, stream, run, text };

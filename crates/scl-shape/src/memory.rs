@@ -1,7 +1,7 @@
 //! How much memory a message takes once it is decoded, estimated without decoding it.
 //!
-//! Two bytes can announce a message of hundreds: an empty child in a repeated field. So the length of a frame alone bounds
-//! nothing. The estimate is an upper bound for `prost`, and about one for libprotobuf, `protobuf-c` and upb.
+//! Two bytes can announce a message of hundreds: an empty child in a repeated field. So the length of a frame alone
+//! bounds nothing. The estimate is an upper bound for `prost`, and about one for libprotobuf, `protobuf-c` and upb.
 
 mod json;
 mod layout;
@@ -51,8 +51,8 @@ impl MemoryEstimate {
         }
     }
 
-    /// How much memory decoding a frame takes, in bytes. Of a damaged frame, what the part before the damage takes, except
-    /// that a text which is not JSON is refused by everything.
+    /// How much memory decoding a frame takes, in bytes. Of a damaged frame, what the part before the damage takes,
+    /// except that a text which is not JSON is refused by everything.
     ///
     /// # Errors
     /// The text is not JSON, or nested deeper than 128 levels.

@@ -1,7 +1,7 @@
 //! Reserving memory before it is written.
 //!
-//! The engine's segments are files with holes. Writing into a hole when no memory is left ends the program with SIGBUS, so
-//! each sample's memory is reserved with `fallocate` before its first use, which reports that as an error.
+//! The engine's segments are files with holes. Writing into a hole when no memory is left ends the program with SIGBUS,
+//! so each sample's memory is reserved with `fallocate` before its first use, which reports that as an error.
 
 use crate::limits::{HEADERS, TooLittle, available};
 use rustix::fs::{FallocateFlags, fallocate};

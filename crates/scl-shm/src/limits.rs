@@ -40,8 +40,8 @@ impl Limits {
         self.queue.clamp(1, QUEUE) + VIEWS
     }
 
-    /// The most that are lent at the same time: as many as may wait behind those that are in flight, one that is filled, and
-    /// one more, only for a moment, to copy a message into it.
+    /// The most that are lent at the same time: as many as may wait behind those that are in flight, one that is
+    /// filled, and one more, only for a moment, to copy a message into it.
     pub fn loans(&self) -> usize {
         self.in_flight() + 2
     }

@@ -30,8 +30,8 @@ impl Drop for Counted {
     }
 }
 
-/// Memory lent by a [`SampleSender`](crate::SampleSender). Dropping it gives it back, except in a forked child: the parent may
-/// still fill it.
+/// Memory lent by a [`SampleSender`](crate::SampleSender). Dropping it gives it back, except in a forked child: the
+/// parent may still fill it.
 ///
 /// What it contains at first is unspecified: zeros or parts of older messages of the same connection.
 pub struct LoanedSample {
@@ -82,7 +82,7 @@ impl std::fmt::Debug for LoanedSample {
 
 /// Takes the memory as it is. Filling it with zeros would take as long as copying a message.
 pub(crate) fn as_it_is(sample: Uninitialised) -> Sample {
-    // SAFETY: The memory is a file that the operating system has mapped. It was filled with zeros by the operating system
-    // or has been written since, so all of it is initialised; and every byte is a `u8`.
+    // SAFETY: The memory is a file that the operating system has mapped. It was filled with zeros by the operating
+    // system or has been written since, so all of it is initialised; and every byte is a `u8`.
     unsafe { sample.assume_init() }
 }

@@ -4,7 +4,8 @@ use iceoryx2::prelude::{LogLevel, set_log_level, set_logger};
 use std::fmt::Arguments;
 use std::sync::Once;
 
-/// iceoryx2 warns of much that is expected here, such as a peer that was killed. What matters to users, SCL says itself.
+/// iceoryx2 warns of much that is expected here, such as a peer that was killed. What matters to users, SCL says
+/// itself.
 struct Debugging;
 
 impl iceoryx2_log_types::Log for Debugging {

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// Shows control characters and characters that change the direction of text as escapes: `\n`, `\t`, `\u{1b}`. Everything
-/// else stays as it is, so a backslash may also be one of the text.
+/// Shows control characters and characters that change the direction of text as escapes: `\n`, `\t`, `\u{1b}`.
+/// Everything else stays as it is, so a backslash may also be one of the text.
 pub fn escape(text: &str) -> Cow<'_, str> {
     if !text.contains(is_unsafe) {
         return Cow::Borrowed(text);
@@ -32,8 +32,8 @@ pub fn escape_bytes(bytes: &[u8]) -> String {
     shown
 }
 
-/// Escapes what `serde_json` leaves as it is in JSON text and a terminal would obey, with JSON's own escapes, so that the
-/// value stays the same.
+/// Escapes what `serde_json` leaves as it is in JSON text and a terminal would obey, with JSON's own escapes, so that
+/// the value stays the same.
 pub fn escape_json(json: &str) -> Cow<'_, str> {
     // Line breaks between values are no part of a string; inside of one, they are escaped already.
     let is_unsafe = |c: char| c != '\n' && is_unsafe(c);
@@ -51,8 +51,8 @@ pub fn escape_json(json: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// Control characters, and those of Unicode that change the direction of text (UAX 9) or break lines: they can make text
-/// look like another one (CVE-2021-42574).
+/// Control characters, and those of Unicode that change the direction of text (UAX 9) or break lines: they can make
+/// text look like another one (CVE-2021-42574).
 fn is_unsafe(c: char) -> bool {
     let changes_direction = matches!(
         c,

@@ -1,8 +1,9 @@
-//! Text for the user: all output of the command line is written here, so that a failed write is noticed once and for all.
+//! Text for the user: all output of the command line is written here, so that a failed write is noticed once and for
+//! all.
 //!
-//! A command prints without looking at errors, and its `main` ends with [`finish_output`], which reports the first one. A
-//! stream looks at [`output_is_closed`] after each message, because printing more would be in vain. Lints forbid other ways
-//! to standard output.
+//! A command prints without looking at errors, and its `main` ends with [`finish_output`], which reports the first one.
+//! A stream looks at [`output_is_closed`] after each message, because printing more would be in vain. Lints forbid
+//! other ways to standard output.
 
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::process::ExitCode;
@@ -47,8 +48,8 @@ pub fn note_failure(written: io::Result<()>) {
     }
 }
 
-/// The exit code of a program that has done its work: `code`, unless its output could not be written, which is reported.
-/// If a reader has closed the output (`scl check | head`), that is no error.
+/// The exit code of a program that has done its work: `code`, unless its output could not be written, which is
+/// reported. If a reader has closed the output (`scl check | head`), that is no error.
 pub fn finish_output(code: ExitCode) -> ExitCode {
     match FAILURE.get() {
         None => code,

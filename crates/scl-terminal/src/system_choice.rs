@@ -3,8 +3,8 @@
 use crate::{Problem, quoted_list};
 use std::ffi::OsString;
 
-/// The system that a command means: the one named with `--system`, else `$SCL_SYSTEM`, else the only one that runs, else
-/// that of the topology file in the working folder, which `here` reads. `None` if none of that says anything.
+/// The system that a command means: the one named with `--system`, else `$SCL_SYSTEM`, else the only one that runs,
+/// else that of the topology file in the working folder, which `here` reads. `None` if none of that says anything.
 ///
 /// # Errors
 /// Several run, and the topology file is not that of one of them; or the variable is not text.

@@ -65,8 +65,8 @@ pub fn parse_duration(text: &str) -> Result<Duration, String> {
     })
 }
 
-/// A duration in the largest unit up to seconds in which it is a whole number: `1500ms`. Parts of a microsecond are left
-/// out.
+/// A duration in the largest unit up to seconds in which it is a whole number: `1500ms`. Parts of a microsecond are
+/// left out.
 pub fn text(duration: Duration) -> String {
     let microseconds = duration.as_micros();
     let (factor, unit) = match microseconds {

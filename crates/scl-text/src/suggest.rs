@@ -19,8 +19,8 @@ pub fn closest_name<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
 /// The candidates that look most like `word`.
 ///
 /// One that is equal, but for its case, is the nearest; the others are within a third of the word's length of edits,
-/// at least one, or start with the word. All that are given are equally near, and keep their order. `count_steps` is told
-/// what each comparison costs.
+/// at least one, or start with the word. All that are given are equally near, and keep their order. `count_steps` is
+/// told what each comparison costs.
 pub fn nearest<'a>(
     word: &str,
     candidates: impl IntoIterator<Item = &'a str>,

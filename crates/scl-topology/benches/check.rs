@@ -60,8 +60,8 @@ fn measure(text: &str, misspelt: bool) -> (Duration, Duration) {
     (parsed, checked)
 }
 
-/// A ring with 5 gates and 5 connections a component: each sends to the next three. The gates that wait make a chain, as a
-/// ring of them would be a deadlock.
+/// A ring with 5 gates and 5 connections a component: each sends to the next three. The gates that wait make a chain,
+/// as a ring of them would be a deadlock.
 fn topology(size: usize, misspelt: bool) -> String {
     let mut text = "system: bench\ncomponents:\n".to_owned();
     for at in 0..size {

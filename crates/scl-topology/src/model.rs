@@ -31,8 +31,8 @@ pub struct Model {
     pub controls: Vec<ControlModel>,
     /// The ends that stand in a connection without shape; a problem says so. Their gates count as connected.
     pub broken_ends: Vec<Spanned<String>>,
-    /// Part of the file could not be read at all, for example because the text is not valid YAML, so that anything may be
-    /// missing; a problem is reported for it.
+    /// Part of the file could not be read at all, for example because the text is not valid YAML, so that anything may
+    /// be missing; a problem is reported for it.
     pub cut_off: bool,
 }
 

@@ -1,7 +1,7 @@
 //! The plan of a component: everything its program needs to run, from the checked topology.
 //!
-//! Gates meet by names that this stage fixes: contracts and the names of sockets. A contract is a short mark of what two
-//! ends must agree on: pattern, types, codec. It stands in the name of the socket, so programs that were built from
+//! Gates meet by names that this stage fixes: contracts and the names of sockets. A contract is a short mark of what
+//! two ends must agree on: pattern, types, codec. It stands in the name of the socket, so programs that were built from
 //! different contracts never meet. Names of gates, options and other parts of the file do not change it.
 
 mod contract;

@@ -52,8 +52,8 @@ fn valid_files_have_no_problem() {
     }
 }
 
-/// What is put in the place of a token, or after it. One in [`STEP`] is tried at each token, as a text with a syntax error
-/// is read many times.
+/// What is put in the place of a token, or after it. One in [`STEP`] is tried at each token, as a text with a syntax
+/// error is read many times.
 const STEP: usize = 4;
 
 #[test]

@@ -70,8 +70,8 @@ impl Condition {
     /// Whether a message meets the condition.
     ///
     /// # Errors
-    /// A field alone is not a boolean in this message. [`check`](Self::check) finds that without a message if the type is
-    /// known.
+    /// A field alone is not a boolean in this message. [`check`](Self::check) finds that without a message if the type
+    /// is known.
     pub fn holds(&self, message: &Value) -> Result<bool, ConditionMismatch> {
         self.root.holds(message)
     }

@@ -1,10 +1,11 @@
 //! Accepts the TLS connections of the gateway's network library.
 //!
-//! The library takes its connections from the crate `tls-listener`, with the functions that are here. The crate of that name in
-//! the registry accepts any number of connections, and returns a failed handshake as an error, after which the library
-//! accepts nothing for 100 ms: a thousand connections that break off keep all hosts out for minutes, and every file
-//! descriptor of the gateway with them. This one limits unfinished handshakes, in total and for each address, and keeps
-//! failed ones to itself. Connections that have not sent a whole ClientHello give way first: a host sends it at once.
+//! The library takes its connections from the crate `tls-listener`, with the functions that are here. The crate of that
+//! name in the registry accepts any number of connections, and returns a failed handshake as an error, after which the
+//! library accepts nothing for 100 ms: a thousand connections that break off keep all hosts out for minutes, and every
+//! file descriptor of the gateway with them. This one limits unfinished handshakes, in total and for each address, and
+//! keeps failed ones to itself. Connections that have not sent a whole ClientHello give way first: a host sends it at
+//! once.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
@@ -30,8 +31,8 @@ use tokio_rustls::rustls::server::Acceptor;
 use tokio_rustls::server::TlsStream;
 use tokio_rustls::{LazyConfigAcceptor, TlsAcceptor};
 
-/// Maximum number of unfinished handshakes: a quarter of the file descriptors that a process has at least. The rest is for
-/// links and for the sockets of this host's components.
+/// Maximum number of unfinished handshakes: a quarter of the file descriptors that a process has at least. The rest is
+/// for links and for the sockets of this host's components.
 const MOST: usize = 256;
 /// The same for one address.
 const MOST_OF_ONE: usize = 64;
@@ -146,8 +147,8 @@ impl TlsListener {
         self.abort_surplus(source);
     }
 
-    /// Aborts a handshake of an address that has too many, or of the one that has most: the oldest that has not begun, or
-    /// else the oldest.
+    /// Aborts a handshake of an address that has too many, or of the one that has most: the oldest that has not begun,
+    /// or else the oldest.
     fn abort_surplus(&mut self, newest: Source) {
         let of_newest = self.unfinished.iter().filter(|handshake| handshake.source == newest).count();
         let surplus = match (of_newest > MOST_OF_ONE, self.unfinished.len() > MOST) {

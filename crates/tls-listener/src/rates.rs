@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 /// Handshakes that an address may begin at once: more hosts than that do not share one.
 const BURST: u32 = 256;
-/// The time after which it may begin one more. A handshake takes some tenths of a millisecond of a processor, and a host tries
-/// four times in a second.
+/// The time after which it may begin one more. A handshake takes some tenths of a millisecond of a processor, and a
+/// host tries four times in a second.
 const REFILL: Duration = Duration::from_millis(10);
 /// Maximum number of addresses that are remembered. Beyond that, all start afresh.
 const MOST: usize = 4096;

@@ -1,7 +1,7 @@
 //! The autopilot: from readings to set-points of the motors, once per inertial reading.
 //!
-//! Everything depends on messages and the times in them alone, not on clocks or the order of arrival, so a recorded flight
-//! can be repeated exactly, also by the twin in C, which has the same files.
+//! Everything depends on messages and the times in them alone, not on clocks or the order of arrival, so a recorded
+//! flight can be repeated exactly, also by the twin in C, which has the same files.
 
 pub mod attitude;
 pub mod commands;

@@ -1,8 +1,8 @@
 //! Between metres east and north of home, and degrees of latitude and longitude.
 //!
-//! A local tangent plane around home, with the earth's radii of curvature there (Groves, Principles of GNSS, Inertial and
-//! Multisensor Integrated Navigation Systems, 2nd edition, equations 2.105, 2.106 and 2.111). Wrong by less than 0.1 m
-//! within 1 km, and not for use at the poles.
+//! A local tangent plane around home, with the earth's radii of curvature there (Groves, Principles of GNSS, Inertial
+//! and Multisensor Integrated Navigation Systems, 2nd edition, equations 2.105, 2.106 and 2.111). Wrong by less than
+//! 0.1 m within 1 km, and not for use at the poles.
 
 const EQUATORIAL_RADIUS: f64 = 6378137.0; // m, WGS 84
 const ECCENTRICITY_SQUARED: f64 = 6.69437999014e-3; // WGS 84

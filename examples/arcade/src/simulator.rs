@@ -11,8 +11,8 @@ use crate::simulation::{RATE, Readings, Settings, Simulation};
 use crate::watch::Watch;
 use std::time::Duration;
 
-/// When the simulation could not run for more steps than these, 20 ms, it goes on from there: many steps at once would be
-/// a flight without control.
+/// When the simulation could not run for more steps than these, 20 ms, it goes on from there: many steps at once would
+/// be a flight without control.
 const MAX_MISSED: u64 = 6;
 /// Time begins when all parts are there, or without those that are not there by then.
 const PATIENCE: Duration = Duration::from_secs(20);

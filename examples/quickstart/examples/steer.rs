@@ -1,4 +1,5 @@
-//! The controller of `docs/tutorial.md`: pushes while the rover is slower than one metre a second, and brakes otherwise.
+//! The controller of `docs/tutorial.md`: pushes while the rover is slower than one metre a second, and brakes
+//! otherwise.
 
 use rover::Setpoint;
 

@@ -1,9 +1,10 @@
 //! `SCL0606`: rustc checks that the codec of a gate supports its message type.
 //!
 //! Each pair of payload and codec has a private trait, implemented for every type that the codec supports. The methods
-//! of the trait open the gates of that pair, so no gate is opened unchecked, and rustc reports a wrong type once however
-//! many gates have it. The text of the report is `#[diagnostic::on_unimplemented]` of the trait. The implementation is
-//! `#[diagnostic::do_not_recommend]`: without that, rustc reports the unsatisfied bound of the implementation instead.
+//! of the trait open the gates of that pair, so no gate is opened unchecked, and rustc reports a wrong type once
+//! however many gates have it. The text of the report is `#[diagnostic::on_unimplemented]` of the trait. The
+//! implementation is `#[diagnostic::do_not_recommend]`: without that, rustc reports the unsatisfied bound of the
+//! implementation instead.
 
 use super::codec_type::codec_type;
 use super::context::Context;

@@ -1,8 +1,8 @@
 //! Rust types that need to exist only where a component that uses them is opened.
 //!
-//! A path in a struct must resolve, or the program does not compile. A program that opens `gps` should not have to depend
-//! on the crate of the camera's messages, though. Therefore each such type is the associated type of a hidden trait, and
-//! its path stands inside a block where a stand-in has the same name:
+//! A path in a struct must resolve, or the program does not compile. A program that opens `gps` should not have to
+//! depend on the crate of the camera's messages, though. Therefore each such type is the associated type of a hidden
+//! trait, and its path stands inside a block where a stand-in has the same name:
 //!
 //! ```text
 //! const _: () = {

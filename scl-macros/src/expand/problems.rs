@@ -44,8 +44,8 @@ pub(super) fn unknown_type_name(context: &Context<'_>) -> Ident {
     identifier(&name, context.span).unwrap_or_else(|| format_ident!("__scl_unknown"))
 }
 
-/// The type of what cannot be read from a broken file. For an editor it is a placeholder, which it does not know either, so
-/// that it offers no name.
+/// The type of what cannot be read from a broken file. For an editor it is a placeholder, which it does not know
+/// either, so that it offers no name.
 pub(super) fn expand_unknown_type(context: &Context<'_>) -> TokenStream {
     if context.for_editor {
         return quote!(_);

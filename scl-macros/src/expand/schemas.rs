@@ -1,4 +1,5 @@
-//! Compiled schemas: one module of Rust types for each protobuf package, their JSON, and the descriptors that programs embed.
+//! Compiled schemas: one module of Rust types for each protobuf package, their JSON, and the descriptors that programs
+//! embed.
 
 mod embedded;
 #[cfg(feature = "protobuf")]

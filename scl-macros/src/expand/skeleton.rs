@@ -1,7 +1,7 @@
 //! The structs that can be read from a file with errors, so that an editor keeps completing.
 //!
-//! The errors themselves are reported elsewhere. A type that cannot be read from the file becomes a type that is known to be
-//! erroneous, so using it causes no further errors.
+//! The errors themselves are reported elsewhere. A type that cannot be read from the file becomes a type that is known
+//! to be erroneous, so using it causes no further errors.
 
 use super::context::Context;
 use super::docs::{self, GateDoc};

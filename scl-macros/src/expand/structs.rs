@@ -12,8 +12,8 @@ pub(super) struct GateField {
     pub(super) gate_type: TokenStream,
 }
 
-/// The struct of a component or of its counterpart. Only what is compiled has the field `__scl`: an editor would offer it
-/// behind every dot.
+/// The struct of a component or of its counterpart. Only what is compiled has the field `__scl`: an editor would offer
+/// it behind every dot.
 pub(super) fn expand_struct(context: &Context<'_>, name: &Ident, doc: &str, fields: &[GateField]) -> TokenStream {
     let private = &context.private;
     let fields = fields.iter().map(|GateField { name, doc, gate_type }| quote!(#[doc = #doc] pub #name: #gate_type,));

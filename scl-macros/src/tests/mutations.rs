@@ -33,8 +33,8 @@ fn without_schemas(text: &str) -> String {
     text.split_inclusive('\n').filter(|line| !line.starts_with("schemas:")).collect()
 }
 
-/// Returns true if the checker accepts a file. The expansion must parse as Rust, and must either contain an error or open
-/// every component.
+/// Returns true if the checker accepts a file. The expansion must parse as Rust, and must either contain an error or
+/// open every component.
 fn is_accepted(mutant: &str) -> bool {
     let tokens = expand(mutant);
     let file = parsed(&tokens);

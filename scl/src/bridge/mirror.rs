@@ -95,7 +95,8 @@ impl Mirror {
     }
 
     /// Creates the files of the component again if they were removed, and lets its ends listen again. One watch of the
-    /// folder is enough for all mirrors of a process, see [`Change::Removed`](super::Change::Removed): a user may have few.
+    /// folder is enough for all mirrors of a process, see [`Change::Removed`](super::Change::Removed): a user may have
+    /// few.
     ///
     /// # Errors
     /// [`MirrorError::RuntimeDir`], also if another process runs the component by now.
@@ -103,8 +104,8 @@ impl Mirror {
         self.registration.restore_if_removed().map(drop).map_err(MirrorError::RuntimeDir)
     }
 
-    /// The endpoint at which this component's `sub` gate connects to a publisher. What it receives is acknowledged by the
-    /// caller, within `window`.
+    /// The endpoint at which this component's `sub` gate connects to a publisher. What it receives is acknowledged by
+    /// the caller, within `window`.
     ///
     /// # Errors
     /// [`MirrorError::NoConnection`].

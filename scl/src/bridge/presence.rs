@@ -36,8 +36,8 @@ pub enum Change {
         /// The component.
         component: String,
     },
-    /// Files of components of other hosts were removed, perhaps because these have stopped: [`Mirror`](super::Mirror)s that
-    /// still exist are to be [restored](super::Mirror::restore).
+    /// Files of components of other hosts were removed, perhaps because these have stopped: [`Mirror`](super::Mirror)s
+    /// that still exist are to be [restored](super::Mirror::restore).
     Removed,
 }
 

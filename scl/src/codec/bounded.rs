@@ -6,8 +6,8 @@
 //! each wrapper wraps the values that it passes on, and the calls that enter a level or move to the next element are
 //! counted.
 //!
-//! An element of one byte can also be a struct of thousands, all of whose fields have their default. The wrappers know the
-//! types of what is decoded, and count their sizes.
+//! An element of one byte can also be a struct of thousands, all of whose fields have their default. The wrappers know
+//! the types of what is decoded, and count their sizes.
 
 use serde::de::{
     Deserialize, DeserializeSeed, Deserializer, EnumAccess, Error, MapAccess, SeqAccess, VariantAccess, Visitor,

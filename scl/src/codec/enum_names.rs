@@ -1,8 +1,8 @@
 //! Refuses unknown names of enum values in canonical JSON, while unknown fields are skipped.
 //!
 //! `prost-reflect` has one option for both, and what it skips leaves no trace in the message. So its deserializer is
-//! wrapped, each wrapper knows which part of the schema it reads, and only the names of enum values and of fields are looked at.
-//! What an `Any` contains is not checked, because its type may follow after its fields.
+//! wrapped, each wrapper knows which part of the schema it reads, and only the names of enum values and of fields are
+//! looked at. What an `Any` contains is not checked, because its type may follow after its fields.
 
 use prost_reflect::{EnumDescriptor, FieldDescriptor, Kind, MessageDescriptor};
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};

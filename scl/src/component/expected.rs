@@ -1,5 +1,6 @@
-//! Which components the process was started for: `SCL_COMPONENT`, which `scl run` and its unit files set. A program that is
-//! started in another's place, by swapped commands or as the program of the same name of another project, must not run.
+//! Which components the process was started for: `SCL_COMPONENT`, which `scl run` and its unit files set. A program
+//! that is started in another's place, by swapped commands or as the program of the same name of another project, must
+//! not run.
 
 use crate::environment::{self, Variables};
 use crate::error::OpenError;

@@ -31,8 +31,8 @@ macro_rules! __component_methods {
                 $crate::private::open(options).await
             }
 
-            /// Opens the component for a program without async, which uses the blocking and the non-waiting calls of its
-            /// gates, from as many threads as it likes.
+            /// Opens the component for a program without async, which uses the blocking and the non-waiting calls of
+            /// its gates, from as many threads as it likes.
             ///
             /// # Errors
             /// Those of `open`.
@@ -72,11 +72,11 @@ macro_rules! __component_methods {
                 ::core::result::Result::Ok($crate::private::block_on(self, self.ready(timeout))??)
             }
 
-            /// Waits until every peer that is running has taken all messages, then closes. Peers that are running but not
-            /// connected yet are waited for; one that is not running is named in a log line.
+            /// Waits until every peer that is running has taken all messages, then closes. Peers that are running but
+            /// not connected yet are waited for; one that is not running is named in a log line.
             ///
-            /// Dropping the component hands over what is left, too, but waits no longer than a second, and only until it
-            /// is written.
+            /// Dropping the component hands over what is left, too, but waits no longer than a second, and only until
+            /// it is written.
             ///
             /// # Errors
             /// The peers that have not taken everything after `timeout`, with the number of messages.
@@ -93,7 +93,8 @@ macro_rules! __component_methods {
             /// `close` from a plain thread.
             ///
             /// # Errors
-            /// Those of `close`; inside async code, [`BlockingError`]($crate::BlockingError), and the component is dropped.
+            /// Those of `close`; inside async code, [`BlockingError`]($crate::BlockingError), and the component is
+            /// dropped.
             pub fn close_blocking(self, timeout: ::core::time::Duration) -> $crate::Result<()> {
                 $crate::private::close_blocking(self, timeout)
             }

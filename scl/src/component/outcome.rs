@@ -25,9 +25,9 @@ impl<E: Into<Error>> Outcome for Result<(), E> {
 
 /// Chooses the conversion of what `main` returned.
 ///
-/// No single trait covers `scl::Error`, every error type, `anyhow::Error` and `Box<dyn Error>`: the implementations would
-/// overlap. Here each is a method of a type of its own, and the compiler takes the first whose bounds hold, because the
-/// types dereference to each other.
+/// No single trait covers `scl::Error`, every error type, `anyhow::Error` and `Box<dyn Error>`: the implementations
+/// would overlap. Here each is a method of a type of its own, and the compiler takes the first whose bounds hold,
+/// because the types dereference to each other.
 pub struct Returned<R>(Boxable<R>);
 
 /// Errors that convert into a boxed error, such as `anyhow::Error`, `Box<dyn Error + Send + Sync>` and `String`.

@@ -28,8 +28,8 @@ impl Transports {
     /// The transports of a component whose ends meet in a system's folder.
     ///
     /// # Errors
-    /// [`OpenError`] if a transport is chosen for a gate that the component does not have, or one that this crate was built
-    /// without.
+    /// [`OpenError`] if a transport is chosen for a gate that the component does not have, or one that this crate was
+    /// built without.
     pub(super) fn in_folder(
         spec: &'static ComponentSpec,
         dir: &SystemDir,

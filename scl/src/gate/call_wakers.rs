@@ -1,7 +1,7 @@
 //! The waker under which a `req` gate does I/O, while any number of its calls are in progress.
 //!
-//! A call that is alone reads its reply itself, without a detour. While there are several, the gate's background task reads
-//! and hands each its reply, because none of them may rely on another one to be polled.
+//! A call that is alone reads its reply itself, without a detour. While there are several, the gate's background task
+//! reads and hands each its reply, because none of them may rely on another one to be polled.
 
 use crate::state::WakeCall;
 use crate::sync::lock;

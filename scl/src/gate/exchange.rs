@@ -218,8 +218,8 @@ impl Exchange {
 }
 
 impl End {
-    /// Reconnects, answers heartbeats, and hands replies to their calls. Returns true if a call that waits to be sent should
-    /// look at the connection.
+    /// Reconnects, answers heartbeats, and hands replies to their calls. Returns true if a call that waits to be sent
+    /// should look at the connection.
     fn drive(&mut self) -> bool {
         if self.sent_calls.is_empty() && self.calls.in_progress() == 0 {
             let _connected = self.link.poll_connected(&mut Context::from_waker(&self.waker));
@@ -270,8 +270,8 @@ impl End {
         }
     }
 
-    /// Hands each reply that has arrived to its call, and wakes it unless it is the caller. Requests of a broken connection
-    /// get none.
+    /// Hands each reply that has arrived to its call, and wakes it unless it is the caller. Requests of a broken
+    /// connection get none.
     fn take_answers(&mut self, caller: Option<u64>) {
         while self.sent_calls.iter().any(|call| call.result.is_none()) {
             let (id, result) = match self.link.poll_answer(&mut Context::from_waker(&self.waker)) {
@@ -380,7 +380,8 @@ impl<'a> InCall<'a> {
         Self { exchange, id, watchdog: exchange.calls.begin(id) }
     }
 
-    /// Ready when the deadline has passed. Without its timer a call could wait forever, so a timer that fails ends it too.
+    /// Ready when the deadline has passed. Without its timer a call could wait forever, so a timer that fails ends it
+    /// too.
     fn poll_past(&mut self, cx: &mut Context<'_>, deadline: Instant) -> Poll<()> {
         self.watchdog.as_mut().map_or(Poll::Ready(()), |watchdog| watchdog.poll_past(cx, deadline).map(|_past| ()))
     }
@@ -391,8 +392,8 @@ impl Drop for InCall<'_> {
         let mut end = self.exchange.lock();
         end.sent_calls.retain(|call| call.id != self.id);
         self.exchange.calls.end(self.id, self.watchdog.take());
-        // Polled once more, so that an event reported to the call is handled, and the next one wakes the task or another
-        // call.
+        // Polled once more, so that an event reported to the call is handled, and the next one wakes the task or
+        // another call.
         if end.drive() {
             self.exchange.calls.wake_call();
         }

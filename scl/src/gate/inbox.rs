@@ -24,8 +24,8 @@ use std::time::{Duration, Instant};
 
 /// How many messages one call takes in at most, so that a fast peer cannot keep a call from returning.
 const TAKE_IN: usize = 1024;
-/// How long a call that does not wait may be held up to fetch what a sender holds back. A publisher without async may need
-/// until its next call to answer.
+/// How long a call that does not wait may be held up to fetch what a sender holds back. A publisher without async may
+/// need until its next call to answer.
 const CATCH_UP: Duration = Duration::from_millis(10);
 
 /// What has arrived at a gate and was not given to the program yet.
@@ -260,8 +260,8 @@ impl Inbox {
         self.ready = ReadySignals::default();
     }
 
-    /// Called whenever messages were added or removed. Only what is in the queue counts, so it is filled first: then the
-    /// links have nothing, and wake the task as soon as they do.
+    /// Called whenever messages were added or removed. Only what is in the queue counts, so it is filled first: then
+    /// the links have nothing, and wake the task as soon as they do.
     fn report_ready(&mut self) {
         if self.ready.is_empty() {
             return;
@@ -272,7 +272,8 @@ impl Inbox {
         self.ready.report(!self.queue.is_empty());
     }
 
-    /// Drains the links into the queue, as far as it makes its senders wait, and tells them what the program has received.
+    /// Drains the links into the queue, as far as it makes its senders wait, and tells them what the program has
+    /// received.
     fn take_in(&mut self) {
         if !self.links.may_have_more() {
             return;

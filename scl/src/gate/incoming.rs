@@ -76,8 +76,8 @@ impl<T> Incoming<T> {
         self.next_blocking(Self::decode)
     }
 
-    /// Waits for the next message that can be decoded. It is decoded here and not in [`Recv`], because a long message would be
-    /// moved, and take room on the stack, once more.
+    /// Waits for the next message that can be decoded. It is decoded here and not in [`Recv`], because a long message
+    /// would be moved, and take room on the stack, once more.
     async fn next<R>(&mut self, mut caller: Caller, decode: impl Decode<T, R>) -> Result<R, RecvError> {
         loop {
             for _ in 0..AT_ONCE {
@@ -157,8 +157,9 @@ impl<T> Incoming<T> {
         Poll::Pending
     }
 
-    /// Returns no message if the call has to fail, as [`refuse`](Self::refuse) does. An error in its place would overlap with the
-    /// message, which the compiler then moves in pieces: with a short message that takes a noticeable part of the time.
+    /// Returns no message if the call has to fail, as [`refuse`](Self::refuse) does. An error in its place would
+    /// overlap with the message, which the compiler then moves in pieces: with a short message that takes a noticeable
+    /// part of the time.
     fn poll_arrived(&mut self, cx: &mut Context<'_>, caller: Caller) -> Poll<Option<Arrived>> {
         if self.state.check().is_err() {
             return Poll::Ready(None);

@@ -1,8 +1,8 @@
 //! The one waker under which a gate's ends do I/O.
 //!
-//! Two parties poll them: the calls of the program, and the gate's background task, which reconnects, answers heartbeats
-//! and takes messages in while the program is busy elsewhere. An event wakes the call that waits, so that a message
-//! reaches it without a detour, or else the task.
+//! Two parties poll them: the calls of the program, and the gate's background task, which reconnects, answers
+//! heartbeats and takes messages in while the program is busy elsewhere. An event wakes the call that waits, so that a
+//! message reaches it without a detour, or else the task.
 
 use crate::state::WakeCall;
 use crate::sync::lock;
@@ -85,8 +85,8 @@ impl Wake for IoWaker {
     }
 }
 
-/// Whether ends that are polled under an [`IoWaker`] had nothing when all of them were polled last. Then they need not be
-/// polled again before an event: to look at them costs as much as a short message.
+/// Whether ends that are polled under an [`IoWaker`] had nothing when all of them were polled last. Then they need not
+/// be polled again before an event: to look at them costs as much as a short message.
 pub(super) struct Drained {
     io: Arc<IoWaker>,
     /// Set and not reset.

@@ -34,8 +34,8 @@ impl Latch {
         (self.is_queued, self.is_dropped) = (pushed != Pushed::Dropped, pushed == Pushed::Dropped);
     }
 
-    /// A subscriber connects. Puts the last message into the queue, unless it is there, or the subscriber has it because it
-    /// merely reconnects. Returns true if so: the message is sent over this connection once more.
+    /// A subscriber connects. Puts the last message into the queue, unless it is there, or the subscriber has it
+    /// because it merely reconnects. Returns true if so: the message is sent over this connection once more.
     pub(super) fn join(&mut self, queue: &mut Queue<Frame>, peer: Option<Resumed>, handed: u64) -> bool {
         let before = std::mem::replace(&mut self.peer, peer);
         self.handed = handed;

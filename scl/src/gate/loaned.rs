@@ -39,8 +39,8 @@ impl<'a, T: ?Sized> Loaned<'a, T> {
 
     /// Sends the message, as [`Pub::send`](super::Pub::send) does.
     ///
-    /// The peer that lent the memory gets it as it is. What the memory cannot be handed to gets a copy: other peers of the
-    /// gate, which share one, and a peer whose connection was replaced since.
+    /// The peer that lent the memory gets it as it is. What the memory cannot be handed to gets a copy: other peers of
+    /// the gate, which share one, and a peer whose connection was replaced since.
     ///
     /// # Errors
     /// Those of `send`, except `Encode` and `TooLong`.
@@ -65,8 +65,8 @@ impl<'a, T: ?Sized> Loaned<'a, T> {
     /// [`send_blocking`](Self::send_blocking) with a time limit.
     ///
     /// # Errors
-    /// [`SendTimeoutError::Timeout`] if a queue was still full after `timeout`; the message is dropped then. Otherwise those
-    /// of `send_blocking`.
+    /// [`SendTimeoutError::Timeout`] if a queue was still full after `timeout`; the message is dropped then. Otherwise
+    /// those of `send_blocking`.
     pub fn send_timeout(self, timeout: Duration) -> Result<(), SendTimeoutError> {
         let (fanout, message) = self.into_parts();
         fanout.send_timeout(|| Ok(message), timeout)

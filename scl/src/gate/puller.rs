@@ -35,8 +35,8 @@ impl<T> Pull<T> {
     /// pause: a sender that may hold a newer one is asked for it.
     ///
     /// # Errors
-    /// [`RecvError::Decode`] if the codec cannot read a message and the gate declares `undecodable: fail`; the next call
-    /// returns the next message. By default such a message is skipped.
+    /// [`RecvError::Decode`] if the codec cannot read a message and the gate declares `undecodable: fail`; the next
+    /// call returns the next message. By default such a message is skipped.
     ///
     /// # Cancel safety
     /// Cancel safe: no message is lost if this is dropped before it is ready.
@@ -62,8 +62,8 @@ impl<T> Pull<T> {
 
     /// Returns the next message if one has arrived.
     ///
-    /// It does not wait for new messages. Only at a gate with `queue: 1`, after a pause, it may take up to 10 ms (usually
-    /// some microseconds) to fetch a newer message that the sender holds back.
+    /// It does not wait for new messages. Only at a gate with `queue: 1`, after a pause, it may take up to 10 ms
+    /// (usually some microseconds) to fetch a newer message that the sender holds back.
     ///
     /// # Errors
     /// Those of `recv`, and [`RecvError::Blocking`] after a stop request.
@@ -71,8 +71,8 @@ impl<T> Pull<T> {
         self.incoming.try_recv()
     }
 
-    /// Returns the newest message that has arrived and can be decoded, if any, and discards the older ones. It waits no longer than
-    /// [`try_recv`](Self::try_recv).
+    /// Returns the newest message that has arrived and can be decoded, if any, and discards the older ones. It waits no
+    /// longer than [`try_recv`](Self::try_recv).
     ///
     /// # Errors
     /// Those of `try_recv`.
@@ -93,8 +93,8 @@ impl<T> Pull<T> {
 
 #[cfg(feature = "raw")]
 impl<T: zerocopy::FromBytes + zerocopy::KnownLayout + zerocopy::Immutable> Pull<T> {
-    /// Waits for the next message, and returns it where it arrived instead of a copy: for large messages, of a type with
-    /// `codec: raw`.
+    /// Waits for the next message, and returns it where it arrived instead of a copy: for large messages, of a type
+    /// with `codec: raw`.
     ///
     /// Bytes that are not aligned for the type are copied. Those of shared memory always are aligned.
     ///

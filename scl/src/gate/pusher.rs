@@ -32,10 +32,10 @@ impl<T> Push<T> {
     /// Sends a message to a puller.
     ///
     /// The message is written to each peer's socket before this returns. If a peer has not taken the messages before
-    /// (4096 of them, or 1 MiB, may be on their way), or is not connected, the message waits in that connection's queue,
-    /// and everything that waits is written together as soon as the peer takes more. In a burst, after 64 messages
-    /// within a few milliseconds during which the runtime had no turn, messages of up to 4 KiB are gathered, too: they are
-    /// written as soon as the program awaits something else, when it sends later, or 128 at a time.
+    /// (4096 of them, or 1 MiB, may be on their way), or is not connected, the message waits in that connection's
+    /// queue, and everything that waits is written together as soon as the peer takes more. In a burst, after 64
+    /// messages within a few milliseconds during which the runtime had no turn, messages of up to 4 KiB are gathered,
+    /// too: they are written as soon as the program awaits something else, when it sends later, or 128 at a time.
     ///
     /// Only a gate with `backpressure: true` waits, for a peer with `when_full: wait` whose queue is full.
     ///
@@ -61,8 +61,8 @@ impl<T> Push<T> {
     /// [`Duration::ZERO`] it looks once whether there is room.
     ///
     /// # Errors
-    /// [`SendTimeoutError::Timeout`] if a queue was still full after `timeout`; the message was sent to no peer then, and
-    /// will not be. Otherwise those of `send_blocking`.
+    /// [`SendTimeoutError::Timeout`] if a queue was still full after `timeout`; the message was sent to no peer then,
+    /// and will not be. Otherwise those of `send_blocking`.
     pub fn send_timeout(&mut self, message: &T, timeout: Duration) -> Result<(), SendTimeoutError> {
         self.outgoing.send_timeout(message, timeout)
     }
@@ -81,8 +81,8 @@ impl<T> Push<T> {
         self.outgoing.fanout.missing().is_empty()
     }
 
-    /// Waits until a puller has connected or disconnected since the last call, or since the gate was opened, and returns
-    /// how many are connected now. Several changes in a row are reported as one.
+    /// Waits until a puller has connected or disconnected since the last call, or since the gate was opened, and
+    /// returns how many are connected now. Several changes in a row are reported as one.
     ///
     /// A peer that is killed disconnects at once; one that is merely stopped stays connected.
     ///
@@ -118,15 +118,15 @@ where
 {
     /// Lends memory for one message, to be written in place and sent: for large messages, of a type with `codec: raw`.
     ///
-    /// On a transport with shared memory, and with a view at the receiver ([`Pull::recv_view`](super::Pull::recv_view)), the
-    /// message is never copied. Everywhere else the memory is from the heap, which spares the copy of
-    /// [`send`](Self::send) all the same.
+    /// On a transport with shared memory, and with a view at the receiver
+    /// ([`Pull::recv_view`](super::Pull::recv_view)), the message is never copied. Everywhere else the memory is from
+    /// the heap, which spares the copy of [`send`](Self::send) all the same.
     ///
     /// See [`Pub::loan`](super::Pub::loan) for an example.
     ///
     /// # Errors
-    /// [`LoanError::Codec`] if the gate's codec is not `raw`, [`LoanError::TooLong`] if a peer does not accept messages of
-    /// this length, [`LoanError::Blocking`] if the gate cannot be used any more.
+    /// [`LoanError::Codec`] if the gate's codec is not `raw`, [`LoanError::TooLong`] if a peer does not accept messages
+    /// of this length, [`LoanError::Blocking`] if the gate cannot be used any more.
     pub fn loan(&mut self) -> Result<Loaned<'_, T>, LoanError> {
         self.outgoing.loan::<crate::codec::Raw, T>(size_of::<T>(), align_of::<T>())
     }
@@ -136,8 +136,8 @@ impl Push<Bytes> {
     /// Lends memory of `length` bytes for one message, to be written in place and sent.
     ///
     /// # Errors
-    /// [`LoanError::TooLong`] if a peer does not accept messages of this length, [`LoanError::Blocking`] if the gate cannot
-    /// be used any more, [`LoanError::Codec`] if the gate has a type and its codec is not plain bytes.
+    /// [`LoanError::TooLong`] if a peer does not accept messages of this length, [`LoanError::Blocking`] if the gate
+    /// cannot be used any more, [`LoanError::Codec`] if the gate has a type and its codec is not plain bytes.
     pub fn loan_bytes(&mut self, length: usize) -> Result<Loaned<'_, [u8]>, LoanError> {
         self.outgoing.loan::<crate::codec::Opaque, [u8]>(length, 1)
     }

@@ -7,7 +7,8 @@ use std::collections::VecDeque;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct QueuePolicy {
     pub(crate) capacity: usize,
-    /// `Wait` concerns the sender, which asks [`Queue::is_full`] first; a message pushed all the same replaces the oldest.
+    /// `Wait` concerns the sender, which asks [`Queue::is_full`] first; a message pushed all the same replaces the
+    /// oldest.
     pub(crate) when_full: WhenFull,
 }
 

@@ -77,9 +77,9 @@ impl<A, B> Rep<A, B> {
     /// Waits for the next request.
     ///
     /// # Errors
-    /// [`RecvError::Decode`] if the codec cannot read a request and the gate declares `undecodable: fail`; by default it is
-    /// skipped. Either way the sender's call fails with [`CallError::Refused`](crate::CallError::Refused), except that of a
-    /// plain ZeroMQ program, which has no reply to wait for until its own timeout.
+    /// [`RecvError::Decode`] if the codec cannot read a request and the gate declares `undecodable: fail`; by default
+    /// it is skipped. Either way the sender's call fails with [`CallError::Refused`](crate::CallError::Refused), except
+    /// that of a plain ZeroMQ program, which has no reply to wait for until its own timeout.
     ///
     /// # Cancel safety
     /// Cancel safe: no request is lost if this is dropped before it is ready.
@@ -261,8 +261,8 @@ impl<A, B> Request<A, B> {
     ///
     /// # Errors
     /// [`ReplyError::RequesterGone`] if nobody waits for the reply any more, which a replier may well ignore;
-    /// [`ReplyError::Encode`] if the codec cannot express it; [`ReplyError::TooLong`] if the requester does not accept a
-    /// reply of this length.
+    /// [`ReplyError::Encode`] if the codec cannot express it; [`ReplyError::TooLong`] if the requester does not accept
+    /// a reply of this length.
     pub fn reply(self, reply: &B) -> Result<(), ReplyError> {
         let Replies { gate, encoding, tap, strictest, state } = &*self.replies;
         let gate = *gate;

@@ -14,8 +14,8 @@ use std::future::poll_fn;
 use std::sync::{Arc, Mutex, Weak};
 use std::task::{Context, Poll, Waker, ready};
 
-/// Up to this number of requesters, a call that takes a request looks at the others itself, which is cheaper than to wake the
-/// task.
+/// Up to this number of requesters, a call that takes a request looks at the others itself, which is cheaper than to
+/// wake the task.
 const DRIVEN_BY_CALLS: usize = 64;
 
 /// A request, and how many had arrived with it.
@@ -81,7 +81,8 @@ impl ReplyEnd {
         Arc::new(Self { link, io, _task: AbortOnDrop::new(task.abort_handle()) })
     }
 
-    /// Returns the next request with its number, or registers the call and returns `Pending`. `may_vanish`: see [`IoWaker::wait`].
+    /// Returns the next request with its number, or registers the call and returns `Pending`. `may_vanish`: see
+    /// [`IoWaker::wait`].
     pub(super) fn poll_next(&self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<Numbered> {
         let mut link = lock(&self.link);
         let polled = link.poll_next();
@@ -198,8 +199,8 @@ impl Link {
         polled
     }
 
-    /// The program may handle a request for long. Whatever woke its call wakes nobody again before the connections are polled,
-    /// so their heartbeats would not be answered meanwhile.
+    /// The program may handle a request for long. Whatever woke its call wakes nobody again before the connections are
+    /// polled, so their heartbeats would not be answered meanwhile.
     fn keep_alive(&mut self) {
         if self.replier.peers() > DRIVEN_BY_CALLS {
             self.waker.wake_by_ref();

@@ -37,9 +37,9 @@ const LONGEST: Duration = Duration::from_secs(30 * 365 * 86_400);
 ///
 /// # Several calls at once
 ///
-/// A clone is a handle to the same gate, for another task or thread. As many calls as the gate's `in_flight` says are in
-/// progress at once, by default one; the others wait in order, within their timeouts. Each reply is matched with its request,
-/// in whatever order the replier answers.
+/// A clone is a handle to the same gate, for another task or thread. As many calls as the gate's `in_flight` says are
+/// in progress at once, by default one; the others wait in order, within their timeouts. Each reply is matched with its
+/// request, in whatever order the replier answers.
 ///
 /// ```no_run
 /// scl::topology!("doc/rover.yaml");
@@ -88,14 +88,14 @@ impl<A, B> Req<A, B> {
 
     /// Sends a request and waits for the reply, together no longer than the gate's `timeout`.
     ///
-    /// A replier that is not connected yet, or that restarts, is waited for within that time, and so is the end of another
-    /// call while as many are in progress as the gate's `in_flight` allows.
+    /// A replier that is not connected yet, or that restarts, is waited for within that time, and so is the end of
+    /// another call while as many are in progress as the gate's `in_flight` allows.
     ///
     /// # Errors
-    /// [`CallError::Timeout`] if no reply arrived in time, [`CallError::PeerLost`] if the replier disconnected after the
-    /// request was sent, [`CallError::Refused`] if it could not decode the request. In all cases the next call starts afresh
-    /// and never receives the reply to this one. [`CallError::TooLong`] if the replier does not accept a request of this
-    /// length; nothing was sent.
+    /// [`CallError::Timeout`] if no reply arrived in time, [`CallError::PeerLost`] if the replier disconnected after
+    /// the request was sent, [`CallError::Refused`] if it could not decode the request. In all cases the next call
+    /// starts afresh and never receives the reply to this one. [`CallError::TooLong`] if the replier does not accept a
+    /// request of this length; nothing was sent.
     ///
     /// # Cancel safety
     /// Cancel safe. A call that is dropped may still be answered; its reply is discarded.

@@ -38,8 +38,8 @@ pub struct GateStats {
 
 /// What became of the messages of one connection, at its sending end.
 ///
-/// At any time `published = taken + replaced + dropped_oldest + dropped_newest + lost + waiting`. Of these, only `waiting`
-/// ever falls.
+/// At any time `published = taken + replaced + dropped_oldest + dropped_newest + lost + waiting`. Of these, only
+/// `waiting` ever falls.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub struct PeerStats {
@@ -51,9 +51,9 @@ pub struct PeerStats {
     pub published: u64,
     /// How often the last message of a gate with `latched: true` was sent once more, to a subscriber that joined.
     pub latched: u64,
-    /// Messages that the peer's program has received, or passed over, or that its gate has dropped and counted there, as far
-    /// as the peer has said: when half of a window is on its way, twice a second if figures are written (`SCL_STATS`), and
-    /// when it ends. For a plain ZeroMQ program, those that were handed to its socket.
+    /// Messages that the peer's program has received, or passed over, or that its gate has dropped and counted there,
+    /// as far as the peer has said: when half of a window is on its way, twice a second if figures are written
+    /// (`SCL_STATS`), and when it ends. For a plain ZeroMQ program, those that were handed to its socket.
     pub taken: u64,
     /// Messages that a newer one has replaced in a queue of one with `drop_oldest`: no drops.
     pub replaced: u64,
@@ -61,8 +61,8 @@ pub struct PeerStats {
     pub dropped_oldest: u64,
     /// Messages dropped because the queue was full and `drop_newest` was declared.
     pub dropped_newest: u64,
-    /// Messages that were on their way, or waited in the peer's gate, when the connection broke. A program that was killed
-    /// may have received some of them; one that ended in order has received none.
+    /// Messages that were on their way, or waited in the peer's gate, when the connection broke. A program that was
+    /// killed may have received some of them; one that ended in order has received none.
     pub lost: u64,
     /// Messages that wait in the queue, are on their way, or wait in the peer's gate.
     pub waiting: u64,
@@ -101,8 +101,8 @@ impl Activity {
     }
 }
 
-/// The operating system's coarse clock, exact to a few milliseconds. It is read for each message and costs a sixth of the
-/// exact one.
+/// The operating system's coarse clock, exact to a few milliseconds. It is read for each message and costs a sixth of
+/// the exact one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct CoarseTime(Duration);
 

@@ -37,8 +37,8 @@ impl<T> Sub<T> {
     /// pause: a sender that may hold a newer one is asked for it.
     ///
     /// # Errors
-    /// [`RecvError::Decode`] if the codec cannot read a message and the gate declares `undecodable: fail`; the next call
-    /// returns the next message. By default such a message is skipped.
+    /// [`RecvError::Decode`] if the codec cannot read a message and the gate declares `undecodable: fail`; the next
+    /// call returns the next message. By default such a message is skipped.
     ///
     /// # Cancel safety
     /// Cancel safe: no message is lost if this is dropped before it is ready.
@@ -64,8 +64,8 @@ impl<T> Sub<T> {
 
     /// Returns the next message if one has arrived.
     ///
-    /// It does not wait for new messages. Only at a gate with `queue: 1`, after a pause, it may take up to 10 ms (usually
-    /// some microseconds) to fetch a newer message that the sender holds back.
+    /// It does not wait for new messages. Only at a gate with `queue: 1`, after a pause, it may take up to 10 ms
+    /// (usually some microseconds) to fetch a newer message that the sender holds back.
     ///
     /// # Errors
     /// Those of `recv`, and [`RecvError::Blocking`] after a stop request.
@@ -73,8 +73,8 @@ impl<T> Sub<T> {
         self.incoming.try_recv()
     }
 
-    /// Returns the newest message that has arrived and can be decoded, if any, and discards the older ones. It waits no longer than
-    /// [`try_recv`](Self::try_recv).
+    /// Returns the newest message that has arrived and can be decoded, if any, and discards the older ones. It waits no
+    /// longer than [`try_recv`](Self::try_recv).
     ///
     /// # Errors
     /// Those of `try_recv`.
@@ -82,8 +82,9 @@ impl<T> Sub<T> {
         self.incoming.latest()
     }
 
-    /// How long ago the message was sent that the last call returned, if its publisher has `latched: true` and sent it before
-    /// this gate was connected to it. `None` for every message that arrived while connected, and before the first one.
+    /// How long ago the message was sent that the last call returned, if its publisher has `latched: true` and sent it
+    /// before this gate was connected to it. `None` for every message that arrived while connected, and before the
+    /// first one.
     ///
     /// It goes on growing until the next message is received.
     pub fn latched_age(&self) -> Option<Duration> {
@@ -103,8 +104,8 @@ impl<T> Sub<T> {
 
 #[cfg(feature = "raw")]
 impl<T: zerocopy::FromBytes + zerocopy::KnownLayout + zerocopy::Immutable> Sub<T> {
-    /// Waits for the next message, and returns it where it arrived instead of a copy: for large messages, of a type with
-    /// `codec: raw`.
+    /// Waits for the next message, and returns it where it arrived instead of a copy: for large messages, of a type
+    /// with `codec: raw`.
     ///
     /// Bytes that are not aligned for the type are copied. Those of shared memory always are aligned.
     ///

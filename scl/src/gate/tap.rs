@@ -100,7 +100,8 @@ impl Shared {
         if !end.task.will_wake(cx.waker()) {
             end.task = cx.waker().clone();
         }
-        // Before a new observer is told that it is connected, so that a message sent at once waits for the lock and is shown.
+        // Before a new observer is told that it is connected, so that a message sent at once waits for the lock and is
+        // shown.
         self.observed.store(true, Ordering::Release);
         let is_observed = end.tap.drive(cx);
         self.observed.store(is_observed, Ordering::Release);

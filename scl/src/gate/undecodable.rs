@@ -38,8 +38,8 @@ pub(super) fn skips(gate: &GateSpec) -> bool {
     gate.options.undecodable == Undecodable::Skip
 }
 
-/// Logs a message that is skipped, if it is the `first` of its peer, because a peer whose messages are undecodable sends many of
-/// them.
+/// Logs a message that is skipped, if it is the `first` of its peer, because a peer whose messages are undecodable
+/// sends many of them.
 pub(super) fn report(gate: &GateSpec, error: &RecvError, first: bool) {
     if first && skips(gate) {
         let error = text_with_causes(error);

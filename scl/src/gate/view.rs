@@ -8,8 +8,8 @@ use zerocopy::{FromBytes, Immutable, KnownLayout};
 
 /// A received message, read where it arrived, see [`Sub::recv_view`](super::Sub::recv_view).
 ///
-/// It keeps that memory until it is dropped. Shared memory holds a limited number of messages, so a program that keeps many
-/// views should copy what it keeps.
+/// It keeps that memory until it is dropped. Shared memory holds a limited number of messages, so a program that keeps
+/// many views should copy what it keeps.
 pub struct View<T> {
     /// Has the length and the alignment of a `T`.
     bytes: Bytes,

@@ -11,8 +11,8 @@ macro_rules! codec {
         #[cfg(not(feature = $feature))]
         pub use crate::__no_stand_in_codec as $stand_in;
 
-        /// Evaluated while the program compiles. The error is then about the caller, whether the sources of the standard library
-        /// are installed or not.
+        /// Evaluated while the program compiles. The error is then about the caller, whether the sources of the
+        /// standard library are installed or not.
         #[track_caller]
         #[allow(clippy::manual_assert, reason = "one of the two is always missing")]
         pub const fn $check() {

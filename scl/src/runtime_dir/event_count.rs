@@ -1,5 +1,5 @@
-//! Telling the ends of connections what happens in the folder: that it was created again, so that listening ends bind their
-//! sockets there, and that files have arrived, so that connecting ends look for their peers.
+//! Telling the ends of connections what happens in the folder: that it was created again, so that listening ends bind
+//! their sockets there, and that files have arrived, so that connecting ends look for their peers.
 
 #![cfg_attr(not(feature = "zeromq"), allow(dead_code, reason = "only that transport has sockets"))]
 

@@ -57,8 +57,8 @@ impl RuntimeDir {
         Ok(dir)
     }
 
-    /// Finds and verifies the runtime folder as [`locate`](Self::locate) does, but creates nothing: `None` if it does not
-    /// exist.
+    /// Finds and verifies the runtime folder as [`locate`](Self::locate) does, but creates nothing: `None` if it does
+    /// not exist.
     ///
     /// # Errors
     ///

@@ -72,7 +72,8 @@ impl FolderWatch {
         Ok(())
     }
 
-    /// Waits for removals, and reports arrivals meanwhile. Returns true if at least one removal is about this component.
+    /// Waits for removals, and reports arrivals meanwhile. Returns true if at least one removal is about this
+    /// component.
     async fn next_events(&self) -> io::Result<bool> {
         loop {
             let (mut arrived, mut removed, mut concerned) = (false, false, false);

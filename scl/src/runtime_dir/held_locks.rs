@@ -6,9 +6,9 @@
 //! descriptor of the file releases the lock, so a file on the list is never opened again. Other code in the process
 //! must not open it either; there is nothing to read in it.
 //!
-//! A process may contain several copies of this library, for example in two plugins, and each has a list of its own. The
-//! operating system tells which descriptor a lock was taken through: the second lock on a file leaves the first as it is. A
-//! copy that finds the file locked through another's descriptor keeps its own open, so that the lock stays.
+//! A process may contain several copies of this library, for example in two plugins, and each has a list of its own.
+//! The operating system tells which descriptor a lock was taken through: the second lock on a file leaves the first as
+//! it is. A copy that finds the file locked through another's descriptor keeps its own open, so that the lock stays.
 
 use crate::sync::lock;
 use rustix::fs::{FlockOperation, OFlags};
@@ -25,8 +25,8 @@ use std::sync::Mutex;
 /// Attempts to lock a file that is removed or unlocked just at that moment.
 const ATTEMPTS: usize = 100;
 
-/// The files that must not be closed now. In a forked child they are those of its parent, and must stay open: closing one
-/// would release a lock that the child itself has taken on the same file since.
+/// The files that must not be closed now. In a forked child they are those of its parent, and must stay open: closing
+/// one would release a lock that the child itself has taken on the same file since.
 static OPEN: Mutex<Vec<OpenFile>> = Mutex::new(Vec::new());
 
 struct OpenFile {
@@ -198,7 +198,8 @@ fn find(open: &[OpenFile], id: FileId) -> Option<Opened> {
     Some(if open[index].locked { Opened::LockedHere } else { Opened::At(index) })
 }
 
-/// Returns true if this process holds the lock on a file through a descriptor that this copy of the library has not locked.
+/// Returns true if this process holds the lock on a file through a descriptor that this copy of the library has not
+/// locked.
 fn is_locked_by_another_copy(id: FileId) -> bool {
     let Ok(descriptors) = fs::read_dir("/proc/thread-self/fd") else { return false };
     descriptors.flatten().any(|descriptor| {

@@ -49,8 +49,8 @@ impl RuntimeDir {
         Ok(systems)
     }
 
-    /// The folder of a system, verified as [`system`](Self::system) does, or `None` if there is none. Creates nothing and
-    /// removes nothing.
+    /// The folder of a system, verified as [`system`](Self::system) does, or `None` if there is none. Creates nothing
+    /// and removes nothing.
     ///
     /// # Errors
     ///
@@ -85,22 +85,23 @@ impl SystemDir {
         })
     }
 
-    /// Returns true if a component has announced itself and has not closed since: it runs, or was killed or has crashed.
+    /// Returns true if a component has announced itself and has not closed since: it runs, or was killed or has
+    /// crashed.
     pub(crate) fn has_announcement(&self, component: &str) -> bool {
         let path = self.file_of(component, ".json");
         path.is_ok_and(|path| fs::symlink_metadata(path).is_ok_and(|found| found.is_file()))
     }
 
     /// The protobuf messages that a program was built with, by the hash in its
-    /// [`Announcement::schema`](super::Announcement::schema): a serialized `google.protobuf.FileDescriptorSet`. `None` if
-    /// there is no such file or it is longer than 16 MiB. The bytes are not checked.
+    /// [`Announcement::schema`](super::Announcement::schema): a serialized `google.protobuf.FileDescriptorSet`. `None`
+    /// if there is no such file or it is longer than 16 MiB. The bytes are not checked.
     pub fn schema(&self, hash: &str) -> Option<Bytes> {
         read_file(&self.schema_file(hash).ok()?, SCHEMA_LIMIT).ok().map(Bytes::from)
     }
 }
 
-/// The names that `pick` finds in a folder, each once and sorted. Entries that vanish meanwhile, and names that SCL never
-/// gives, are passed over.
+/// The names that `pick` finds in a folder, each once and sorted. Entries that vanish meanwhile, and names that SCL
+/// never gives, are passed over.
 fn names(entries: fs::ReadDir, pick: impl Fn(&DirEntry, &str) -> Option<String>) -> io::Result<Vec<String>> {
     let mut found = BTreeSet::new();
     for entry in entries {

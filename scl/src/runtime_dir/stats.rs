@@ -5,8 +5,8 @@
 //! environment variable `SCL_STATS` sets the period (`500ms` by default), or switches the file off (`off`).
 //!
 //! `docs/stats.md` describes the format, for readers in other languages. A writer writes a counter at the begin of the
-//! block, then the figures, then the same counter at the end; a reader reads in the opposite order, so that equal counters
-//! prove that what it has read is whole.
+//! block, then the figures, then the same counter at the end; a reader reads in the opposite order, so that equal
+//! counters prove that what it has read is whole.
 
 mod file;
 mod layout;
@@ -82,11 +82,12 @@ pub struct ConnectionFigures {
     /// Whether the peer is connected. A `pull` or `rep` gate cannot tell its peers apart: true if it has as many as the
     /// plan says.
     pub connected: bool,
-    /// Messages that wait for the peer in the queue; at a `req` gate, a call that is under way. 0 at a gate that receives,
-    /// whose messages wait in one queue.
+    /// Messages that wait for the peer in the queue; at a `req` gate, a call that is under way. 0 at a gate that
+    /// receives, whose messages wait in one queue.
     pub waiting: u64,
-    /// Messages that the peer's program has received, as far as it has said, which it does twice a second and when it ends.
-    /// At a `req` gate: replies. At a gate that receives: messages received from this peer, or 0 if that is not known because several peers share an endpoint.
+    /// Messages that the peer's program has received, as far as it has said, which it does twice a second and when it
+    /// ends. At a `req` gate: replies. At a gate that receives: messages received from this peer, or 0 if that is not
+    /// known because several peers share an endpoint.
     pub taken: u64,
     /// Messages dropped because the queue was full.
     pub dropped: u64,

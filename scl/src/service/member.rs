@@ -8,10 +8,11 @@ use std::time::Duration;
 
 /// What is known of one component.
 ///
-/// It shows life by the calls of its gates ([`called`](Self::called)), and by its regular [`tick`](Self::tick), which a task
-/// of the component's runtime makes. On a current-thread runtime of the program's own, the tick alone is a proof: a program
-/// that computes keeps the runtime from running its tasks. Elsewhere the runtime goes on while the program hangs, so the
-/// tick `follows_calls`: it counts only if a call was made since the last report or waits now, or if none was ever made.
+/// It shows life by the calls of its gates ([`called`](Self::called)), and by its regular [`tick`](Self::tick), which a
+/// task of the component's runtime makes. On a current-thread runtime of the program's own, the tick alone is a proof:
+/// a program that computes keeps the runtime from running its tasks. Elsewhere the runtime goes on while the program
+/// hangs, so the tick `follows_calls`: it counts only if a call was made since the last report or waits now, or if none
+/// was ever made.
 pub(crate) struct Member {
     service: Arc<Service>,
     follows_calls: bool,
@@ -54,8 +55,8 @@ impl Member {
         }
     }
 
-    /// How often to tick, if the manager wants to know that the process is alive: four times in its period, so that a call
-    /// that has just begun to wait is reported within half of it.
+    /// How often to tick, if the manager wants to know that the process is alive: four times in its period, so that a
+    /// call that has just begun to wait is reported within half of it.
     pub(crate) fn tick_period(&self) -> Option<Duration> {
         self.service.watchdog.map(|period| (period / 4).max(Duration::from_micros(100)))
     }

@@ -16,8 +16,8 @@ pub(crate) trait WakeCall: Send + Sync {
     /// Wakes it, if there is one.
     fn wake_call(&self);
 
-    /// Returns true if a call waits. `futures`: whether a future that was polled counts, although nobody can tell whether
-    /// it was abandoned.
+    /// Returns true if a call waits. `futures`: whether a future that was polled counts, although nobody can tell
+    /// whether it was abandoned.
     fn waits(&self, futures: bool) -> bool;
 }
 
@@ -46,8 +46,8 @@ impl ComponentState {
 
     /// Ends all waiting calls of the gates with [`BlockingError::Closed`], and refuses later ones.
     ///
-    /// A call that is about to wait sees the flag: it registers its waker first, under a lock that is taken here after the
-    /// flag was set, and checks after that.
+    /// A call that is about to wait sees the flag: it registers its waker first, under a lock that is taken here after
+    /// the flag was set, and checks after that.
     pub(crate) fn end_calls(&self) {
         self.calls_ended.store(true, Ordering::SeqCst);
         lock(&self.waiting_calls).iter().filter_map(Weak::upgrade).for_each(|calls| calls.wake_call());
@@ -73,8 +73,9 @@ impl ComponentState {
         crate::stop::gates_stopped()
     }
 
-    /// Fails if a call that does not wait must not be made any more. A stop request comes before the end of the component,
-    /// which often follows it: programs treat the first as an orderly end, and may handle the second as an error.
+    /// Fails if a call that does not wait must not be made any more. A stop request comes before the end of the
+    /// component, which often follows it: programs treat the first as an orderly end, and may handle the second as an
+    /// error.
     pub(crate) fn may_proceed(&self) -> Result<(), BlockingError> {
         match self.check() {
             Err(BlockingError::Forked) => Err(BlockingError::Forked),
@@ -83,8 +84,8 @@ impl ComponentState {
         }
     }
 
-    /// Fails if the component cannot be closed here and now by a call that blocks the thread. Also after a stop request,
-    /// and on a thread that is ending.
+    /// Fails if the component cannot be closed here and now by a call that blocks the thread. Also after a stop
+    /// request, and on a thread that is ending.
     pub(crate) fn may_close(&self) -> Result<(), BlockingError> {
         if self.is_inherited() {
             return Err(BlockingError::Forked);
@@ -128,8 +129,9 @@ impl ComponentState {
         done.transpose()
     }
 
-    /// How long a blocking call may wait for its socket itself before it drives the component's runtime, if the component
-    /// owns one. That spares the event loop of the runtime, which costs as much as everything else of a round trip.
+    /// How long a blocking call may wait for its socket itself before it drives the component's runtime, if the
+    /// component owns one. That spares the event loop of the runtime, which costs as much as everything else of a round
+    /// trip.
     ///
     /// Messages that were held back to be written together are written first: the peer may have to answer them.
     pub(crate) fn direct_wait(&self) -> Option<Duration> {

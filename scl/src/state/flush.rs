@@ -63,8 +63,8 @@ pub(crate) trait ReceivingEnd: Send {
 
 type Ends = [Arc<Mutex<dyn SendingEnd>>];
 
-/// Waits until peers have taken everything, at most for a given time. Returns what they did not take, and what waits for
-/// peers that are not running.
+/// Waits until peers have taken everything, at most for a given time. Returns what they did not take, and what waits
+/// for peers that are not running.
 pub(super) async fn flush(
     ends: &Ends,
     flush: Flush,

@@ -106,8 +106,8 @@ pub(super) fn start(
     (monitor, task)
 }
 
-/// Writes the figures again and again, as long as the component is open. For a task of the component's runtime: where the
-/// program drives that only now and then, the component's own thread does when no call is under way.
+/// Writes the figures again and again, as long as the component is open. For a task of the component's runtime: where
+/// the program drives that only now and then, the component's own thread does when no call is under way.
 async fn write_stats(monitor: Weak<Monitor>, writer: StatsWriter) {
     loop {
         let mut period = PERIOD;

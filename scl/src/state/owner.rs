@@ -14,8 +14,8 @@ const PAUSE: Duration = Duration::from_micros(20);
 
 /// A component, as its handle and its gates hold it.
 ///
-/// Tasks and other threads hold the component for a moment, too. If one of them dropped it last, it would be closed there,
-/// perhaps after the program has tried to open it again, or not at all because the program has ended.
+/// Tasks and other threads hold the component for a moment, too. If one of them dropped it last, it would be closed
+/// there, perhaps after the program has tried to open it again, or not at all because the program has ended.
 #[derive(Debug)]
 pub(crate) struct Owner(Arc<ComponentState>);
 
@@ -54,7 +54,8 @@ impl Drop for Owner {
     }
 }
 
-/// Waits until nobody else holds a value of which tasks have only weak references, so that dropping it drops its contents.
+/// Waits until nobody else holds a value of which tasks have only weak references, so that dropping it drops its
+/// contents.
 pub(super) fn await_other_users<T: ?Sized>(value: &Arc<T>) {
     let started = Instant::now();
     while Arc::strong_count(value) > 1 && started.elapsed() < LAST_USE {
@@ -91,8 +92,9 @@ mod tests {
         user.join().unwrap();
     }
 
-    /// The promise: the last owner in a forked child touches nothing of the component's runtime. The thread that waits for it
-    /// exists in the parent only, and its stack, where the runtime's lists of waiting calls lead, has another use by then.
+    /// The promise: the last owner in a forked child touches nothing of the component's runtime. The thread that waits
+    /// for it exists in the parent only, and its stack, where the runtime's lists of waiting calls lead, has another
+    /// use by then.
     #[test]
     fn a_forked_child_keeps_the_component_of_its_parent() {
         let runtime = OwnedRuntime::start("gps").unwrap();

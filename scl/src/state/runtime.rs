@@ -1,10 +1,10 @@
 //! Waiting for gates in a program without async.
 //!
 //! The component owns a current-thread runtime. Every blocking call drives it itself, so that no message crosses a
-//! thread; calls from several threads share it: one of them drives, and when that one returns, the next takes over. While
-//! no call is under way, a thread of the component drives it, so that late peers are served and queues drain. That thread
-//! takes over [`IDLE`] after the last call: in a loop at 1 kHz it never does. Calls that have nothing to wait for give
-//! the runtime a turn now and then, or late peers would never be accepted.
+//! thread; calls from several threads share it: one of them drives, and when that one returns, the next takes over.
+//! While no call is under way, a thread of the component drives it, so that late peers are served and queues drain.
+//! That thread takes over [`IDLE`] after the last call: in a loop at 1 kHz it never does. Calls that have nothing to
+//! wait for give the runtime a turn now and then, or late peers would never be accepted.
 
 use crate::error::{BlockingError, OpenError};
 use crate::sync::{is_thread_ending, lock};
@@ -136,8 +136,8 @@ impl OwnedRuntime {
         self.shared.is_driven()
     }
 
-    /// Gives the runtime a turn if one is due. Inside async code, where it cannot be driven, the idle thread does that a
-    /// little later.
+    /// Gives the runtime a turn if one is due. Inside async code, where it cannot be driven, the idle thread does that
+    /// a little later.
     pub(super) fn take_turn(&self) {
         if !self.is_driven() && self.shared.is_turn_due() && refuse_to_wait().is_ok() {
             self.shared.call(|runtime| runtime.block_on(self.shared.with_a_turn(async {})));
@@ -203,8 +203,8 @@ impl Shared {
         ready
     }
 
-    /// Like tokio's `yield_now`, which allocates memory. Returns false if that was no turn, because another call has the
-    /// runtime, and perhaps waits for its own socket: only turns of the runtime may count as such.
+    /// Like tokio's `yield_now`, which allocates memory. Returns false if that was no turn, because another call has
+    /// the runtime, and perhaps waits for its own socket: only turns of the runtime may count as such.
     async fn give_a_turn(&self) -> bool {
         let mut had_turn = None;
         poll_fn(|cx| match had_turn {
@@ -223,8 +223,8 @@ impl Shared {
     }
 
     fn drive_while_idle(&self) {
-        // Now, because a thread that makes its first thread-local value waits while `dlclose` runs a destructor, which may be
-        // waiting for this one.
+        // Now, because a thread that makes its first thread-local value waits while `dlclose` runs a destructor, which
+        // may be waiting for this one.
         prepare_thread();
         while !self.ended.load(Ordering::SeqCst) {
             self.wait_until_idle();

@@ -13,8 +13,8 @@ use tokio::signal::unix::{Signal, SignalKind, signal};
 use tokio::time::Instant;
 use tracing::subscriber::NoSubscriber;
 
-/// Signals that follow one this soon belong to the same request: `timeout` signals its program and then the program's group, and
-/// wrappers pass on a Ctrl-C that the program has had from the terminal.
+/// Signals that follow one this soon belong to the same request: `timeout` signals its program and then the program's
+/// group, and wrappers pass on a Ctrl-C that the program has had from the terminal.
 pub const ONE_REQUEST: Duration = Duration::from_millis(500);
 /// How long the flush after a stop request may take. A program that handles the request itself has it on top of its
 /// grace period.
@@ -83,8 +83,8 @@ fn run(stop: &StopState, grace_period: Duration, started: impl FnOnce(io::Result
     }
 }
 
-/// Requests the stop on the first signal. Returns the exit code when the process has to be ended: on a second signal that is a
-/// request of its own, and when the grace period is over.
+/// Requests the stop on the first signal. Returns the exit code when the process has to be ended: on a second signal
+/// that is a request of its own, and when the grace period is over.
 async fn watch(
     stop: &StopState,
     grace_period: Duration,

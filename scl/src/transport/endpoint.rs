@@ -18,11 +18,12 @@ pub struct Endpoint {
     pub max_size: usize,
     /// The receiving gate's queue of this connection, in messages: what its engine has to have room for. Default: 100.
     pub queue: usize,
-    /// The longest message of this connection, in bytes: what the receiving gate accepts, or the length of all messages of
-    /// a type with a fixed one. Default: 64 MiB.
+    /// The longest message of this connection, in bytes: what the receiving gate accepts, or the length of all messages
+    /// of a type with a fixed one. Default: 64 MiB.
     pub longest: usize,
     /// Whether only the newest message matters to this receiving end, as with `queue: 1`. It then keeps few messages in
-    /// flight, so that [`Receiver::poll_caught_up`](super::Receiver::poll_caught_up) can tell exactly whether the sender has a newer one.
+    /// flight, so that [`Receiver::poll_caught_up`](super::Receiver::poll_caught_up) can tell exactly whether the
+    /// sender has a newer one.
     pub newest_only: bool,
     /// Whether this sending end waits for slow peers instead of dropping messages. It tells them, see
     /// [`Receiver::is_lossless`](super::Receiver::is_lossless).
@@ -32,11 +33,12 @@ pub struct Endpoint {
     /// Whether this publishing end keeps its last message for subscribers that join later. It tells them, see
     /// [`Receiver::is_latched`](super::Receiver::is_latched).
     pub latched: bool,
-    /// For a subscribing end that continues for an earlier one: what a latched publisher is told of both. Default: none, which is
-    /// a new end.
+    /// For a subscribing end that continues for an earlier one: what a latched publisher is told of both. Default:
+    /// none, which is a new end.
     pub resumed: Option<Resumed>,
     /// For a receiving end that passes messages on: how much the sender may have unacknowledged, and that messages are
-    /// acknowledged by [`Receiver::acknowledge`](super::Receiver::acknowledge) only, never because they were returned. Default: none.
+    /// acknowledged by [`Receiver::acknowledge`](super::Receiver::acknowledge) only, never because they were returned.
+    /// Default: none.
     pub deferred: Option<Window>,
     /// Called by a connecting end each time before it connects; an error keeps it from connecting.
     pub check: Option<PeerCheck>,

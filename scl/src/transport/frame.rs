@@ -6,9 +6,9 @@ use std::fmt;
 
 /// A message for a [`Link`](super::Link).
 ///
-/// Most messages are [`Bytes`]. A link that can send memory of its own without copying it, such as shared memory, lends it
-/// with [`Link::loan`](super::Link::loan); the gate fills it and returns it to the same link as a [`Loan`]. If that link is
-/// gone meanwhile, another one is given the loan, and copies it out.
+/// Most messages are [`Bytes`]. A link that can send memory of its own without copying it, such as shared memory, lends
+/// it with [`Link::loan`](super::Link::loan); the gate fills it and returns it to the same link as a [`Loan`]. If that
+/// link is gone meanwhile, another one is given the loan, and copies it out.
 pub enum Frame {
     /// Bytes that any link can send.
     Bytes(Bytes),
@@ -115,14 +115,14 @@ impl fmt::Debug for Frame {
 
 /// Memory that a [`Link`](super::Link) has lent, to be filled and sent over that link without a copy.
 ///
-/// Dropping it gives the memory back; nothing is sent then. What it contains at first is unspecified: zeros, or parts of
-/// older messages.
+/// Dropping it gives the memory back; nothing is sent then. What it contains at first is unspecified: zeros, or parts
+/// of older messages.
 pub struct Loan(Box<dyn LoanedMemory>);
 
 /// What a transport lends.
 ///
-/// The address and the length stay the same until it is dropped. A gate uses memory that is aligned for its message type
-/// only, so it should be aligned to 64 bytes or more.
+/// The address and the length stay the same until it is dropped. A gate uses memory that is aligned for its message
+/// type only, so it should be aligned to 64 bytes or more.
 pub trait LoanedMemory: Any + Send + Sync {
     /// The content.
     fn bytes(&self) -> &[u8];
@@ -130,8 +130,8 @@ pub trait LoanedMemory: Any + Send + Sync {
     /// The content, to be filled.
     fn bytes_mut(&mut self) -> &mut [u8];
 
-    /// The content as bytes, for peers that cannot be sent the memory itself. The default copies and gives the memory back,
-    /// which is right for all memory of which there is not much.
+    /// The content as bytes, for peers that cannot be sent the memory itself. The default copies and gives the memory
+    /// back, which is right for all memory of which there is not much.
     fn into_bytes(self: Box<Self>) -> Bytes {
         Bytes::copy_from_slice(self.bytes())
     }

@@ -6,12 +6,12 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Guarantee {
-    /// [`Link::unacknowledged`](super::Link::unacknowledged) counts messages until the receiving program has taken them, and
-    /// [`Link::request_acknowledgement`](super::Link::request_acknowledgement) asks for the rest. Without it, a flush ends
-    /// when messages are written, and a peer's counts are those of messages handed to the transport.
+    /// [`Link::unacknowledged`](super::Link::unacknowledged) counts messages until the receiving program has taken
+    /// them, and [`Link::request_acknowledgement`](super::Link::request_acknowledgement) asks for the rest. Without it,
+    /// a flush ends when messages are written, and a peer's counts are those of messages handed to the transport.
     Acknowledgement,
-    /// A link refuses messages of a receiver that does not take them, instead of dropping any, and the receiving end knows
-    /// whether its sender relies on that ([`Receiver::is_lossless`](super::Receiver::is_lossless)).
+    /// A link refuses messages of a receiver that does not take them, instead of dropping any, and the receiving end
+    /// knows whether its sender relies on that ([`Receiver::is_lossless`](super::Receiver::is_lossless)).
     Waiting,
     /// A receiving end finds out whether its sender has a newer message
     /// ([`Receiver::poll_caught_up`](super::Receiver::poll_caught_up)).

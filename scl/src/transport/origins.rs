@@ -2,8 +2,8 @@
 
 use std::collections::VecDeque;
 
-/// The senders, by number, of the messages that a listening end has returned and that still wait in its gate. The oldest
-/// are first, with how many of one sender follow each other.
+/// The senders, by number, of the messages that a listening end has returned and that still wait in its gate. The
+/// oldest are first, with how many of one sender follow each other.
 #[derive(Default)]
 pub(super) struct Origins {
     runs: VecDeque<(u64, u64)>,
@@ -29,7 +29,8 @@ impl Origins {
         Some(sender)
     }
 
-    /// Only this number of messages wait, the newest. Calls `gone` with the senders of the others and how many they were.
+    /// Only this number of messages wait, the newest. Calls `gone` with the senders of the others and how many they
+    /// were.
     pub(super) fn keep_newest(&mut self, waiting: u64, mut gone: impl FnMut(u64, u64)) {
         while self.total > waiting
             && let Some((sender, count)) = self.runs.front_mut()

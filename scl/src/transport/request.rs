@@ -26,8 +26,8 @@ pub enum Answer {
 
 /// A requesting end.
 pub trait Requester: Send {
-    /// Ready when the replier is connected. Reconnects by itself. Replies to earlier requests are discarded, so it is not
-    /// called while one is awaited.
+    /// Ready when the replier is connected. Reconnects by itself. Replies to earlier requests are discarded, so it is
+    /// not called while one is awaited.
     fn poll_connected(&mut self, cx: &mut Context<'_>) -> Poll<()>;
 
     /// Sends a request under a number; its reply carries the number back. As many requests as
@@ -50,7 +50,8 @@ pub trait Requester: Send {
         false
     }
 
-    /// Why this end does not connect to the peer that is listening, if its [`Endpoint::check`](super::Endpoint::check) refused it.
+    /// Why this end does not connect to the peer that is listening, if its [`Endpoint::check`](super::Endpoint::check)
+    /// refused it.
     fn refusal(&self) -> Option<String> {
         None
     }
@@ -74,8 +75,8 @@ pub trait ReplyPath: Send + Sync {
     /// The requester has disconnected, or the replying end was dropped.
     fn reply(&self, envelope: &Bytes, body: Bytes) -> Result<(), RequesterGone>;
 
-    /// Tells the requester, if the transport can, that its request will not be answered, because it could not be decoded
-    /// for example: see [`Answer::Refused`]. By default it is told nothing, and waits until its timeout.
+    /// Tells the requester, if the transport can, that its request will not be answered, because it could not be
+    /// decoded for example: see [`Answer::Refused`]. By default it is told nothing, and waits until its timeout.
     fn refuse(&self, envelope: &Bytes) {
         let _cannot = envelope;
     }

@@ -14,7 +14,8 @@ pub trait Sender: Send {
     /// dropping one.
     fn poll_peer(&mut self, cx: &mut Context<'_>) -> Poll<Peer>;
 
-    /// Why this end does not connect to the peer that is listening, if its [`Endpoint::check`](super::Endpoint::check) refused it.
+    /// Why this end does not connect to the peer that is listening, if its [`Endpoint::check`](super::Endpoint::check)
+    /// refused it.
     fn refusal(&self) -> Option<String> {
         None
     }
@@ -43,8 +44,8 @@ pub enum PeerKind {
 
 /// A live connection from a [`Sender`] to one peer. Dropping it disconnects.
 pub trait Link: Send {
-    /// Handles what the peer has sent, and continues writing. The result is for [`send_all`](Self::send_all), which belongs to
-    /// the same turn even if the queue is empty.
+    /// Handles what the peer has sent, and continues writing. The result is for [`send_all`](Self::send_all), which
+    /// belongs to the same turn even if the queue is empty.
     ///
     /// Wakes the task when there is more to do, and when a message that was refused may be sent now.
     ///
@@ -78,8 +79,8 @@ pub trait Link: Send {
         }
     }
 
-    /// Sends a message that is `age` old, because the peer has joined since, and tells the peer so if it understands that.
-    /// The default sends the message alone.
+    /// Sends a message that is `age` old, because the peer has joined since, and tells the peer so if it understands
+    /// that. The default sends the message alone.
     fn send_latched(&mut self, cx: &mut Context<'_>, message: Frame, age: Duration) -> Sent {
         let _the_peer_does_not_learn_it = age;
         self.send(cx, message)
@@ -91,15 +92,16 @@ pub trait Link: Send {
         true
     }
 
-    /// Which end the peer is, and what it has taken before, if this end announced [`Endpoint::latched`](super::Endpoint::latched) and the peer said so. A
-    /// peer of which nothing is known counts as new.
+    /// Which end the peer is, and what it has taken before, if this end announced
+    /// [`Endpoint::latched`](super::Endpoint::latched) and the peer said so. A peer of which nothing is known counts as
+    /// new.
     fn resumed(&self) -> Option<Resumed> {
         None
     }
 
     /// Lends memory of `length` bytes, to be filled and given to [`send`](Self::send). A link that can send such memory
-    /// without copying it offers it here; `None` if it has none, now or ever, or for messages of this length. Then the gate
-    /// takes memory from the heap.
+    /// without copying it offers it here; `None` if it has none, now or ever, or for messages of this length. Then the
+    /// gate takes memory from the heap.
     fn loan(&mut self, length: usize) -> Option<Loan> {
         let _lends_nothing = length;
         None
@@ -113,9 +115,9 @@ pub trait Link: Send {
         0
     }
 
-    /// Number of messages sent that the peer's program has not received yet, as far as the peer has said: those that are
-    /// [unacknowledged](Self::unacknowledged), and those that wait in the peer's gate. It is counted as lost if the link is
-    /// dropped. The default is for a transport that cannot tell the two apart.
+    /// Number of messages sent that the peer's program has not received yet, as far as the peer has said: those that
+    /// are [unacknowledged](Self::unacknowledged), and those that wait in the peer's gate. It is counted as lost if the
+    /// link is dropped. The default is for a transport that cannot tell the two apart.
     fn not_received(&self) -> u64 {
         self.unacknowledged()
     }
@@ -123,8 +125,8 @@ pub trait Link: Send {
     /// Reads what the peer has said before it disconnected; called before the link is dropped. Without a runtime.
     fn read_last(&mut self) {}
 
-    /// Asks the peer to acknowledge everything sent so far, and to say so once its program has received that. The task is
-    /// woken when the answer arrives.
+    /// Asks the peer to acknowledge everything sent so far, and to say so once its program has received that. The task
+    /// is woken when the answer arrives.
     fn request_acknowledgement(&mut self, cx: &mut Context<'_>) {
         let _acknowledges_nothing = cx;
     }
@@ -144,14 +146,15 @@ pub struct Resumed {
 }
 
 impl Resumed {
-    /// An end that has taken nothing yet, with a number that no other has, in any process. Not cryptographically random.
+    /// An end that has taken nothing yet, with a number that no other has, in any process. Not cryptographically
+    /// random.
     pub fn new_end() -> Self {
         Self { end: RandomState::new().hash_one(std::process::id()), taken: 0 }
     }
 }
 
-/// [`Link::drive`] was called in this turn, so what waits is to be offered with [`Link::send_all`]: a link that gathers short
-/// messages writes those that it has returned as [`Sent::Deferred`] then.
+/// [`Link::drive`] was called in this turn, so what waits is to be offered with [`Link::send_all`]: a link that gathers
+/// short messages writes those that it has returned as [`Sent::Deferred`] then.
 #[derive(Debug, Default)]
 #[must_use = "give it to `send_all` in the same turn, even if the queue is empty"]
 pub struct Driven(());

@@ -10,8 +10,8 @@
 //! | reply | ROUTER, accepts | REQ, DEALER | `reply.rs` |
 //!
 //! `zmtp` is the protocol without I/O, `session.rs` a stream that speaks it; `acceptor.rs` and `dialler.rs` make
-//! connections. SCL's ends recognize each other by a property of READY and grant each other credit; plain ZeroMQ programs
-//! see none of that. `docs/zeromq.md` describes it exactly.
+//! connections. SCL's ends recognize each other by a property of READY and grant each other credit; plain ZeroMQ
+//! programs see none of that. `docs/zeromq.md` describes it exactly.
 
 mod acceptor;
 mod burst;

@@ -86,7 +86,8 @@ fn texts_are_understood_or_refused_with_their_wrong_part() {
 #[test]
 fn the_last_exception_for_either_end_counts() {
     let camera = camera();
-    // The transports of the connections to `viewer.frames` and `logger.frames`, of their tap, and of the `pull` gate and its tap.
+    // The transports of the connections to `viewer.frames` and `logger.frames`, of their tap, and of the `pull` gate
+    // and its tap.
     let cases = [
         ("tcp", "tcp tcp tcp tcp tcp"),
         ("ipc,camera.frames=shm", "shm shm shm ipc ipc"),

@@ -38,8 +38,8 @@ impl Closer {
         Self { state: Arc::downgrade(&handle.0) }
     }
 
-    /// Ends all calls that wait, with [`BlockingError::Closed`](crate::BlockingError::Closed), and refuses later ones. It
-    /// does not wait until they have returned. What was sent before can still be flushed, by closing the component.
+    /// Ends all calls that wait, with [`BlockingError::Closed`](crate::BlockingError::Closed), and refuses later ones.
+    /// It does not wait until they have returned. What was sent before can still be flushed, by closing the component.
     ///
     /// In async code, futures of the gates end as well, except that of `peers_changed`.
     pub fn end_calls(&self) {

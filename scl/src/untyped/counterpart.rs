@@ -12,8 +12,8 @@ impl Component {
     /// the same name, without processes, sockets or files.
     ///
     /// Queues, policies and timeouts of the component are those of its plan; of a gate with several connections, the
-    /// first counts. The counterpart drops and refuses nothing, and is called `controller's peers` in errors. All gates are
-    /// connected.
+    /// first counts. The counterpart drops and refuses nothing, and is called `controller's peers` in errors. All gates
+    /// are connected.
     ///
     /// ```
     /// use scl::plan::SystemPlan;

@@ -5,8 +5,8 @@ use crate::state::{ComponentHandle, ComponentState};
 use std::sync::{Arc, Weak};
 use std::time::Duration;
 
-/// Waits for futures of a component's gates from a plain thread, in steps: for bindings to languages that have to look at
-/// something else now and then, for example at signals.
+/// Waits for futures of a component's gates from a plain thread, in steps: for bindings to languages that have to look
+/// at something else now and then, for example at signals.
 #[derive(Clone)]
 pub struct Driver {
     /// Weak, so that it does not keep the component open.
@@ -18,8 +18,8 @@ impl Driver {
         Self { state: Arc::downgrade(&handle.0) }
     }
 
-    /// Waits until a future is ready, no longer than a given time. `None` if it is still pending then; the next call goes
-    /// on with it.
+    /// Waits until a future is ready, no longer than a given time. `None` if it is still pending then; the next call
+    /// goes on with it.
     ///
     /// ```
     /// use scl::plan::SystemPlan;

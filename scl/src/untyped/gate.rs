@@ -61,12 +61,13 @@ impl Gate {
         }
     }
 
-    /// Reports that the program could not decode the message or reply that this gate received last, and does what a gate with
-    /// a codec does then: it is counted ([`GateStats::undecodable`]). `Ok` if the gate skips such messages, so that the
-    /// program receives the next one; they are logged once for each peer. `Ok` also for `pub` and `push`, which receive
-    /// nothing, and for `rep`, see [`reject_request`](Self::reject_request).
+    /// Reports that the program could not decode the message or reply that this gate received last, and does what a
+    /// gate with a codec does then: it is counted ([`GateStats::undecodable`]). `Ok` if the gate skips such messages,
+    /// so that the program receives the next one; they are logged once for each peer. `Ok` also for `pub` and `push`,
+    /// which receive nothing, and for `rep`, see [`reject_request`](Self::reject_request).
     ///
-    /// `reason` says why, after "cannot decode this message: "; by convention it starts in lower case and has no full stop.
+    /// `reason` says why, after "cannot decode this message: "; by convention it starts in lower case and has no full
+    /// stop.
     ///
     /// # Errors
     /// That of a gate with `undecodable: fail` or of a call, which names the possible senders.
@@ -109,8 +110,8 @@ impl Gate {
         }
     }
 
-    /// How old the message is that a `sub` gate returned last, if its publisher had sent it before this gate was connected to it:
-    /// see [`Sub::latched_age`]. `None` for other kinds.
+    /// How old the message is that a `sub` gate returned last, if its publisher had sent it before this gate was
+    /// connected to it: see [`Sub::latched_age`]. `None` for other kinds.
     pub fn latched_age(&self) -> Option<Duration> {
         match self {
             Gate::Sub(gate) => gate.latched_age(),

@@ -1,8 +1,8 @@
 //! Plans as constants that are made at run time.
 //!
 //! Gates, errors and log lines name components and peers by `&'static` references, so that a typed component, whose
-//! specification is a constant, pays nothing for them. The specification of an untyped component is therefore kept until
-//! the process ends: once for each different plan, however often it is opened, and up to [`LIMIT`].
+//! specification is a constant, pays nothing for them. The specification of an untyped component is therefore kept
+//! until the process ends: once for each different plan, however often it is opened, and up to [`LIMIT`].
 
 use crate::error::OpenError;
 use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec, Schema};

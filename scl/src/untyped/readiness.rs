@@ -74,7 +74,8 @@ impl Readiness {
         let stop = state.spawn(async move {
             stop::requested().await;
             stopping.upgrade().into_iter().for_each(|set| set.request_stop());
-            // A program that handles the request has acknowledged it; the end of its grace period ends the calls that wait.
+            // A program that handles the request has acknowledged it; the end of its grace period ends the calls that
+            // wait.
             if !stop::gates_stopped() {
                 stop::until_gates_stopped().await;
                 stopping.upgrade().into_iter().for_each(|set| set.set_woken(true));

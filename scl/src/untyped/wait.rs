@@ -8,8 +8,8 @@ use std::task::{Context, Poll};
 use std::time::Duration;
 
 impl Component {
-    /// Waits until at least one of several gates has a message or a request, and returns the indices of those that have.
-    /// It takes nothing: `try_recv` of such a gate then returns a message.
+    /// Waits until at least one of several gates has a message or a request, and returns the indices of those that
+    /// have. It takes nothing: `try_recv` of such a gate then returns a message.
     ///
     /// # Errors
     /// [`WaitError::Recv`] if a gate cannot be used any more, also after a stop request.
@@ -46,8 +46,8 @@ impl Component {
     /// ```
     ///
     /// # Errors
-    /// Those of `wait_any`; [`WaitError::Timeout`] if nothing arrived in time, [`WaitError::Blocking`] inside async code
-    /// or after a stop request.
+    /// Those of `wait_any`; [`WaitError::Timeout`] if nothing arrived in time, [`WaitError::Blocking`] inside async
+    /// code or after a stop request.
     pub fn wait_any_blocking(
         &self,
         gates: &mut [&mut dyn ReceivingGate],

@@ -1,4 +1,5 @@
-//! Whether peers are connected is noticed at once, also if a call of the program found it out and not a background task.
+//! Whether peers are connected is noticed at once, also if a call of the program found it out and not a background
+//! task.
 
 use super::{LONG, bytes, on_each_transport, on_each_transport_async, plan};
 use scl::untyped::Component;

@@ -77,7 +77,8 @@ fn several_peers_are_one_counterpart() {
     }
 }
 
-/// A gate may lose messages unless its connection is declared lossless, so it is closed at once, whatever the peer has taken.
+/// A gate may lose messages unless its connection is declared lossless, so it is closed at once, whatever the peer has
+/// taken.
 #[test]
 fn what_nobody_received_is_no_failure() {
     for _ in 0..20 {

@@ -1,5 +1,6 @@
 //! Plays `left` or `right` of `topologies/matrix/matrix.yaml`: `matrix COMPONENT`, or, with the plan of another
-//! topology without generated code, `matrix COMPONENT PLAN_FILE`. The commands are those of all programs in `languages`.
+//! topology without generated code, `matrix COMPONENT PLAN_FILE`. The commands are those of all programs in
+//! `languages`.
 
 mod left;
 mod right;

@@ -1,5 +1,5 @@
-//! Programs with nothing but libzmq, through pyzmq, on the connections of SCL programs. Those that no library can play are in
-//! the tests without other languages.
+//! Programs with nothing but libzmq, through pyzmq, on the connections of SCL programs. Those that no library can play
+//! are in the tests without other languages.
 
 use crate::programs::{IMAGES, LATCHED, LISTING1, TWIN, open, open_with};
 use scl::TransportKind;

@@ -1,7 +1,7 @@
 //! Tests that need something which not every machine has.
 //!
-//! Where it is missing, the test is `#[ignore = "needs .."]`, so that cargo counts it. No test may return early instead: it
-//! would pass without testing. `.ci/run` has everything and fails if a test was ignored.
+//! Where it is missing, the test is `#[ignore = "needs .."]`, so that cargo counts it. No test may return early
+//! instead: it would pass without testing. `.ci/run` has everything and fails if a test was ignored.
 
 use proc_macro::{Literal, TokenStream, TokenTree};
 

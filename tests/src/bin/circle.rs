@@ -1,5 +1,5 @@
-//! Plays a component of `circle.yaml` and follows commands: `circle left`. `send 9` sends up to 9 messages, as long as none
-//! has to wait, and prints how many; `take 9` receives 9 messages.
+//! Plays a component of `circle.yaml` and follows commands: `circle left`. `send 9` sends up to 9 messages, as long as
+//! none has to wait, and prints how many; `take 9` receives 9 messages.
 
 use scl::bytes::Bytes;
 use scl::{Pub, Sub};

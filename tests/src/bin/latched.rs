@@ -64,7 +64,8 @@ async fn until_connected(gate: &mut Pub<Bytes>, count: usize) {
     }
 }
 
-/// For each connection whether the account adds up, and how many messages were sent once more, were dropped and were lost.
+/// For each connection whether the account adds up, and how many messages were sent once more, were dropped and were
+/// lost.
 fn accounts(gate: &Pub<Bytes>) -> String {
     let of = |peer: &scl::PeerStats| {
         let dropped = peer.dropped_oldest + peer.dropped_newest;

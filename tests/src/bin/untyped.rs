@@ -1,4 +1,5 @@
-//! Plays `sensor` or `viewer` of a topology in `topologies/shapes` without generated code: `untyped PLAN_FILE COMPONENT`.
+//! Plays `sensor` or `viewer` of a topology in `topologies/shapes` without generated code:
+//! `untyped PLAN_FILE COMPONENT`.
 
 use scl::plan::SystemPlan;
 use scl::untyped::Component;

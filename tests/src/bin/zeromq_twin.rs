@@ -1,7 +1,7 @@
 //! Plays `right` of `twins.yaml` with the sockets of the `zeromq` library: `zeromq_twin NAME=ADDRESS...`.
 //!
-//! `values`, `jobs_in` and `answer` listen; `values_in`, `jobs` and `question` connect. A socket that listens at `tcp:PATH`
-//! chooses a port and writes it to `PATH.tcp`. Commands come line by line.
+//! `values`, `jobs_in` and `answer` listen; `values_in`, `jobs` and `question` connect. A socket that listens at
+//! `tcp:PATH` chooses a port and writes it to `PATH.tcp`. Commands come line by line.
 
 use scl::bytes::Bytes;
 use scl_tests::{Commands, ranges, say};

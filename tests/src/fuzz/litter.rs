@@ -1,4 +1,5 @@
-//! What may lie about in a folder, from bytes: files, links, folders, sockets and pipes, under names like the real ones.
+//! What may lie about in a folder, from bytes: files, links, folders, sockets and pipes, under names like the real
+//! ones.
 
 use arbitrary::{Result, Unstructured};
 use rustix::fs::{CWD, FileType, Mode, mknodat};

@@ -29,8 +29,8 @@ fn stale_and_damaged_files_are_no_obstacle() {
     stage.end([camera, viewer]);
 }
 
-/// A program can be killed between creating a file and giving it a length. To the engine, another program is creating that
-/// file, and it waits.
+/// A program can be killed between creating a file and giving it a length. To the engine, another program is creating
+/// that file, and it waits.
 #[test]
 fn files_that_a_killed_program_had_just_created_are_no_obstacle() {
     let stage = Stage::new();

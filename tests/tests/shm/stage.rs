@@ -9,8 +9,8 @@ use std::fs;
 pub(crate) const IMAGE: usize = 4 << 20;
 /// The queue of the viewer's and the worker's gates.
 pub(crate) const QUEUE: u64 = 4;
-/// At most so many messages have been sent of which the sender does not know yet whether they were received: what is on its
-/// way, what waits at the receiving gate, and what the next acknowledgement will say.
+/// At most so many messages have been sent of which the sender does not know yet whether they were received: what is on
+/// its way, what waits at the receiving gate, and what the next acknowledgement will say.
 pub(crate) const UNKNOWN: u64 = 3 * QUEUE;
 
 /// A runtime folder whose connections use shared memory.
@@ -110,8 +110,9 @@ impl Account {
         Self { published, taken, dropped, lost, waiting }
     }
 
-    /// Asserts that nothing was dropped or lost. The peer acknowledges several messages at once, and says of those in its queue
-    /// later that they were received, so some may count as waiting; that they are taken is shown by [`Stage::end`].
+    /// Asserts that nothing was dropped or lost. The peer acknowledges several messages at once, and says of those in
+    /// its queue later that they were received, so some may count as waiting; that they are taken is shown by
+    /// [`Stage::end`].
     #[track_caller]
     pub(crate) fn assert_all_taken(camera: &mut Process, gate: &str, published: u64) {
         let account = Self::of(camera, gate);

@@ -21,8 +21,8 @@ fn views_beyond_the_limit_are_copied_and_stay_as_they_are() {
     stage.end([camera, viewer]);
 }
 
-/// The promise: the memory of a message goes back to its sender when the program that has received it is done with it, whatever
-/// a forked child does with the copy that it inherits.
+/// The promise: the memory of a message goes back to its sender when the program that has received it is done with it,
+/// whatever a forked child does with the copy that it inherits.
 #[test]
 fn views_that_a_forked_child_drops_are_still_those_of_its_parent() {
     let stage = Stage::new();

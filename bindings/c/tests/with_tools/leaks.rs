@@ -10,8 +10,8 @@ fn valgrind_finds_nothing() {
     let program = Program::new(System::new(), Build::Plain);
     let mut peer = program.peer();
     let mut command = Command::new("valgrind");
-    // Not those that are only possibly lost: plans are kept until the process ends, in a tree that points into the middle of
-    // its nodes.
+    // Not those that are only possibly lost: plans are kept until the process ends, in a tree that points into the
+    // middle of its nodes.
     command.args(["--quiet", "--leak-check=full", "--show-leak-kinds=definite,indirect"]);
     command.args(["--errors-for-leak-kinds=definite,indirect", "--error-exitcode=99"]);
     command.arg(compiled("commands", Build::Plain)).args([program.plan(), "program", ""]);

@@ -1,4 +1,5 @@
-//! The tests of the C library that take more than a C compiler: valgrind, and protoc-c for the examples of the documentation.
+//! The tests of the C library that take more than a C compiler: valgrind, and protoc-c for the examples of the
+//! documentation.
 #![allow(clippy::unwrap_used)]
 
 mod leaks;

@@ -13,7 +13,8 @@ struct Place {
     components: bool,
 }
 
-/// Adds the names to a script that `clap_complete` wrote. Shells that are not listed here complete commands and options.
+/// Adds the names to a script that `clap_complete` wrote. Shells that are not listed here complete commands and
+/// options.
 pub(super) fn add_names(shell: Shell, command_line: &Command, script: String) -> String {
     let places = places(command_line);
     if places.is_empty() {

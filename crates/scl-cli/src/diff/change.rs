@@ -30,8 +30,8 @@ pub(super) enum How {
 /// A part by its name, with what there is to say about it.
 type Part = (String, Vec<Fact>);
 
-/// Every difference: the system, then components, gates and connections, each in the order of the new file after what is
-/// gone; connections in the order of their sending gates.
+/// Every difference: the system, then components, gates and connections, each in the order of the new file after what
+/// is gone; connections in the order of their sending gates.
 pub(super) fn find_changes(old: &Side, new: &Side) -> Vec<Change> {
     let system = |side: &Side| vec![(String::new(), vec![("name", side.system.clone())])];
     let mut changes = compare("system", &system(old), &system(new));

@@ -1,5 +1,5 @@
-//! What differs inside of the schemas: messages that a program built from the old files and one built from the new files
-//! could not exchange. The runtime compares them in the same way before it connects.
+//! What differs inside of the schemas: messages that a program built from the old files and one built from the new
+//! files could not exchange. The runtime compares them in the same way before it connects.
 
 use super::Side;
 use super::change::{Change, How};

@@ -6,8 +6,8 @@ use super::rebuild::Rebuild;
 use super::together::Group;
 use serde_json::{Map, Value, json};
 
-/// A line a difference (`+` new, `-` gone, `~` differs), then the components to rebuild, first those that must be rebuilt
-/// together; nothing if nothing differs.
+/// A line a difference (`+` new, `-` gone, `~` differs), then the components to rebuild, first those that must be
+/// rebuilt together; nothing if nothing differs.
 pub(super) fn report_text(changes: &[Change], groups: &[Group]) -> String {
     let mut text: String = changes.iter().map(change_line).collect();
     if groups.is_empty() && !changes.is_empty() {
@@ -57,7 +57,8 @@ fn shown(value: &str) -> String {
 /// `{"changes":[{"part","name","change","facts"}],"rebuild":[{"component","reasons"}],"together":[["component"]]}`.
 ///
 /// `change` is `added`, `removed` or `changed`; `facts` is an object of values, or of `{"old","new"}` if changed, each
-/// `null` where there is no such fact. `together` has every component to rebuild, with those that must be rebuilt with it.
+/// `null` where there is no such fact. `together` has every component to rebuild, with those that must be rebuilt with
+/// it.
 pub(super) fn report_json(changes: &[Change], groups: &[Group]) -> String {
     let changes: Vec<Value> = changes.iter().map(change_json).collect();
     let rebuild = |it: &Rebuild| json!({ "component": it.component, "reasons": it.reasons });

@@ -130,7 +130,8 @@ impl Reading {
     }
 }
 
-/// What the ends of a gate listen on, unless that is only the default: `shm`, or `ipc to logger.frames; shm to viewer.frames`.
+/// What the ends of a gate listen on, unless that is only the default: `shm`, or
+/// `ipc to logger.frames; shm to viewer.frames`.
 fn transports(component: &Component, gate: &str) -> Option<String> {
     match &component.transports(gate)[..] {
         [] | [("ipc", _)] => None,

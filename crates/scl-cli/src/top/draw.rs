@@ -1,4 +1,5 @@
-//! The layout of the live display. Only the terminal's own sixteen colours are used, so that it suits dark and light ones.
+//! The layout of the live display. Only the terminal's own sixteen colours are used, so that it suits dark and light
+//! ones.
 
 use super::Order;
 use super::rows::{COMPONENT_COLUMNS, GATE_COLUMNS, component_cells, gate_cells, is_text};

@@ -53,8 +53,8 @@ impl Screen {
         Ok(Self { terminal: Self::terminal(size)?, size })
     }
 
-    /// Of a fixed size, because ratatui asks the terminal for its cursor when it follows the size by itself, and would wait
-    /// for the answer that the thread of the keys reads.
+    /// Of a fixed size, because ratatui asks the terminal for its cursor when it follows the size by itself, and would
+    /// wait for the answer that the thread of the keys reads.
     fn terminal((width, height): (u16, u16)) -> io::Result<Terminal<CrosstermBackend<Stdout>>> {
         let viewport = Viewport::Fixed(Rect::new(0, 0, width, height));
         Terminal::with_options(CrosstermBackend::new(stdout()), TerminalOptions { viewport })

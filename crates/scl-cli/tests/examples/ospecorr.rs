@@ -13,8 +13,8 @@ use recording::Recording;
 use serde_json::{Value, json};
 use session::Session;
 
-/// The parts of Figure 7, each with the time at which it is killed, in seconds of the band's clock. Primary users come at
-/// 4 s, 8 s and so on, so the radio is on its new channel by then.
+/// The parts of Figure 7, each with the time at which it is killed, in seconds of the band's clock. Primary users come
+/// at 4 s, 8 s and so on, so the radio is on its new channel by then.
 const KILLS: [(f64, &str); 5] = [
     (9.5, "signal_detector"),
     (13.5, "link_optimizer"),

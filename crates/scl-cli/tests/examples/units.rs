@@ -1,5 +1,5 @@
-//! The unit tests of the examples' components in C, C++ and Python, as `build LANGUAGE check` builds and runs them. Those
-//! in Rust are tests of the examples' crates.
+//! The unit tests of the examples' components in C, C++ and Python, as `build LANGUAGE check` builds and runs them.
+//! Those in Rust are tests of the examples' crates.
 
 use crate::{example, lock_machine};
 use std::process::Command;

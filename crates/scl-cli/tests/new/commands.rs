@@ -43,7 +43,8 @@ fn commands_and_options_exist() {
     }
 }
 
-/// Each command in a line, alone and with each of its options: `scl run --for 5s`, in a line of its own or in backticks.
+/// Each command in a line, alone and with each of its options: `scl run --for 5s`, in a line of its own or in
+/// backticks.
 fn commands(line: &str) -> impl Iterator<Item = (String, Option<String>)> {
     let in_prose = line.split('`').skip(1).step_by(2);
     let alone = (!line.contains('`')).then_some(line);

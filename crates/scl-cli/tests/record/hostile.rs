@@ -1,5 +1,5 @@
-//! Recordings with lengths that nothing in the file backs: no command reserves memory for them, and none replaces a file
-//! by less than it had.
+//! Recordings with lengths that nothing in the file backs: no command reserves memory for them, and none replaces a
+//! file by less than it had.
 
 use crate::system::System;
 use mcap::Compression;

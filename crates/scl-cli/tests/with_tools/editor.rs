@@ -25,8 +25,8 @@ fn settings() -> Vec<Value> {
     blocks.map(|block| serde_json::from_str(block).unwrap()).collect()
 }
 
-/// What the regular expressions of VS Code find in a text, as it reads problems of several lines: each pattern takes the
-/// line after the one before.
+/// What the regular expressions of VS Code find in a text, as it reads problems of several lines: each pattern takes
+/// the line after the one before.
 const MATCH: &str = r#"
 const [matcher, text] = JSON.parse(require("fs").readFileSync(0, "utf8"));
 const lines = text.split("\n"), found = [];

@@ -1,5 +1,5 @@
-//! The tests of the command line that take more than Rust and a C compiler: other languages, editors, readers of recordings,
-//! programs in Python that `scl run` starts, and the benchmarks, which are a feature.
+//! The tests of the command line that take more than Rust and a C compiler: other languages, editors, readers of
+//! recordings, programs in Python that `scl run` starts, and the benchmarks, which are a feature.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 #[cfg(feature = "bench")]

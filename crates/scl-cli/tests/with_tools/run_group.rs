@@ -1,11 +1,13 @@
-//! Programs of several processes: what runs between `scl run` and a program, such as a shell, does not cut its end short.
+//! Programs of several processes: what runs between `scl run` and a program, such as a shell, does not cut its end
+//! short.
 
 use crate::system::{FOREVER, SpawnGuarded, Started, System, kill, wait_for_writers_to_end};
 use std::io::{Read, Write};
 use std::os::unix::fs::PermissionsExt;
 use std::os::unix::net::UnixStream;
 
-/// Closes its valves when it is asked to stop, which takes until the pipe `go` is written to. A second signal ends it at once.
+/// Closes its valves when it is asked to stop, which takes until the pipe `go` is written to. A second signal ends it
+/// at once.
 const VALVES: &str = "\
 #!/usr/bin/env python3
 import os, signal

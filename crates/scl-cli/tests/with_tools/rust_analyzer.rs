@@ -140,7 +140,8 @@ fn a_broken_topology_is_the_only_error() {
     }
 }
 
-/// rust-analyzer reads the topology when it expands the macro, and again when the call changes, as `docs/editor.md` says.
+/// rust-analyzer reads the topology when it expands the macro, and again when the call changes, as `docs/editor.md`
+/// says.
 #[needs("rust-analyzer")]
 #[test]
 fn a_changed_topology_is_read_again_when_its_call_changes() {

@@ -109,8 +109,8 @@ impl Announcements {
     }
 }
 
-/// The answer to a query for a part of an announcement. Tells the thread what became of it, also if it is dropped without a
-/// reply.
+/// The answer to a query for a part of an announcement. Tells the thread what became of it, also if it is dropped
+/// without a reply.
 pub(super) struct Answer {
     commands: Commands,
     key: String,

@@ -1,7 +1,7 @@
 //! The configuration of the network library.
 //!
-//! Every key is written out, also where the default would do, because defaults and even keys change between its versions;
-//! unknown keys are errors, and a test reads all of them back.
+//! Every key is written out, also where the default would do, because defaults and even keys change between its
+//! versions; unknown keys are errors, and a test reads all of them back.
 
 use std::net::{IpAddr, TcpListener};
 
@@ -11,8 +11,8 @@ use super::access;
 use super::error::WireError;
 use super::options::{Peer, WireOptions};
 
-/// A link without any sign of life for this long is closed. A loaded machine must not get there, and a dead link should be
-/// noticed soon.
+/// A link without any sign of life for this long is closed. A loaded machine must not get there, and a dead link should
+/// be noticed soon.
 pub(super) const LEASE_MS: u32 = 2000;
 /// Signs of life per lease.
 const KEEP_ALIVE: u64 = 5;
@@ -21,7 +21,8 @@ const RETRY_MS: u64 = 250;
 /// Longest attempt. A lost SYN is repeated after 1 s and then after 3 s, so a new attempt after 2 s is sooner.
 const OPEN_TIMEOUT_MS: u64 = 2000;
 
-/// Longest TLS handshake of a host that connects, which takes one round trip of the network. Strangers hold one for so long.
+/// Longest TLS handshake of a host that connects, which takes one round trip of the network. Strangers hold one for so
+/// long.
 const HANDSHAKE_MS: u64 = 1000;
 
 /// Checks the options, and returns the configuration as JSON.

@@ -1,5 +1,5 @@
-//! Why other hosts cannot be reached. The network library only logs it, at every attempt; this keeps the newest reason for
-//! each address, and the gateway logs it when it is new.
+//! Why other hosts cannot be reached. The network library only logs it, at every attempt; this keeps the newest reason
+//! for each address, and the gateway logs it when it is new.
 
 use std::collections::BTreeMap;
 use std::fmt;

@@ -1,7 +1,7 @@
 //! Checksums of TCP and UDP over IPv4.
 //!
-//! Between virtual network devices the kernel leaves them out, because nothing can damage a frame there. A frame that was
-//! read and is written again has to have them, else its receiver discards it.
+//! Between virtual network devices the kernel leaves them out, because nothing can damage a frame there. A frame that
+//! was read and is written again has to have them, else its receiver discards it.
 
 const ETHERNET: usize = 14;
 const IPV4: [u8; 2] = [0x08, 0x00];

@@ -30,7 +30,8 @@ async fn accounts_are_exact_while_the_subscriber_starts_again_and_again() {
     let mut controller = hosts.ground.open("controller").await;
     let mut received = controller.subscriber("samples").unwrap();
     sensor.ready(LONG).await.unwrap();
-    // What a gateway has taken while the controller was away counts as taken, and is in the gateway until it is carried.
+    // What a gateway has taken while the controller was away counts as taken, and is in the gateway until it is
+    // carried.
     let is_settled = || samples.peer_stats()[0].waiting == 0 && hosts.figures("samples").iter().all(|host| host.2 == 0);
     while !is_settled() {
         tokio::select! {

@@ -48,7 +48,8 @@ struct Sender<'a, G> {
 }
 
 /// Sends what it is told until there are no more commands:
-/// - `send COUNT RATE SIZE`: COUNT messages (0: without end), RATE of them per second (0: as fast as the gate takes them);
+/// - `send COUNT RATE SIZE`: COUNT messages (0: without end), RATE of them per second (0: as fast as the gate takes
+///   them);
 /// - `stop`;
 /// - `left`: how many are still to be sent, and the mark that all messages of this run have;
 /// - `account PEER`: what has become of the messages to a peer;

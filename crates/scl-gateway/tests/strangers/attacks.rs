@@ -16,7 +16,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-/// How many connections are held that never finish their handshake: more than a process may have file descriptors by default.
+/// How many connections are held that never finish their handshake: more than a process may have file descriptors by
+/// default.
 const HELD: usize = 1200;
 /// Addresses from which connections are made, of the last part of 10.77.0.0/24.
 const ADDRESSES: u64 = 100;

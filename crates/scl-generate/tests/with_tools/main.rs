@@ -1,4 +1,5 @@
-//! The tests of generated code that compile it with the messages of its schemas, for which protoc and libraries are needed.
+//! The tests of generated code that compile it with the messages of its schemas, for which protoc and libraries are
+//! needed.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod c;

@@ -41,8 +41,8 @@ fn a_program_in_c_tests_a_component() {
 
 const SCHEMA: &str = "syntax = \"proto3\"; package rover; message SensorPeer {}";
 
-/// The checker refuses the component `sensor_peer` beside `sensor` (SCL0308), whatever the language. In C, other names may be
-/// one, too.
+/// The checker refuses the component `sensor_peer` beside `sensor` (SCL0308), whatever the language. In C, other names
+/// may be one, too.
 #[test]
 fn names_of_a_counterpart_in_c_are_refused() {
     let yaml = "\

@@ -31,8 +31,8 @@ impl Schemas {
     }
 }
 
-/// The files among `all` that declare these messages, with all that they import, each after those that it imports if that
-/// is the order of `all`.
+/// The files among `all` that declare these messages, with all that they import, each after those that it imports if
+/// that is the order of `all`.
 pub fn files_for<'a>(
     all: &'a [FileDescriptorProto],
     messages: &BTreeSet<&str>,

@@ -17,8 +17,8 @@ const DISK: &str = "disk";
 /// The longest path of a Unix socket in bytes.
 const SOCKET_PATH: usize = 107;
 
-/// The room for the name of a system and that of a socket below which usual names may not fit: the checker shortens names so
-/// that they fit into the longest default folder, `/run/user/4294967295/scl`.
+/// The room for the name of a system and that of a socket below which usual names may not fit: the checker shortens
+/// names so that they fit into the longest default folder, `/run/user/4294967295/scl`.
 const USUAL_NAMES: usize = SOCKET_PATH - "/run/user/4294967295/scl/".len();
 
 /// Less free memory or disk than this is about to become a problem.

@@ -47,8 +47,8 @@ fn has_capability(status: &str, capability: u32) -> bool {
     effective.is_some_and(|mask| mask & (1 << capability) != 0)
 }
 
-/// The control group of the first version for processor time, by the text of /proc/<pid>/cgroup. The second version does not
-/// divide real-time.
+/// The control group of the first version for processor time, by the text of /proc/<pid>/cgroup. The second version
+/// does not divide real-time.
 fn processor_group(groups: &str) -> Option<&str> {
     groups.lines().find_map(|line| {
         let (_, rest) = line.split_once(':')?;

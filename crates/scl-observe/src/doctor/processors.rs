@@ -1,4 +1,5 @@
-//! Processors whose frequency is lowered while they are idle, which costs the first message after a pause some microseconds.
+//! Processors whose frequency is lowered while they are idle, which costs the first message after a pause some
+//! microseconds.
 
 use super::{Examined, Finding};
 use std::collections::BTreeSet;

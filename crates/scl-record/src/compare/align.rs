@@ -1,7 +1,7 @@
 //! Pairs the messages of one topic, and finds those that only one recording has.
 //!
-//! Equal messages are paired in order. Where they differ, the place is searched from which on the recordings agree again:
-//! first where the gate's own numbers say that messages are missing, then by their content.
+//! Equal messages are paired in order. Where they differ, the place is searched from which on the recordings agree
+//! again: first where the gate's own numbers say that messages are missing, then by their content.
 
 use super::CompareOptions;
 use super::report::{Difference, DifferenceKind, GateComparison};
@@ -15,8 +15,8 @@ use std::time::Duration;
 const WINDOW: usize = 16 << 10;
 const WINDOW_BYTES: usize = 32 << 20;
 
-/// Up to this distance, so many messages may be missing on both sides at once. Trying that at any distance would take too
-/// long.
+/// Up to this distance, so many messages may be missing on both sides at once. Trying that at any distance would take
+/// too long.
 const NEAR: usize = 256;
 const BOTH: usize = 16;
 

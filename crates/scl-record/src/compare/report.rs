@@ -35,7 +35,8 @@ pub struct GateComparison {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Difference {
     pub kind: DifferenceKind,
-    /// Number of the message among those of its topic, from 0, in the first recording (an additional one: in the second).
+    /// Number of the message among those of its topic, from 0, in the first recording (an additional one: in the
+    /// second).
     pub index: u64,
     /// Number of messages in a row that are missing or additional; otherwise 1.
     pub count: u64,

@@ -55,7 +55,8 @@ impl<'a> Collector<'a> {
         Self { system, taps, queue, trigger, notes, losses: Vec::new(), plans, unconnected: initial, initial }
     }
 
-    /// Collects until a signal of `stop`, until `run_for` has passed, or until the storage stops. The queue ends with that.
+    /// Collects until a signal of `stop`, until `run_for` has passed, or until the storage stops. The queue ends with
+    /// that.
     pub(crate) async fn run(
         mut self,
         (mut stop, mut save): (StopSignals, Signal),

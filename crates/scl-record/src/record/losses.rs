@@ -22,8 +22,8 @@ impl Losses {
         Self { next: Some(0), sent_ns: 0, pending: 0 }
     }
 
-    /// Returns true if this is the message that was seen last: a latched gate shows its last one again when the recorder
-    /// reconnects.
+    /// Returns true if this is the message that was seen last: a latched gate shows its last one again when the
+    /// recorder reconnects.
     pub(crate) fn is_last(&self, sequence: u64, sent_ns: u64) -> bool {
         self.next == Some(sequence + 1) && self.sent_ns == sent_ns
     }

@@ -3,8 +3,8 @@
 use scl_terminal::Problem;
 use std::path::{Path, PathBuf};
 
-/// The files that an argument of the command line names: a file, a pattern such as `flight_*.mcap`, or the name that was
-/// given to `scl record --split`, whose parts have a number at their end.
+/// The files that an argument of the command line names: a file, a pattern such as `flight_*.mcap`, or the name that
+/// was given to `scl record --split`, whose parts have a number at their end.
 ///
 /// # Errors
 /// No file has such a name.

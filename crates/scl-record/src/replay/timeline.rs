@@ -8,8 +8,8 @@ use std::ops::Range;
 use tokio::sync::mpsc;
 
 /// Messages arrive at the recorder in almost the order in which they were sent. This is how late one may be, in
-/// nanoseconds, to be put in its place. On a busy machine a recorder that could not run for a second reads the backlog of
-/// one gate after that of another.
+/// nanoseconds, to be put in its place. On a busy machine a recorder that could not run for a second reads the backlog
+/// of one gate after that of another.
 const WINDOW: u64 = 2_000_000_000;
 /// The most messages and bytes that are held to be put in order.
 const MOST_MESSAGES: usize = 65_536;

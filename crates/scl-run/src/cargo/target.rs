@@ -12,7 +12,8 @@ pub(crate) enum Target {
     Only,
     Bin(String),
     Example(String),
-    /// The one with the name of this component. Cargo targets are often named with hyphens, which its name cannot contain.
+    /// The one with the name of this component. Cargo targets are often named with hyphens, which its name cannot
+    /// contain.
     OfComponent(String),
 }
 

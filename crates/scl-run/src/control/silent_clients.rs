@@ -1,5 +1,5 @@
-//! The clients of the control socket that have not sent a request yet. A new client always gets a place: the oldest of them
-//! is disconnected for it, so that clients that say nothing do not keep others out.
+//! The clients of the control socket that have not sent a request yet. A new client always gets a place: the oldest of
+//! them is disconnected for it, so that clients that say nothing do not keep others out.
 
 use std::collections::VecDeque;
 use std::io;

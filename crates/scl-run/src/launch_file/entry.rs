@@ -52,8 +52,8 @@ impl Opens {
 }
 
 impl LaunchComponent {
-    /// The components that its program may open, for the program; `topology` is the name of the system in its topology file.
-    /// `None` if it may open any. What plays a recording is told the component's name itself.
+    /// The components that its program may open, for the program; `topology` is the name of the system in its topology
+    /// file. `None` if it may open any. What plays a recording is told the component's name itself.
     pub(crate) fn expected(&self, topology: Option<&str>) -> Option<String> {
         let also: &[String] = match &self.opens {
             _ if matches!(self.source, Source::Replay(_)) => return None,

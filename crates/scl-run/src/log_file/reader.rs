@@ -26,8 +26,8 @@ impl LogReader {
         Self { folder, component, current: None, is_complete: false, line: Vec::new() }
     }
 
-    /// The next entry; `None` at the end so far. Calling it again later returns what was written meanwhile. Lines that are no
-    /// entries are passed over.
+    /// The next entry; `None` at the end so far. Calling it again later returns what was written meanwhile. Lines that
+    /// are no entries are passed over.
     ///
     /// # Errors
     /// A file cannot be opened or read.

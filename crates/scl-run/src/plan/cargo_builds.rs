@@ -6,8 +6,8 @@ use super::super::program::{Build, Program};
 use super::{Built, RunPlan};
 use scl_terminal::Problem;
 
-/// Adds what makes a component's program to the builds: to one that differs only in the program that it makes, if there is
-/// one, because cargo builds several in one go.
+/// Adds what makes a component's program to the builds: to one that differs only in the program that it makes, if there
+/// is one, because cargo builds several in one go.
 pub(super) fn add(builds: &mut Vec<Build>, program: Program, component: &str, cargo: &CargoRun) -> MadeByCargo {
     let is_same = |build: &Build| match &build.cargo_choices {
         // Without a choice, cargo builds all programs.

@@ -144,7 +144,8 @@ impl<'d> Sizes<'d> {
         }
     }
 
-    /// Only Rust has messages in place, unless they could contain the outer one. The entries of a map are no part of a message.
+    /// Only Rust has messages in place, unless they could contain the outer one. The entries of a map are no part of a
+    /// message.
     fn is_inline(&self, message: usize, inner: usize) -> bool {
         self.language == Language::Rust && (self.is_entry(message) || !self.reached[inner].contains(&message))
     }

@@ -4,8 +4,8 @@ use super::draft::Draft;
 use crate::work;
 use std::collections::{HashMap, HashSet, VecDeque};
 
-/// How many circles of one knot are reported. Most knots have one; in a larger one, the first few show what is wrong, and
-/// breaking them breaks many others.
+/// How many circles of one knot are reported. Most knots have one; in a larger one, the first few show what is wrong,
+/// and breaking them breaks many others.
 const MOST_OF_A_KNOT: usize = 3;
 
 /// A headline names no more components.
@@ -96,8 +96,8 @@ impl Graph {
         None
     }
 
-    /// The knot of each component: all members of a knot reach each other. After Tarjan (1972), on a stack of its own: a
-    /// file may be one long chain.
+    /// The knot of each component: all members of a knot reach each other. After Tarjan (1972), on a stack of its own:
+    /// a file may be one long chain.
     pub(super) fn knots(&self) -> Vec<usize> {
         const NEW: usize = usize::MAX;
         let count = self.steps.len();

@@ -70,8 +70,8 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     }
 }
 
-/// Whether the name, or the Rust name that is made of it, cannot be a name even with `r#`. Names that start with `__` are
-/// reserved, which is another rule.
+/// Whether the name, or the Rust name that is made of it, cannot be a name even with `r#`. Names that start with `__`
+/// are reserved, which is another rule.
 fn is_unusable(noun: Noun, name: &str) -> bool {
     !name.starts_with("__") && (is_unescapable(name) || is_well_formed(name) && is_unescapable(&rust_name(noun, name)))
 }

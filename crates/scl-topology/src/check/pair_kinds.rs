@@ -122,7 +122,8 @@ fn doing(kind: GateKind) -> &'static str {
     }
 }
 
-/// What `gate` could be connected to in the component of `other`: the gate of its own name, else the only one that fits.
+/// What `gate` could be connected to in the component of `other`: the gate of its own name, else the only one that
+/// fits.
 fn fitting(draft: &Draft<'_>, gate: usize, other: usize) -> Option<String> {
     let wanted = draft.gates[gate].kind?.opposite();
     let fits: Vec<usize> = draft

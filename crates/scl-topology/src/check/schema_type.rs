@@ -79,8 +79,8 @@ impl<'s> Known<'s> {
         self.roots.contains(root(dotted))
     }
 
-    /// The messages that an unknown type may mean. For a type outside of the schemas' packages, only those whose package
-    /// is misspelt or missing: any other is a Rust path.
+    /// The messages that an unknown type may mean. For a type outside of the schemas' packages, only those whose
+    /// package is misspelt or missing: any other is a Rust path.
     ///
     /// `may_search` is asked before a search that takes long in a file with very many types.
     fn nearest(&self, dotted: &str, mut may_search: impl FnMut() -> bool) -> Vec<&'s str> {

@@ -93,8 +93,8 @@ fn snippet(chunk: &Chunk) -> Snippet<'_, Annotation<'_>> {
     Snippet::source(chunk.text.as_str()).line_start(chunk.first_line as usize).annotations(annotations)
 }
 
-/// Makes one excerpt of the chunks of a file. The renderer writes `|` and `:::` before each snippet without a path: after
-/// the path, only `|` is needed; between two chunks `...` stands for the lines that are not shown.
+/// Makes one excerpt of the chunks of a file. The renderer writes `|` and `:::` before each snippet without a path:
+/// after the path, only `|` is needed; between two chunks `...` stands for the lines that are not shown.
 fn joined(text: &str, chunks: impl Iterator<Item = usize>) -> String {
     let mut is_first = chunks.flat_map(|count| (0..count).map(|chunk| chunk == 0));
     let mut out: Vec<Cow<'_, str>> = Vec::new();

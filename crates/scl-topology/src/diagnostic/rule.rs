@@ -25,8 +25,8 @@ pub struct Rule {
     pub title: &'static str,
     /// What it means, why it matters and how to fix it, in some sentences.
     pub explanation: &'static str,
-    /// A topology with the mistake and its correction, as the lines of a diff: `-` begins a line with the mistake, `+` a
-    /// corrected one, and a space a line of both. Rules about Rust code show Rust. Empty if no example is short.
+    /// A topology with the mistake and its correction, as the lines of a diff: `-` begins a line with the mistake, `+`
+    /// a corrected one, and a space a line of both. Rules about Rust code show Rust. Empty if no example is short.
     pub example: &'static str,
 }
 

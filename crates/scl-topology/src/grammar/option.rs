@@ -279,8 +279,8 @@ impl GateOption {
         Ok(())
     }
 
-    /// The value as in the file. None for `doc` and `codec`, whose values are not among [`DeclaredOptions`], and where no
-    /// word stands for the value.
+    /// The value as in the file. None for `doc` and `codec`, whose values are not among [`DeclaredOptions`], and where
+    /// no word stands for the value.
     pub fn get(&self, options: &DeclaredOptions) -> Option<String> {
         let mut program = options.program.clone();
         Some(match self.home() {

@@ -38,12 +38,12 @@ impl From<ConditionMismatch> for Problem {
 }
 
 impl Condition {
-    /// Checks that the condition may hold for messages of a type. If the type is not known, every field may be there and
-    /// have any value.
+    /// Checks that the condition may hold for messages of a type. If the type is not known, every field may be there
+    /// and have any value.
     ///
     /// # Errors
-    /// The type has no such field, a field alone is not a boolean, or values are compared that are never equal, such as a
-    /// text and a number.
+    /// The type has no such field, a field alone is not a boolean, or values are compared that are never equal, such as
+    /// a text and a number.
     pub fn check(&self, messages: &MessageType) -> Result<(), ConditionMismatch> {
         self.root.check(messages)
     }

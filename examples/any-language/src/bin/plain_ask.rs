@@ -1,4 +1,5 @@
-//! Asks `station` for another temperature in the place of `panel`, with the `zeromq` library alone: `plain_ask CELSIUS`.
+//! Asks `station` for another temperature in the place of `panel`, with the `zeromq` library alone:
+//! `plain_ask CELSIUS`.
 
 use serde_json::{Value, json};
 use std::{env, error::Error, fs, os::unix::fs::MetadataExt, time::Duration};

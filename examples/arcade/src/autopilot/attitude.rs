@@ -1,8 +1,8 @@
 //! Attitude estimation: a complementary filter of angular rates and angles.
 //!
 //! The passive filter on unit quaternions of Mahony, Hamel and Pflimlin, Nonlinear Complementary Filters on the Special
-//! Orthogonal Group, 2008, section IV-C. Rates are exact for a short time but drift; the unit's own angles do not drift but
-//! are noisy.
+//! Orthogonal Group, 2008, section IV-C. Rates are exact for a short time but drift; the unit's own angles do not drift
+//! but are noisy.
 
 use super::parameters::Parameters;
 use super::quaternion::Quaternion;

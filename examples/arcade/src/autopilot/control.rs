@@ -1,8 +1,8 @@
 //! Control: a cascade from position to velocity, attitude and angular rates.
 //!
-//! Position P, velocity PI with feed-forward, attitude P on quaternions, rates PID, as PX4's multicopter controllers; the
-//! attitude law is that of Brescianini, Hehn and D'Andrea, Nonlinear Quadrocopter Attitude Control, 2013. Integrators stop
-//! where an actuator has reached its limit (Astrom and Hagglund, PID Controllers, 1995, section 3.5).
+//! Position P, velocity PI with feed-forward, attitude P on quaternions, rates PID, as PX4's multicopter controllers;
+//! the attitude law is that of Brescianini, Hehn and D'Andrea, Nonlinear Quadrocopter Attitude Control, 2013.
+//! Integrators stop where an actuator has reached its limit (Astrom and Hagglund, PID Controllers, 1995, section 3.5).
 
 use super::mixer::Demand;
 use super::parameters::Parameters;
@@ -37,7 +37,8 @@ pub struct VelocityController {
 }
 
 impl VelocityController {
-    /// `level`: the horizontal position is unknown, so only what the integral has learned of the wind is held against it.
+    /// `level`: the horizontal position is unknown, so only what the integral has learned of the wind is held against
+    /// it.
     pub fn update(
         &mut self,
         set_point: &SetPoint,

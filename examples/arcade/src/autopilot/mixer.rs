@@ -1,7 +1,7 @@
 //! Mixing: from collective thrust and torques to the set-points of four motors.
 //!
-//! When the motors cannot give everything, roll and pitch come first, because they keep the vehicle upright; then thrust,
-//! then yaw (as "airmode" in PX4's control allocation).
+//! When the motors cannot give everything, roll and pitch come first, because they keep the vehicle upright; then
+//! thrust, then yaw (as "airmode" in PX4's control allocation).
 
 use super::vector::Vec3;
 

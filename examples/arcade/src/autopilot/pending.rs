@@ -1,7 +1,7 @@
 //! Messages that wait for the beat at which they take effect.
 //!
-//! A message takes effect at a time of its own rather than when it arrives. As long as it arrives before that, the outcome
-//! does not depend on the operating system's schedule, and a recorded flight can be repeated exactly.
+//! A message takes effect at a time of its own rather than when it arrives. As long as it arrives before that, the
+//! outcome does not depend on the operating system's schedule, and a recorded flight can be repeated exactly.
 
 /// More would mean that the beat has stopped; then the oldest are of no use.
 const CAPACITY: usize = 8;

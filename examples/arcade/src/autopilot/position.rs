@@ -1,10 +1,10 @@
 //! Estimation of position and velocity: complementary filters of acceleration, GPS and height sensors.
 //!
-//! Accelerations are integrated, which is exact for seconds; slow measurements correct what drifts (Higgins, A Comparison of
-//! Complementary and Kalman Filtering, 1975). The vertical filter is of third order with equal poles, so that it also learns
-//! the bias of the acceleration (ArduPilot's `AP_InertialNav`). A measurement is compared with the estimate of the time at
-//! which it was taken, from a ring of past estimates (Larsen et al., Incorporation of Time Delayed Measurements in a
-//! Discrete-time Kalman Filter, 1998).
+//! Accelerations are integrated, which is exact for seconds; slow measurements correct what drifts (Higgins, A
+//! Comparison of Complementary and Kalman Filtering, 1975). The vertical filter is of third order with equal poles, so
+//! that it also learns the bias of the acceleration (ArduPilot's `AP_InertialNav`). A measurement is compared with the
+//! estimate of the time at which it was taken, from a ring of past estimates (Larsen et al., Incorporation of Time
+//! Delayed Measurements in a Discrete-time Kalman Filter, 1998).
 
 use super::parameters::Parameters;
 use super::quaternion::Quaternion;
@@ -89,8 +89,8 @@ impl PositionEstimator {
         self.next = (self.next + 1) % HISTORY;
     }
 
-    /// The newest estimate that is not newer than `time_us`. None if it is older than all of them, for example because it
-    /// is of the time before a restart.
+    /// The newest estimate that is not newer than `time_us`. None if it is older than all of them, for example because
+    /// it is of the time before a restart.
     fn past(&self, time_us: u64) -> Option<Past> {
         for age in 1..=HISTORY {
             let past = self.history[(self.next + HISTORY - age) % HISTORY];

@@ -1,4 +1,5 @@
-//! Rotations as unit quaternions (Diebel, Representing Attitude: Euler Angles, Unit Quaternions, and Rotation Vectors, 2006).
+//! Rotations as unit quaternions (Diebel, Representing Attitude: Euler Angles, Unit Quaternions, and Rotation Vectors,
+//! 2006).
 
 use super::vector::Vec3;
 

@@ -1,7 +1,7 @@
 //! What survives a crash: a file with two copies of the autopilot's state.
 //!
-//! A program that is killed while it writes one copy leaves the other; sequence number and checksum tell which copy is the
-//! newest complete one. The operating system keeps what was written even if the program is killed.
+//! A program that is killed while it writes one copy leaves the other; sequence number and checksum tell which copy is
+//! the newest complete one. The operating system keeps what was written even if the program is killed.
 
 use std::fs::{File, OpenOptions};
 use std::io;

@@ -1,7 +1,8 @@
 //! The moving set-point on the way to a target, with limited speed and acceleration.
 //!
-//! The vehicle follows a point that starts, cruises and brakes as the vehicle itself can, so the controllers stay in their
-//! linear range. Braking follows the square-root law of ArduPilot's position controller, with a linear part near the target.
+//! The vehicle follows a point that starts, cruises and brakes as the vehicle itself can, so the controllers stay in
+//! their linear range. Braking follows the square-root law of ArduPilot's position controller, with a linear part near
+//! the target.
 
 use super::parameters::Parameters;
 use super::vector::{Vec3, angle_between, limit};

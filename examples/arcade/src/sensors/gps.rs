@@ -1,6 +1,7 @@
 //! A GPS receiver: what it measures of the true position, with its errors.
 //!
-//! In the system this is the program `gps_sensor`; the simulator needs it for its serial port, and tests for their flights.
+//! In the system this is the program `gps_sensor`; the simulator needs it for its serial port, and tests for their
+//! flights.
 
 use crate::arcade::{self, Fix, FixQuality};
 use crate::geodesy::{self, Home};

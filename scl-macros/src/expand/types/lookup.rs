@@ -1,4 +1,5 @@
-//! Which types of a file need a lookup: their path may name nothing, as [`found_types`](super::super::found_types) explains.
+//! Which types of a file need a lookup: their path may name nothing, as [`found_types`](super::super::found_types)
+//! explains.
 
 use super::path;
 use proc_macro2::{Span, TokenStream};

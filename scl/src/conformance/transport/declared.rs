@@ -16,8 +16,8 @@ pub fn declares(transport: &dyn Transport, tested: &[Guarantee]) {
     );
 }
 
-/// What the receiver has not taken is counted as unacknowledged: at least the messages that it would need to acknowledge
-/// one by one if it took them now.
+/// What the receiver has not taken is counted as unacknowledged: at least the messages that it would need to
+/// acknowledge one by one if it took them now.
 pub async fn counts_what_was_not_taken(transport: &dyn Transport) {
     for pattern in PATTERNS {
         let (mut sender, _receiver) = pattern.connected(transport).await;
@@ -32,8 +32,8 @@ pub async fn counts_what_was_not_taken(transport: &dyn Transport) {
     }
 }
 
-/// A receiving end that is dropped has told what its program has received. The rest is not received: what waits in its gate, and
-/// what was never taken.
+/// A receiving end that is dropped has told what its program has received. The rest is not received: what waits in its
+/// gate, and what was never taken.
 pub async fn tells_what_was_received(transport: &dyn Transport) {
     for pattern in PATTERNS {
         let (mut sender, mut receiver) = pattern.connected(transport).await;

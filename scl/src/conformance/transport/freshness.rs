@@ -169,8 +169,8 @@ async fn until_caught_up(mut poll: impl FnMut(&Context<'_>) -> Poll<u64>) -> u64
     }
 }
 
-/// Waits until the runtime has looked for what has happened at sockets. The thread that does may be late on a busy machine, and
-/// an end that is not told of an answer cannot read it.
+/// Waits until the runtime has looked for what has happened at sockets. The thread that does may be late on a busy
+/// machine, and an end that is not told of an answer cannot read it.
 async fn sockets_looked_at() {
     let (end, other) = UnixStream::pair().expect("two connected sockets");
     drop(other);

@@ -91,8 +91,8 @@ impl Connection {
         }
     }
 
-    /// Published, with those sent once more, = taken + in flight + lost + waiting + replaced + dropped; and a peer has received
-    /// no more than it was sent.
+    /// Published, with those sent once more, = taken + in flight + lost + waiting + replaced + dropped; and a peer has
+    /// received no more than it was sent.
     pub(super) fn check_account(&self) {
         let Account { published, handed, lost, latched, .. } = self.account;
         let Queue { replaced, dropped_oldest, dropped_newest, .. } = self.queue;

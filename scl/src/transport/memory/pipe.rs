@@ -134,8 +134,8 @@ impl<T> PipeWriter<T> {
         Ok(())
     }
 
-    /// Appends what `to_item` makes of a queue's front while there is room, and calls `sent` with each. An emptied queue tells
-    /// the reader that nothing is held back.
+    /// Appends what `to_item` makes of a queue's front while there is room, and calls `sent` with each. An emptied
+    /// queue tells the reader that nothing is held back.
     pub(super) fn send_all<S>(
         &self,
         cx: &Context<'_>,

@@ -3,8 +3,8 @@
 use rustix::time::{ClockId, Timespec, clock_gettime};
 use std::task::Context;
 
-/// How many messages are written one by one, each by the call that sends it, while the link is not driven. More within one
-/// tick of the coarse clock (1 to 4 ms) are a burst: they are gathered until the link is driven, until there are
+/// How many messages are written one by one, each by the call that sends it, while the link is not driven. More within
+/// one tick of the coarse clock (1 to 4 ms) are a burst: they are gathered until the link is driven, until there are
 /// [`GATHERED`], or until something is sent after that tick.
 const ONE_BY_ONE: u32 = 64;
 /// How many messages of a burst are written together if the link is not driven meanwhile.

@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 /// How long a receiver waits for the messages that the sender has announced: a stopped sender must not stop a control
 /// loop.
 pub(super) const LIMIT: Duration = Duration::from_millis(100);
-/// The limit passes in so many steps, so that time in which this program itself stands still counts as one of them at most.
+/// The limit passes in so many steps, so that time in which this program itself stands still counts as one of them at
+/// most.
 const STEPS: u32 = 10;
 /// For how long an answer counts for a caller that does not wait, and looks again.
 const FRESH: Duration = Duration::from_millis(1);

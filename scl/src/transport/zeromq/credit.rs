@@ -38,8 +38,8 @@ impl SendCredit {
         Self { window, sent: 0, received: 0, in_flight: VecDeque::new(), bytes: 0 }
     }
 
-    /// Returns true if another message may be sent after the given number of others with that total length. One that is longer than the
-    /// window may be sent as well.
+    /// Returns true if another message may be sent after the given number of others with that total length. One that is
+    /// longer than the window may be sent as well.
     pub(super) fn is_open_after(&self, messages: usize, bytes: usize) -> bool {
         ((self.in_flight.len() + messages) as u64) < self.window.messages
             && self.bytes + (bytes as u64) < self.window.bytes
@@ -144,7 +144,8 @@ impl ReceiveCredit {
         self.unacknowledged
     }
 
-    /// Notes that the program has received all but the given number of messages. Returns true if the sender is to be told.
+    /// Notes that the program has received all but the given number of messages. Returns true if the sender is to be
+    /// told.
     pub(super) fn note_waiting(&mut self, waiting: u64) -> bool {
         // Messages of an earlier connection may wait, too.
         self.received = self.received.max(self.taken.saturating_sub(waiting));

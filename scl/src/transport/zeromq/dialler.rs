@@ -1,7 +1,7 @@
 //! Connecting to the listening side of an endpoint, again and again.
 //!
-//! A peer that is expected back is tried every 20 ms. One that stays away is tried twice a second, and at the former pace
-//! again as soon as a file arrives in the folder, as a peer that starts puts its socket or address there.
+//! A peer that is expected back is tried every 20 ms. One that stays away is tried twice a second, and at the former
+//! pace again as soon as a file arrives in the folder, as a peer that starts puts its socket or address there.
 
 use super::acceptor::{HANDSHAKE_LIMIT, is_out_of_descriptors, poll_handshake};
 use super::session::{Closed, Session};

@@ -189,8 +189,8 @@ impl Inbound {
         self.write_acknowledgement(numbers);
     }
 
-    /// Notes how many of the messages returned wait in the gate, and tells the sender if it waits for that. Returns true if it
-    /// still waits.
+    /// Notes how many of the messages returned wait in the gate, and tells the sender if it waits for that. Returns
+    /// true if it still waits.
     pub(super) fn note_waiting(&mut self, cx: &mut Context<'_>, waiting: u64) -> bool {
         let Some(credit) = &mut self.credit else { return false };
         let is_due = credit.note_waiting(waiting + self.ahead.len() as u64);
@@ -278,7 +278,8 @@ impl Inbound {
         Poll::Ready(())
     }
 
-    /// Fetches what has arrived without the runtime. If only the newest message matters, waits for what the sender holds.
+    /// Fetches what has arrived without the runtime. If only the newest message matters, waits for what the sender
+    /// holds.
     pub(super) fn catch_up(&mut self, within: Duration) {
         let deadline = Instant::now() + within;
         self.fill_raw();

@@ -230,8 +230,8 @@ impl SendLink {
             SampleOutcome::Announce(command) => self.session.write(&command).and_then(|()| self.session.flush(cx)),
             SampleOutcome::Lost(reason) => Err(io::Error::other(reason)),
         };
-        // Also if that failed: the sample is gone, so the message is on its way, and lost with the connection. Its bytes
-        // are not the socket's.
+        // Also if that failed: the sample is gone, so the message is on its way, and lost with the connection. Its
+        // bytes are not the socket's.
         credit.count_sent(0);
         if let Err(error) = written {
             self.fail(cx, &error.into());
@@ -390,8 +390,8 @@ impl Link for SendLink {
         self.credit.as_ref().map_or(0, SendCredit::not_received)
     }
 
-    /// A new link may replace this one before the task has looked at it, and a failed write is noticed earlier than the last
-    /// acknowledgements.
+    /// A new link may replace this one before the task has looked at it, and a failed write is noticed earlier than the
+    /// last acknowledgements.
     fn read_last(&mut self) {
         for _ in 0..RAW_READS {
             while let Ok(Some(item)) = self.session.buffered_item() {

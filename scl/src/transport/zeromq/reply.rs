@@ -1,7 +1,7 @@
 //! The replying end, which accepts any number of requesters: a ROUTER socket to them.
 //!
-//! The connection is the way back, so there is no table of requesters. A request holds its connection's frames up to the
-//! empty one as they came, and the reply repeats them.
+//! The connection is the way back, so there is no table of requesters. A request holds its connection's frames up to
+//! the empty one as they came, and the reply repeats them.
 
 use super::TransportKind;
 use super::acceptor::Acceptor;

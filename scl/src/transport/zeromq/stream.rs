@@ -1,8 +1,8 @@
 //! Connected sockets of both transports.
 //!
-//! Writing goes to the operating system directly and asks the runtime only when that takes no more. Reading goes through
-//! the runtime, which knows without a system call that nothing has arrived; the raw variant is for callers that cannot
-//! wait until the runtime looks.
+//! Writing goes to the operating system directly and asks the runtime only when that takes no more. Reading goes
+//! through the runtime, which knows without a system call that nothing has arrived; the raw variant is for callers that
+//! cannot wait until the runtime looks.
 
 use bytes::BytesMut;
 use rustix::net::{RecvFlags, SendAncillaryBuffer, SendFlags};

@@ -13,8 +13,8 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::task::{Context, Poll};
 
-/// How many messages wait for an observer that reads slowly, and how many bytes; one message may always wait. Enough for a
-/// recorder that is held up by its disk for half a second while ten gates at 1 kHz, or one in bursts, go on.
+/// How many messages wait for an observer that reads slowly, and how many bytes; one message may always wait. Enough
+/// for a recorder that is held up by its disk for half a second while ten gates at 1 kHz, or one in bursts, go on.
 const MOST_WAITING: usize = 8192;
 const MOST_BYTES: usize = 16 << 20;
 

@@ -68,7 +68,8 @@ pub(super) struct UserChecks {
 }
 
 impl UserChecks {
-    /// When checks are possible again, unless that is now. Without the kernel's help they cost so much that they are rare.
+    /// When checks are possible again, unless that is now. Without the kernel's help they cost so much that they are
+    /// rare.
     pub(super) fn next() -> Option<Instant> {
         table::next_read()
     }
@@ -90,8 +91,8 @@ impl UserChecks {
         self.check(Socket::listening(address)).map(|owner| Identity(owner.inode))
     }
 
-    /// Returns true if the socket at an address is still the one that was checked. Without the kernel's help this takes it for
-    /// granted, because reading the tables again would take too long.
+    /// Returns true if the socket at an address is still the one that was checked. Without the kernel's help this takes
+    /// it for granted, because reading the tables again would take too long.
     ///
     /// # Errors
     /// As those of [`check_peer`](Self::check_peer).

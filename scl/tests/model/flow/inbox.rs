@@ -16,7 +16,8 @@ pub(super) struct Inbox {
     has_called: bool,
     /// What its sender held back when it first called.
     owed: Option<Message>,
-    /// The message that the call has, before it returns: the first that arrives for a call that waited, or one from the queue.
+    /// The message that the call has, before it returns: the first that arrives for a call that waited, or one from the
+    /// queue.
     direct: Option<Message>,
     pub(super) received: u64,
     pub(super) replaced: u64,

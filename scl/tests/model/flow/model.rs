@@ -215,8 +215,8 @@ impl Model {
         }
     }
 
-    /// A link was asked how many messages the reader's program has not received. A message that was given to the program is
-    /// never among them once its gate has told that, and one that it was not given always is.
+    /// A link was asked how many messages the reader's program has not received. A message that was given to the
+    /// program is never among them once its gate has told that, and one that it was not given always is.
     pub(super) fn not_received(&mut self, reader: usize, counted: u64) {
         let connection = &mut self.connections[reader];
         connection.not_received = counted;

@@ -19,7 +19,8 @@ pub(super) enum Step {
     SenderVanishes,
     /// It is flushed before, as a program that ends does.
     SenderFinishes,
-    /// Sends this number of messages. One that would have to wait is cancelled and ends the step, which then waits for room.
+    /// Sends this number of messages. One that would have to wait is cancelled and ends the step, which then waits for
+    /// room.
     Send(usize),
     TrySend(usize),
     /// Waits to be woken when there is room.

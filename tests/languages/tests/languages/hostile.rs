@@ -3,8 +3,8 @@
 use super::program::{Language, PLAIN, Program, SCL};
 use scl_tests::System;
 
-/// The promise: what cannot be decoded is counted and skipped, or reported by a gate with `undecodable: fail`, and the next
-/// message arrives.
+/// The promise: what cannot be decoded is counted and skipped, or reported by a gate with `undecodable: fail`, and the
+/// next message arrives.
 #[test]
 fn an_undecodable_message_is_skipped_or_reported_and_the_next_one_arrives() {
     for left in PLAIN {

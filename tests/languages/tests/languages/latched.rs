@@ -3,7 +3,8 @@
 use super::program::{ALL, Program, SCL};
 use scl_tests::{System, on_each_transport};
 
-/// The promise: the last message is there at once in every language, and SCL's say that it is latched, and how old it is.
+/// The promise: the last message is there at once in every language, and SCL's say that it is latched, and how old it
+/// is.
 #[test]
 fn late_and_restarted_subscribers_in_every_language_get_the_last_message() {
     for left in SCL {

@@ -1,4 +1,5 @@
-//! Plays a component of `images.yaml` and follows commands: `images camera`, `images viewer`, `images keeper` or `images worker`.
+//! Plays a component of `images.yaml` and follows commands: `images camera`, `images viewer`, `images keeper` or
+//! `images worker`.
 
 mod camera;
 mod keeper;

@@ -9,8 +9,8 @@ use std::time::Duration;
 /// The values of a source, so that receivers can tell one source from its successor.
 const VALUES: u64 = 1 << 32;
 
-/// Sends rising values through every gate, in messages that carry this many bytes besides. `values` of the source with a number
-/// have been used.
+/// Sends rising values through every gate, in messages that carry this many bytes besides. `values` of the source with
+/// a number have been used.
 pub(super) async fn send(source: &mut Source, commands: &mut Commands, number: u64, values: &mut u64, padding: u64) {
     let next = Cell::new(number * VALUES + *values);
     let message = || message(next.replace(next.get() + 1), padding);

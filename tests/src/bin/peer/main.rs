@@ -78,7 +78,8 @@ async fn play_source() -> scl::Result<()> {
                 }
                 say("peers");
             }
-            // Until every gate has noticed that the sink is gone: later messages wait for the next one. The number is that of watchers.
+            // Until every gate has noticed that the sink is gone: later messages wait for the next one. The number is
+            // that of watchers.
             "alone" => {
                 while source.readings.stats().peers as u64 > number(1) {
                     source.readings.peers_changed().await;

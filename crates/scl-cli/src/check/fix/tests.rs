@@ -17,8 +17,8 @@ fn fixed(text: &str) -> (String, usize, usize) {
     (fixed.text, fixed.applied, errors)
 }
 
-/// Number of fixes, number of errors that are left, and the difference; the same with other line ends, a byte order mark,
-/// and without the last line break.
+/// Number of fixes, number of errors that are left, and the difference; the same with other line ends, a byte order
+/// mark, and without the last line break.
 #[track_caller]
 fn check(text: &str, expected: Expect) {
     let (new, applied, errors) = fixed(text);
@@ -99,8 +99,8 @@ fn a_file_without_problems_stays() {
     assert_eq!(fixed(text).0, text);
 }
 
-/// A check that finds the words `bad`, `worse` and `unsure` in a text: `bad` and `worse` have sure fixes, of which that of
-/// `worse` makes two problems of one.
+/// A check that finds the words `bad`, `worse` and `unsure` in a text: `bad` and `worse` have sure fixes, of which that
+/// of `worse` makes two problems of one.
 fn check_words(text: &str) -> Loaded {
     let mut loaded = Loaded::default();
     let file = loaded.sources.add("t.yaml", text);

@@ -109,8 +109,8 @@ fn span(label: &Label, is_primary: bool, sources: &Sources, unit: &CargoUnit) ->
     })
 }
 
-/// The whole lines that a span touches, each with the columns that it covers: editors count their own columns with them.
-/// Of a long span only the first lines, and no text at all where a line is long, as each span repeats it.
+/// The whole lines that a span touches, each with the columns that it covers: editors count their own columns with
+/// them. Of a long span only the first lines, and no text at all where a line is long, as each span repeats it.
 fn covered_lines(file: &SourceFile, start: LineColumn, end: LineColumn) -> Vec<Value> {
     let lines = (start.line..=end.line).take(MOST_LINES).map(|number| (number, file.line_text(number)));
     let mut lines: Vec<(u32, &str)> = lines.collect();

@@ -19,9 +19,9 @@ pub(in crate::check) struct CheckedFile<'a> {
 /// One SARIF log with one run over all files, over several lines.
 ///
 /// The rules are the codes that occur, sorted. Columns count characters from 1, the end is one past the last one. The
-/// text of a result is the headline, then the label, the helps and the notes, each on its own line; the secondary labels
-/// are related locations. Paths become relative URIs, absolute ones `file:` URIs. A diagnostic without a place is
-/// located at its file as a whole.
+/// text of a result is the headline, then the label, the helps and the notes, each on its own line; the secondary
+/// labels are related locations. Paths become relative URIs, absolute ones `file:` URIs. A diagnostic without a place
+/// is located at its file as a whole.
 pub(in crate::check) fn to_sarif(files: &[CheckedFile<'_>]) -> String {
     let mut found: Vec<&Diagnostic> = files.iter().flat_map(|file| file.diagnostics).collect();
     found.sort_by_key(|diagnostic| diagnostic.code());

@@ -76,8 +76,8 @@ impl Recording {
         assert!(largest <= 35.0, "roll or pitch of {largest:.1} degrees");
     }
 
-    /// Each inertial reading has its beat, except while the autopilot is started again this often. Returns how many have
-    /// none then.
+    /// Each inertial reading has its beat, except while the autopilot is started again this often. Returns how many
+    /// have none then.
     #[track_caller]
     pub(super) fn check_beats(&self, restarts: usize) -> Vec<u64> {
         let period_us = 1e6 / 300.0;

@@ -1,4 +1,5 @@
-//! A flight of `examples/arcade` as real processes: `scl run` flies, `scl record` records, `scl echo` tells where it is.
+//! A flight of `examples/arcade` as real processes: `scl run` flies, `scl record` records, `scl echo` tells where it
+//! is.
 
 use super::recording::Recording;
 use crate::system::{ChildGuard, SpawnGuarded, System, kill};

@@ -99,8 +99,8 @@ impl Workspace {
         let mut command = Command::new(program);
         command.current_dir(&self.root).env("TMPDIR", temporary);
         let mut server = Server::start(&mut command, &self.root, settings);
-        // Without the sources of the standard library and what they depend on, rust-analyzer sees errors in sound programs. It
-        // installs them itself where it can.
+        // Without the sources of the standard library and what they depend on, rust-analyzer sees errors in sound
+        // programs. It installs them itself where it can.
         assert_eq!(server.wait_until_quiescent(), "");
         server
     }

@@ -81,8 +81,8 @@ fn literal<'n>(messages: &Messages<'_>, names: impl Iterator<Item = &'n str>) ->
     Doc::concat([Doc::text(messages.imports.of("typing", "Literal")), Doc::group("[", names, "]")])
 }
 
-/// Writes the class from which enums are derived: for type checkers, values are instances of their enum. When the program
-/// runs, values are of `int`, and an enum has the methods of `google.protobuf.internal.enum_type_wrapper`.
+/// Writes the class from which enums are derived: for type checkers, values are instances of their enum. When the
+/// program runs, values are of `int`, and an enum has the methods of `google.protobuf.internal.enum_type_wrapper`.
 pub(super) fn write_enum_base(messages: &Messages<'_>, out: &mut Writer) {
     let builtin = |name| messages.names.builtin(name, messages.imports);
     let [int, str, list, tuple, classmethod] = ["int", "str", "list", "tuple", "classmethod"].map(builtin);

@@ -4,8 +4,8 @@ use crate::testing::{folder, load_from};
 use expect_test::{Expect, expect};
 use scl_topology::diagnostic::render;
 
-/// The problems of a topology with the component `sensor` and these schemas: declarations of the package `rover`, unless
-/// they start with another package or a comment.
+/// The problems of a topology with the component `sensor` and these schemas: declarations of the package `rover`,
+/// unless they start with another package or a comment.
 fn told(schemas: &[&str]) -> Vec<(&'static str, String)> {
     let names: Vec<String> = (0..schemas.len()).map(|index| format!("{index}.proto")).collect();
     let package =

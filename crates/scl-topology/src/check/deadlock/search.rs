@@ -1,7 +1,7 @@
 //! Finds the deadlocks in a set of waits, in linear time.
 //!
-//! A set of components is deadlocked if each of them has a wait all of whose components are in the set: then nobody in it
-//! can end anybody's wait. Waits for one component make circles; a wait that shares work needs a closed knot.
+//! A set of components is deadlocked if each of them has a wait all of whose components are in the set: then nobody in
+//! it can end anybody's wait. Waits for one component make circles; a wait that shares work needs a closed knot.
 
 use crate::check::circles::{Graph, Step};
 use crate::check::waits::Wait;
@@ -18,8 +18,8 @@ pub(super) struct Deadlock {
     pub(super) has_others: bool,
 }
 
-/// Circles of waits for one component that contain a wanted step, up to a number for each knot; then the knots that need
-/// a shared wait.
+/// Circles of waits for one component that contain a wanted step, up to a number for each knot; then the knots that
+/// need a shared wait.
 pub(super) fn find(components: usize, waits: &[Wait], is_wanted: impl Fn(&Step) -> bool) -> Vec<Deadlock> {
     let single = waits.iter().filter(|wait| wait.steps.len() == 1).map(|wait| wait.steps[0]);
     let graph = Graph::new(components, single);
@@ -35,8 +35,8 @@ pub(super) fn find(components: usize, waits: &[Wait], is_wanted: impl Fn(&Step) 
     found
 }
 
-/// The knot of each component, over all steps of waits that can last without limit; a component that cannot be stuck is a knot
-/// of its own.
+/// The knot of each component, over all steps of waits that can last without limit; a component that cannot be stuck is
+/// a knot of its own.
 pub(super) fn knots(components: usize, waits: &[Wait]) -> Vec<usize> {
     let waits: Vec<&Wait> = waits.iter().collect();
     let stuck = stuck(components, &waits);

@@ -49,8 +49,8 @@ impl Window {
 }
 
 impl Window {
-    /// The part up to the line in which the parser stopped, or to the end of what is in brackets there; `None` if that is
-    /// all of it.
+    /// The part up to the line in which the parser stopped, or to the end of what is in brackets there; `None` if that
+    /// is all of it.
     pub(super) fn without_lines_below(&self, error: &SyntaxError, text: &str, source: &SourceFile) -> Option<Self> {
         let with_break = |end: usize| text[end..].find('\n').map_or(text.len(), |found| end + found + 1);
         let mut end = with_break(source.line_range(error.at.min(text.len())).end);

@@ -1,7 +1,7 @@
 //! The tables of all TCP sockets, for where the kernel does not answer questions about one.
 //!
-//! The kernel writes a row for every socket of the machine, which takes milliseconds. So reading may take up a twentieth of
-//! a processor at most, and connections that arrive together share one read.
+//! The kernel writes a row for every socket of the machine, which takes milliseconds. So reading may take up a
+//! twentieth of a processor at most, and connections that arrive together share one read.
 
 use super::{Owner, Socket};
 use crate::sync::lock;
