@@ -34,8 +34,8 @@
 #define SCL_ABI 1
 
 /**
- * As a timeout of scl_recv and scl_take_request: what is left of the timeout of the previous call. For code that goes on
- * after scl_undecodable.
+ * As a timeout of scl_recv and scl_take_request: what is left of the timeout of the previous call. For code that goes
+ * on after scl_undecodable.
  */
 #define SCL_REST -9223372036854775807
 
@@ -301,9 +301,10 @@ scl_gate *scl_gate_by_name(scl_component *component,
 bool scl_is_connected(const scl_gate *gate);
 
 /**
- * Returns the age, in nanoseconds, of the message that a `sub` gate received last, if its publisher has `latched: true` and
- * had sent it before this gate was connected to it. -1 for every other message, before the first one, for gates of other
- * kinds, and for an invalid handle or a gate that another thread is using; `scl_error` then says so.
+ * Returns the age, in nanoseconds, of the message that a `sub` gate received last, if its publisher has
+ * `latched: true` and had sent it before this gate was connected to it. -1 for every other message, before the first
+ * one, for gates of other kinds, and for an invalid handle or a gate that another thread is using; `scl_error` then
+ * says so.
  */
 int64_t scl_latched_age(const scl_gate *gate);
 
@@ -391,8 +392,8 @@ void scl_message_free(scl_message *message);
  *
  * On success, `*reply` is the reply, to be freed with scl_message_free; otherwise it is NULL.
  *
- * Calls of one gate follow each other, also with `in_flight`: SCL_BUSY says that another thread is calling. For several calls
- * at once, declare several gates.
+ * Calls of one gate follow each other, also with `in_flight`: SCL_BUSY says that another thread is calling. For
+ * several calls at once, declare several gates.
  *
  * Errors: SCL_TIMEOUT, SCL_PEER_LOST, SCL_REFUSED, SCL_TOO_LONG, SCL_ENCODE, SCL_KIND, SCL_STOPPED, SCL_CLOSED,
  * SCL_BUSY, SCL_HANDLE. A reply that comes too late is discarded; the next call never receives it.
@@ -503,15 +504,15 @@ scl_status scl_fail(scl_status status,
                     const char *text);
 
 /**
- * Reports that the message or reply that this gate received last cannot be decoded, or this request, which is freed whatever the result: its
- * sender is told, so its call fails. `request` is NULL unless the gate is `rep`. `reason` follows "cannot decode this
- * message: ". It is counted. For generated code and for codecs of your own.
+ * Reports that the message or reply that this gate received last cannot be decoded, or this request, which is freed
+ * whatever the result: its sender is told, so its call fails. `request` is NULL unless the gate is `rep`. `reason`
+ * follows "cannot decode this message: ". It is counted. For generated code and for codecs of your own.
  *
- * Returns SCL_OK if the gate skips such messages: receive the next one, with the timeout SCL_REST. They are logged once for
- * each peer.
+ * Returns SCL_OK if the gate skips such messages: receive the next one, with the timeout SCL_REST. They are logged
+ * once for each peer.
  *
- * Errors: SCL_DECODE for a gate with `undecodable: fail` and for replies; the text names the gate and its peers. SCL_KIND,
- * SCL_HANDLE.
+ * Errors: SCL_DECODE for a gate with `undecodable: fail` and for replies; the text names the gate and its peers.
+ * SCL_KIND, SCL_HANDLE.
  */
 scl_status scl_undecodable(scl_gate *gate,
                            scl_request *request,
@@ -522,8 +523,8 @@ scl_status scl_undecodable(scl_gate *gate,
  *
  * A stop request ends all calls that wait, and makes later ones fail, with SCL_STOPPED, so that a program that returns
  * from `main` after any error stops by itself. If it still runs after the time given by SCL_STOP_WITHIN (default 3s),
- * or when a second signal arrives, half a second after the first or later, it is ended with exit code 128 + the number of
- * the signal.
+ * or when a second signal arrives, half a second after the first or later, it is ended with exit code 128 + the number
+ * of the signal.
  */
 bool scl_stop_requested(void);
 

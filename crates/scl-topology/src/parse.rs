@@ -42,7 +42,7 @@ use crate::yaml::{self, Node, NodeKind, Style, Tree};
 /// let mut sources = Sources::new();
 /// let file = sources.add("topology.yaml", "components:\n  - name: 1.10\n    gates: []\n");
 /// let mut problems = Diagnostics::new();
-/// let model = parse(sources, file, &mut problems);
+/// let model = parse(&sources, file, &mut problems);
 /// assert_eq!(model.components.len(), 1);
 /// let problems = problems.into_sorted();
 /// assert!(render(&problems[0], &sources).starts_with("error: [SCL0109] a name is expected here"));
