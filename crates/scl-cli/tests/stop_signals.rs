@@ -3,6 +3,7 @@
 use crate::rover::Rover;
 use crate::system::Started;
 use std::fs;
+use std::process::Command;
 use std::time::{Duration, Instant};
 
 /// Only ends a test that hangs.
@@ -37,6 +38,25 @@ fn each_signal_ends_each_command_in_order() {
             assert_eq!(status.code(), Some(code), "{arguments:?} {signal}: {errors}");
         }
     }
+}
+
+#[test]
+fn a_command_started_by_nohup_goes_on_at_a_hangup() {
+    let mut rover = Rover::stopped();
+    rover.play_alone("sensor");
+    let scl = rover.scl(&["echo", "sensor.measurements"]);
+    let mut nohup = Command::new("nohup");
+    nohup.arg(scl.get_program()).args(scl.get_args());
+    nohup.envs(scl.get_envs().filter_map(|(name, value)| Some((name, value?))));
+    let command = Started::spawn(&mut nohup);
+    let started = Instant::now();
+    while !catches(command.process_id(), 15) {
+        assert!(started.elapsed() < LIMIT, "SIGTERM is not handled");
+    }
+    assert!(!catches(command.process_id(), 1), "SIGHUP is handled");
+    command.signal("-TERM");
+    let (status, _, errors) = command.finish();
+    assert_eq!(status.code(), Some(0), "{errors}");
 }
 
 /// Whether a process has a handler for a signal.

@@ -1,6 +1,8 @@
 //! What runs the asynchronous part of a command, and the signals that stop it.
 
 use scl_terminal::Problem;
+use std::fs;
+use std::future::pending;
 use tokio::runtime::Builder;
 use tokio::signal::unix::{Signal, SignalKind, signal};
 
@@ -13,9 +15,14 @@ pub fn block_on<T>(command: impl Future<Output = Result<T, Problem>>) -> Result<
     runtime.map_err(|error| Problem::new(format!("cannot start: {error}")))?.block_on(command)
 }
 
-/// SIGINT, SIGTERM and SIGHUP: they end every command that goes on until it is stopped.
+/// SIGINT, SIGTERM and SIGHUP: they end every command that goes on until it is stopped. SIGHUP does not if the command was
+/// started by `nohup`.
 #[derive(Debug)]
-pub struct StopSignals([Signal; 3]);
+pub struct StopSignals {
+    hangup: Option<Signal>,
+    interrupt: Signal,
+    terminate: Signal,
+}
 
 impl StopSignals {
     /// From now on, the signals no longer end the process. Must be called inside a tokio runtime.
@@ -23,22 +30,37 @@ impl StopSignals {
     /// # Errors
     /// The operating system refuses.
     pub fn watch() -> Result<Self, Problem> {
-        Ok(Self([
-            watch_signal(SignalKind::interrupt())?,
-            watch_signal(SignalKind::terminate())?,
-            watch_signal(SignalKind::hangup())?,
-        ]))
+        let hangup = SignalKind::hangup();
+        Ok(Self {
+            hangup: if is_ignored(hangup) { None } else { Some(watch_signal(hangup)?) },
+            interrupt: watch_signal(SignalKind::interrupt())?,
+            terminate: watch_signal(SignalKind::terminate())?,
+        })
     }
 
     /// Waits for one of the signals.
     pub async fn received(&mut self) {
-        let [interrupt, terminate, hangup] = &mut self.0;
+        let Self { hangup, interrupt, terminate } = self;
+        let hangup = async {
+            match hangup {
+                Some(hangup) => hangup.recv().await,
+                None => pending().await,
+            }
+        };
         tokio::select! {
             _ = interrupt.recv() => {}
             _ = terminate.recv() => {}
-            _ = hangup.recv() => {}
+            _ = hangup => {}
         }
     }
+}
+
+/// Whether this process was started with a signal ignored, as `nohup` does, and has not changed that.
+fn is_ignored(signal: SignalKind) -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or_default();
+    ignored >> (signal.as_raw_value() - 1) & 1 == 1
 }
 
 /// Watches for one signal.

@@ -101,9 +101,13 @@ fn each_wrong_schema_is_reported() {
 
 /// What a program embeds for a gate that carries `message`, from the schemas `a.proto` and `other.proto`.
 fn embedded(message: &str, base: &str) -> crate::Descriptors {
-    let a = "syntax = \"proto3\";\npackage a;\nimport \"base.proto\";\nimport \"google/protobuf/timestamp.proto\";\n\
-             // A comment.\nmessage Outer { message Inner { base.Pose pose = 1; } google.protobuf.Timestamp at = 1;
-             // }\n";
+    let a = r#"syntax = "proto3";
+package a;
+import "base.proto";
+import "google/protobuf/timestamp.proto";
+/* A comment. */
+message Outer { message Inner { base.Pose pose = 1; } google.protobuf.Timestamp at = 1; }
+"#;
     let other = "syntax = \"proto3\";\nmessage Other { double x = 1; }\n";
     let yaml = typed("[other.proto, a.proto]", message);
     let folder = folder(&[("t.yaml", &yaml), ("a.proto", a), ("base.proto", base), ("other.proto", other)]);
