@@ -9,7 +9,7 @@ use scl_text::size;
 use scl_topology::diagnostic::{Diagnostic, Severity, render, render_styled};
 use scl_topology::external::UNREADABLE_FILE;
 use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 
 /// The topology file that is used if there is one in the working folder.
@@ -80,7 +80,7 @@ pub(crate) fn system_of_folder() -> Option<String> {
 
 /// The topology file in the working folder, if its system is called like the file for want of another name.
 #[cfg(feature = "run")]
-pub(crate) fn named_after_here() -> Option<PathBuf> {
+pub(crate) fn named_after_here() -> Option<std::path::PathBuf> {
     let path = Path::new(TOPOLOGY);
     let loaded = path.is_file().then(|| load_file(path, MaxSize::default()))?;
     if loaded.model.system.is_some() { None } else { path.canonicalize().ok() }

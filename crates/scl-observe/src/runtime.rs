@@ -15,8 +15,8 @@ pub fn block_on<T>(command: impl Future<Output = Result<T, Problem>>) -> Result<
     runtime.map_err(|error| Problem::new(format!("cannot start: {error}")))?.block_on(command)
 }
 
-/// SIGINT, SIGTERM and SIGHUP: they end every command that goes on until it is stopped. SIGHUP does not if the command was
-/// started by `nohup`.
+/// SIGINT, SIGTERM and SIGHUP: they end every command that goes on until it is stopped. SIGHUP does not if the command
+/// was started by `nohup`.
 #[derive(Debug)]
 pub struct StopSignals {
     hangup: Option<Signal>,
