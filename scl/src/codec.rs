@@ -6,6 +6,8 @@
 
 #[cfg(any(feature = "cbor", feature = "msgpack", feature = "postcard"))]
 mod bounded;
+#[macro_use]
+mod by_feature;
 #[cfg(feature = "cbor")]
 mod cbor;
 #[cfg(all(feature = "json", feature = "protobuf"))]
@@ -41,6 +43,17 @@ pub use opaque::Opaque;
 pub use protobuf::Protobuf;
 #[cfg(feature = "raw")]
 pub use raw::Raw;
+
+/// The codecs by the names that generated code gives them, also those whose cargo feature is off.
+#[doc(hidden)]
+pub mod by_name {
+    codec!("protobuf" Protobuf protobuf_is_on protobuf_stand_in protobuf_off);
+    codec!("json" Json json_is_on json_stand_in json_off);
+    codec!("cbor" Cbor cbor_is_on cbor_stand_in cbor_off);
+    codec!("msgpack" Msgpack msgpack_is_on msgpack_stand_in msgpack_off);
+    codec!("postcard" Postcard postcard_is_on postcard_stand_in postcard_off);
+    codec!("raw" Raw raw_is_on raw_stand_in raw_off);
+}
 
 /// Encodes messages of type `T` into bytes and decodes them.
 ///

@@ -75,7 +75,7 @@
 //! | feature | what it adds |
 //! |---|---|
 //! | `protobuf` (default) | the codec, and `schemas:` |
-//! | `json`, `raw` (default), `cbor`, `msgpack`, `postcard` | a codec each |
+//! | `json`, `raw` (default), and others | a codec each, see [`codec`] |
 //! | `zeromq` (default) | the transport between programs |
 //! | `shm` | shared memory for long messages between programs on it, see [`TransportKind::Shm`] |
 //! | `memory` (default) | the transport within a program, for unit tests of components |
@@ -117,6 +117,7 @@ mod stop;
 mod sync;
 #[cfg(feature = "zeromq")]
 pub mod tap;
+mod tap_meta;
 pub mod time;
 pub mod transport;
 mod transport_choice;

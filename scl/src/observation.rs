@@ -1,5 +1,7 @@
 //! What an observer of a tap is told.
 
+pub use crate::tap_meta::ObservedKind;
+
 use bytes::Bytes;
 
 /// What happens at a tap.
@@ -34,15 +36,4 @@ pub struct Observation {
     pub call_id: u64,
     /// What it is.
     pub kind: ObservedKind,
-}
-
-/// What an observed message is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum ObservedKind {
-    /// A message at a `pub` or `pull` gate.
-    Message,
-    /// A request at a `rep` gate.
-    Request,
-    /// A reply at a `rep` gate.
-    Reply,
 }

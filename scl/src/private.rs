@@ -1,6 +1,5 @@
 //! What generated code names. It carries no promise of stability.
 
-pub mod codecs;
 #[cfg(feature = "protobuf")]
 pub mod floats;
 mod message_json;
@@ -14,7 +13,7 @@ pub use crate::__message_json as message_json;
 pub use crate::__no_message_json as message_json;
 #[cfg(all(feature = "json", feature = "protobuf"))]
 pub use crate::codec::message_json::{MessagePool, MessageType};
-pub use crate::codec::{self, Codec};
+pub use crate::codec::{self, Codec, by_name as codecs};
 pub use crate::component::{
     Component, ComponentHandle, Opener, Returned, block_on, close, close_blocking, open, open_blocking, ready,
     run_async, run_blocking,

@@ -14,19 +14,21 @@ pub enum TransportKind {
 }
 
 impl TransportKind {
-    const ALL: [Self; 3] = [Self::Ipc, Self::Tcp, Self::Shm];
+    const ALL: [(Self, &str); 3] = [(Self::Ipc, "ipc"), (Self::Tcp, "tcp"), (Self::Shm, "shm")];
 
-    /// The transport that a word of `SCL_TRANSPORT` means.
+    /// The words of `SCL_TRANSPORT` and of launch files.
+    pub const WORDS: [&str; 3] = {
+        let [(_, ipc), (_, tcp), (_, shm)] = Self::ALL;
+        [ipc, tcp, shm]
+    };
+
+    /// The transport that a word means.
     pub(crate) fn parse(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.word() == word)
+        Self::ALL.into_iter().find(|(_, it)| *it == word).map(|(kind, _)| kind)
     }
 
-    /// Its word in `SCL_TRANSPORT`.
+    /// Its word.
     pub(crate) fn word(self) -> &'static str {
-        match self {
-            Self::Ipc => "ipc",
-            Self::Tcp => "tcp",
-            Self::Shm => "shm",
-        }
+        Self::WORDS[self as usize]
     }
 }

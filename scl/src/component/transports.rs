@@ -99,6 +99,6 @@ fn transport(spec: &ComponentSpec, dir: &SystemDir, kind: TransportKind) -> Resu
 }
 
 #[cfg(not(feature = "zeromq"))]
-fn transport(spec: &ComponentSpec, _dir: &SystemDir, _medium: TransportKind) -> Result<Arc<dyn Transport>, OpenError> {
+fn transport(spec: &ComponentSpec, _dir: &SystemDir, _kind: TransportKind) -> Result<Arc<dyn Transport>, OpenError> {
     Err(OpenError::NoTransport { component: spec.name })
 }

@@ -2,7 +2,7 @@
 
 use super::Connection;
 use super::stats::{GateStats, PeerStats};
-use super::tap::{GateTap, Observed};
+use super::tap::{GateTap, ObservedKind};
 use super::watch::Watch;
 use crate::codec::EncodeError;
 use crate::error::{BlockingError, GateName, Missing, PeerName, SendError, SendTimeoutError, TrySendError};
@@ -225,7 +225,7 @@ impl Fanout {
             Outbound::Bytes(bytes) => bytes,
             Outbound::Loan(loan, lender) => return self.hand_out_loan(loan, lender),
         };
-        self.tap.observe(Observed::Message, 0, &message);
+        self.tap.observe(ObservedKind::Message, 0, &message);
         if self.shares {
             let turn = self.next_in_turn();
             return lock(&self.connections[turn]).send(message.into());
@@ -239,7 +239,7 @@ impl Fanout {
     fn hand_out_loan(&mut self, loan: Loan, lender: usize) {
         let mut copy = None;
         let mut shared = || copy.get_or_insert_with(|| Bytes::copy_from_slice(loan.as_slice())).clone();
-        self.tap.observe_with(Observed::Message, 0, &mut shared);
+        self.tap.observe_with(ObservedKind::Message, 0, &mut shared);
         if self.shares {
             let turn = self.next_in_turn();
             return lock(&self.connections[turn]).send(loan.into());

@@ -6,7 +6,7 @@ use super::links::{Arrived, Links};
 use super::queue::{Pushed, Queue, QueuePolicy};
 use super::ready_set::{ReadySet, ReadySignals};
 use super::stats::{Activity, CoarseTime};
-use super::tap::{GateTap, Observed};
+use super::tap::{GateTap, ObservedKind};
 use super::undecodable::UndecodableCount;
 use crate::error::Missing;
 use crate::figures::{FigureSource, FiguresInWait};
@@ -328,7 +328,7 @@ impl Inbox {
     fn poll_links(&mut self) -> Poll<Arrived> {
         let arrived = ready!(self.links.poll_next());
         self.activity.add(arrived.frame.len());
-        self.tap.observe(Observed::Message, 0, &arrived.frame);
+        self.tap.observe(ObservedKind::Message, 0, &arrived.frame);
         Poll::Ready(arrived)
     }
 

@@ -4,7 +4,7 @@ use super::decoder::Decoder;
 use super::encoding::Encoding;
 use super::reply_end::{Numbered, ReplyEnd};
 use super::stats::GateStats;
-use super::tap::{GateTap, Observed};
+use super::tap::{GateTap, ObservedKind};
 use super::undecodable::{AT_ONCE, SkipLimit, report, skips};
 use super::watch::Watch;
 use super::{AnyGate, ReceivingGate};
@@ -188,7 +188,7 @@ impl<A, B> Rep<A, B> {
     }
 
     fn decode(&mut self, (id, IncomingRequest { body, envelope, path }): Numbered) -> Result<Request<A, B>, RecvError> {
-        self.replies.tap.observe(Observed::Request, id, &body);
+        self.replies.tap.observe(ObservedKind::Request, id, &body);
         match self.decoder.decode(body) {
             Ok(message) => Ok(Request { message, id, envelope, path, replies: Arc::clone(&self.replies) }),
             Err(source) => Err(self.undecodable(&envelope, &*path, source)),
@@ -272,7 +272,7 @@ impl<A, B> Request<A, B> {
             let (size, limit) = (body.len() as u64, connection.max_size);
             return Err(ReplyError::TooLong { gate, peer: PeerName::of(connection), size, limit });
         }
-        tap.observe(Observed::Reply, self.id, &body);
+        tap.observe(ObservedKind::Reply, self.id, &body);
         self.path.reply(&self.envelope, body).map_err(|_gone| ReplyError::RequesterGone { gate })
     }
 }

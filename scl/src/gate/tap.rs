@@ -1,28 +1,16 @@
 //! Where tools observe a gate: every message of a `pub`, `pull` or `rep` gate, with its number and time.
 
+pub(crate) use crate::tap_meta::ObservedKind;
+
 use crate::sync::{AbortOnDrop, lock};
+use crate::tap_meta::{TapMeta, now_ns};
 use crate::transport::Tap;
 use bytes::Bytes;
-use rustix::time::{ClockId, clock_gettime};
 use scl_fork::ProcessOwned;
 use std::future::poll_fn;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, Weak};
 use std::task::{Context, Poll, Waker};
-
-/// Length of the second frame of a message at a tap, in bytes.
-const META: usize = 32;
-
-/// Where the second frame says that the message was sent before its observer joined.
-const LATCHED: usize = 25;
-
-/// What a message at a tap is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Observed {
-    Message = 0,
-    Request = 1,
-    Reply = 2,
-}
 
 /// The tap of one gate, shared by everything that the gate's messages pass through.
 pub(crate) struct GateTap {
@@ -71,14 +59,14 @@ impl GateTap {
     }
 
     /// Shows a message to the observers, if there are any.
-    pub(crate) fn observe(&self, what: Observed, call_id: u64, payload: &Bytes) {
-        self.observe_with(what, call_id, || payload.clone());
+    pub(crate) fn observe(&self, kind: ObservedKind, call_id: u64, payload: &Bytes) {
+        self.observe_with(kind, call_id, || payload.clone());
     }
 
     /// The same for a message that would have to be copied first.
-    pub(crate) fn observe_with(&self, what: Observed, call_id: u64, payload: impl FnOnce() -> Bytes) {
+    pub(crate) fn observe_with(&self, kind: ObservedKind, call_id: u64, payload: impl FnOnce() -> Bytes) {
         if let Some(shared) = &self.shared {
-            shared.observe(what, call_id, payload);
+            shared.observe(kind, call_id, payload);
         }
     }
 
@@ -107,49 +95,20 @@ impl Shared {
         self.observed.store(is_observed, Ordering::Release);
     }
 
-    fn observe(&self, what: Observed, call_id: u64, payload: impl FnOnce() -> Bytes) {
+    fn observe(&self, kind: ObservedKind, call_id: u64, payload: impl FnOnce() -> Bytes) {
         // Counted also while nobody observes, so that an observer can tell a gap from its own absence.
         let sequence = self.sequence.fetch_add(1, Ordering::Relaxed);
         if !self.latches && !self.observed.load(Ordering::Acquire) {
             return;
         }
         let payload = payload();
-        let mut meta = meta(sequence, now_ns(), call_id, what);
+        let meta = TapMeta { sequence, sent_ns: now_ns(), call_id, kind, latched: false };
         let mut end = lock(&self.end);
         let End { tap, task } = &mut *end;
-        tap.observe(&mut Context::from_waker(task), &payload, &meta);
+        tap.observe(&mut Context::from_waker(task), &payload, &meta.encode());
         if self.latches {
-            meta[LATCHED] = 1;
-            tap.latch(&payload, &meta);
+            tap.latch(&payload, &TapMeta { latched: true, ..meta }.encode());
         }
         self.dropped.store(tap.dropped(), Ordering::Relaxed);
-    }
-}
-
-/// Sequence, time of sending, call id (each u64), kind (u8), latched (u8) and 6 zero bytes, little endian.
-fn meta(sequence: u64, sent_ns: u64, call_id: u64, what: Observed) -> [u8; META] {
-    let mut meta = [0; META];
-    for (place, value) in [sequence, sent_ns, call_id].into_iter().enumerate() {
-        meta[8 * place..8 * (place + 1)].copy_from_slice(&value.to_le_bytes());
-    }
-    meta[24] = what as u8;
-    meta
-}
-
-fn now_ns() -> u64 {
-    let now = clock_gettime(ClockId::Realtime);
-    now.tv_sec.unsigned_abs() * 1_000_000_000 + now.tv_nsec.unsigned_abs()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_second_frame_is_laid_out_as_documented() {
-        let meta = meta(1, 0x0203, 0x04 << 56, Observed::Reply);
-        let expected = [[1, 0, 0, 0, 0, 0, 0, 0], [3, 2, 0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0, 0, 4]].concat();
-        assert_eq!(meta[..24], expected);
-        assert_eq!(meta[24..], [2, 0, 0, 0, 0, 0, 0, 0]);
     }
 }

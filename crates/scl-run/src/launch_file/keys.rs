@@ -76,7 +76,7 @@ fn alternatives(words: &[&str]) -> String {
 }
 
 /// The values of `transport`.
-const TRANSPORTS: &[&str] = &["ipc", "tcp", "shm"];
+const TRANSPORTS: &[&str] = &scl::TransportKind::WORDS;
 
 const RESTARTS: &[&str] = &{
     let [(never, _), (on_abnormal, _), (on_failure, _), (always, _)] = Restart::WORDS;

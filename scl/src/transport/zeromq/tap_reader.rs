@@ -3,18 +3,16 @@
 use super::dialler::Dialler;
 use super::session::{Closed, Session};
 use super::zmtp::{Command, Item, Message, SUBSCRIBE_ALL_AND_PING, SclReady, SocketType, bodies};
-use crate::observation::{Observation, ObservedKind, TapEvent};
+use crate::observation::{Observation, TapEvent};
 use crate::runtime_dir::SystemDir;
+use crate::tap_meta::{TapMeta, now_ns};
 use crate::transport::Endpoint;
 use bytes::Bytes;
-use rustix::time::{ClockId, clock_gettime};
 use std::sync::Arc;
 use std::task::{Context, Poll, ready};
 
 /// The longest message that is read: the largest `max_size` of a gate. Memory is reserved as bytes arrive.
 const MAX_SIZE: usize = 1 << 30;
-/// Length of the second frame.
-const META: usize = 32;
 
 pub(crate) struct TapReader {
     dialler: Dialler,
@@ -117,27 +115,7 @@ impl Subscribed {
 fn decode(message: &Message) -> Option<Observation> {
     let mut frames = bodies(&message.envelope);
     let (payload, None) = (frames.next()?, frames.next()) else { return None };
-    let meta: &[u8; META] = message.body[..].try_into().ok()?;
-    let (numbers, rest) = meta.as_chunks::<8>();
-    let [sequence, sent_ns, call_id, kind] = numbers else { return None };
-    debug_assert!(rest.is_empty());
-    Some(Observation {
-        payload: if payload.is_empty() { Bytes::new() } else { message.envelope.slice_ref(payload) },
-        sequence: u64::from_le_bytes(*sequence),
-        sent_ns: u64::from_le_bytes(*sent_ns),
-        received_ns: now_ns(),
-        call_id: u64::from_le_bytes(*call_id),
-        latched: kind[1] == 1,
-        kind: match kind[0] {
-            0 => ObservedKind::Message,
-            1 => ObservedKind::Request,
-            2 => ObservedKind::Reply,
-            _ => return None,
-        },
-    })
-}
-
-fn now_ns() -> u64 {
-    let now = clock_gettime(ClockId::Realtime);
-    now.tv_sec.unsigned_abs() * 1_000_000_000 + now.tv_nsec.unsigned_abs()
+    let TapMeta { sequence, sent_ns, call_id, kind, latched } = TapMeta::decode(message.body[..].try_into().ok()?)?;
+    let payload = if payload.is_empty() { Bytes::new() } else { message.envelope.slice_ref(payload) };
+    Some(Observation { payload, sequence, sent_ns, received_ns: now_ns(), call_id, latched, kind })
 }

@@ -1,4 +1,4 @@
-//! The codecs by the names that generated code gives them, also those whose cargo feature is off.
+//! What stands for a codec whose cargo feature is off.
 
 /// A codec, or a stand-in for it and the error that names the feature.
 macro_rules! codec {
@@ -56,10 +56,3 @@ macro_rules! codec {
         }
     };
 }
-
-codec!("protobuf" Protobuf protobuf_is_on protobuf_stand_in protobuf_off);
-codec!("json" Json json_is_on json_stand_in json_off);
-codec!("cbor" Cbor cbor_is_on cbor_stand_in cbor_off);
-codec!("msgpack" Msgpack msgpack_is_on msgpack_stand_in msgpack_off);
-codec!("postcard" Postcard postcard_is_on postcard_stand_in postcard_off);
-codec!("raw" Raw raw_is_on raw_stand_in raw_off);
