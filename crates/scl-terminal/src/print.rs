@@ -2,7 +2,7 @@
 //! all.
 //!
 //! A command prints without looking at errors, and its `main` ends with [`finish_output`], which reports the first one.
-//! A stream looks at [`output_is_closed`] after each message, because printing more would be in vain. Lints forbid
+//! A stream looks at [`output_is_closed`] after each message, because no more can be printed. Lints forbid
 //! other ways to standard output.
 
 use std::io::{self, ErrorKind, IsTerminal, Write};

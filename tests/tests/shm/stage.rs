@@ -9,8 +9,8 @@ use std::fs;
 pub(crate) const IMAGE: usize = 4 << 20;
 /// The queue of the viewer's and the worker's gates.
 pub(crate) const QUEUE: u64 = 4;
-/// At most so many messages have been sent of which the sender does not know yet whether they were received: what is on
-/// its way, what waits at the receiving gate, and what the next acknowledgement will say.
+/// The most messages whose receipt the sender does not know of yet: those on their way, those that wait at the
+/// receiving gate, and those that the next acknowledgement will report.
 pub(crate) const UNKNOWN: u64 = 3 * QUEUE;
 
 /// A runtime folder whose connections use shared memory.

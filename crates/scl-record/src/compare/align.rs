@@ -15,8 +15,8 @@ use std::time::Duration;
 const WINDOW: usize = 16 << 10;
 const WINDOW_BYTES: usize = 32 << 20;
 
-/// Up to this distance, so many messages may be missing on both sides at once. Trying that at any distance would take
-/// too long.
+/// Up to [`NEAR`] messages after the recordings begin to differ, as many as [`BOTH`] may be missing on both sides at
+/// once. Trying that at any distance would take too long.
 const NEAR: usize = 256;
 const BOTH: usize = 16;
 

@@ -54,7 +54,7 @@ impl Connection {
         let figures = ConnectionFigures {
             connected: self.is_connected(),
             waiting: self.queue.len() as u64,
-            taken: self.account.handed - self.account.lost - not_received,
+            taken: self.taken(),
             dropped: dropped_oldest + dropped_newest,
             lost: self.account.lost,
             replaced,
@@ -81,7 +81,7 @@ impl Connection {
             peer: format!("{}.{}", self.link.peer_component, self.link.peer_gate),
             connected: self.is_connected(),
             published: self.account.published + self.account.latched,
-            taken: self.account.handed - self.account.lost - not_received,
+            taken: self.taken(),
             replaced,
             dropped_oldest,
             dropped_newest,
@@ -99,6 +99,11 @@ impl Connection {
         let kept = self.queue.len() as u64 + replaced + dropped_oldest + dropped_newest;
         debug_assert_eq!(published + latched, handed + kept, "the account of {} does not add up", self.peer_name());
         debug_assert!(lost + self.not_received() <= handed, "{} has received more than it was sent", self.peer_name());
+    }
+
+    /// Received by the peer's program, or dropped in its queue, as far as the peer has said.
+    fn taken(&self) -> u64 {
+        self.account.handed - self.account.lost - self.not_received()
     }
 
     pub(super) fn unacknowledged(&self) -> u64 {

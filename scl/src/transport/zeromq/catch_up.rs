@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 /// How long a receiver waits for the messages that the sender has announced: a stopped sender must not stop a control
 /// loop.
 pub(super) const LIMIT: Duration = Duration::from_millis(100);
-/// The limit passes in so many steps, so that time in which this program itself stands still counts as one of them at
+/// The number of steps in which the limit passes. Time in which this program itself is stopped counts as one step at
 /// most.
 const STEPS: u32 = 10;
 /// For how long an answer counts for a caller that does not wait, and looks again.

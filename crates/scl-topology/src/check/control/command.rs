@@ -35,7 +35,7 @@ pub(crate) const FIXED: Rule = Rule {
 /// Errors that somebody may know better than the checker.
 const ALLOWED_ERRORS: [&Rule; 2] = [&unconnected::NO_REPLIER, &deadlock::RULE];
 
-/// For so many unknown codes similar ones are looked for.
+/// The number of unknown codes for which similar ones are looked up.
 const MOST_SEARCHES: usize = 20;
 
 /// A comment as understood.
