@@ -77,4 +77,4 @@ pub mod source;
 pub mod suggest;
 pub mod topology;
 mod work;
-mod yaml;
+pub mod yaml;

@@ -6,6 +6,8 @@
 mod component;
 mod connection;
 mod control;
+mod dialect;
+mod document;
 mod extension;
 mod field;
 mod fields;
@@ -21,6 +23,10 @@ mod syntax_error;
 mod testing;
 mod words;
 
+pub use dialect::Dialect;
+pub use document::{Document, read_document};
+pub use field::{Field, Fields};
+pub use fields::fields;
 pub(crate) use pitfall::look_alike::LETTER;
 pub(crate) use pitfall::{MISREAD, RULES as PITFALLS};
 pub(crate) use shape::RULES as SHAPES;
@@ -28,7 +34,8 @@ pub(crate) use shape::RULES as SHAPES;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
 use crate::source::{FileId, SourceFile, Sources, Span, Spanned};
-use crate::yaml::{self, Node, NodeKind, Style, Tree};
+use crate::yaml::{Node, NodeKind};
+use dialect::TOPOLOGY;
 
 /// Reads a topology file as it is written.
 ///
@@ -49,18 +56,13 @@ use crate::yaml::{self, Node, NodeKind, Style, Tree};
 /// ```
 pub fn parse(sources: &Sources, file: FileId, problems: &mut Diagnostics) -> Model {
     let source = sources.file(file);
-    let text = pitfall::check_text(source, problems);
-    let tree = yaml::read(&text.text, file);
-    pitfall::check_tree(&tree, source, problems);
-    problems.extend(syntax_error::explain(&tree, &text, source));
+    let document = read_document(source, &TOPOLOGY, problems);
     let mut reader = Reader::new(source);
-    reader.read_root(&tree);
-    reader.read_controls(tree.root.as_ref());
-    let Reader { mut model, problems: found, .. } = reader;
-    let is_partial = tree.is_partial() || text.has_conflict;
-    model.cut_off |= is_partial;
+    reader.read_root(&document);
+    reader.read_controls(document.root.as_ref());
+    let Reader { model, problems: found, .. } = reader;
     // What is wrong with the shape may be a consequence, so it waits until the text can be read to its end.
-    match is_partial {
+    match document.is_partial {
         true => found.discard(),
         false => problems.append(found),
     }
@@ -82,9 +84,9 @@ impl<'s> Reader<'s> {
         Reader { source, problems, model, has_stray_connections: false }
     }
 
-    fn read_root(&mut self, tree: &Tree) {
-        self.model.cut_off = tree.is_partial();
-        match &tree.root {
+    fn read_root(&mut self, document: &Document) {
+        self.model.cut_off = document.is_partial;
+        match &document.root {
             Some(Node { kind: NodeKind::Mapping { entries, .. }, .. }) => self.read_sections(entries),
             Some(root) if !root.is_null() && !matches!(root.kind, NodeKind::Unread) => {
                 self.report(shape::top_level::diagnose(root, self.source));
@@ -100,10 +102,7 @@ impl<'s> Reader<'s> {
 
 /// The text of a scalar that is not "no value".
 fn scalar(node: &Node) -> Option<Spanned<String>> {
-    match &node.kind {
-        NodeKind::Scalar { text, .. } if !node.is_null() => Some(Spanned { value: text.clone(), span: node.span }),
-        _ => None,
-    }
+    Some(Spanned { value: node.text()?.to_owned(), span: node.span })
 }
 
 /// What a message calls a value of this shape.
@@ -114,11 +113,6 @@ fn shape_word(node: &Node) -> &'static str {
         NodeKind::Sequence { .. } => "a list",
         NodeKind::Mapping { .. } => "a mapping",
     }
-}
-
-/// Whether a scalar stands without quotes, so that YAML may read it as something other than text.
-fn is_plain(node: &Node) -> bool {
-    matches!(node.kind, NodeKind::Scalar { style: Style::Plain, .. })
 }
 
 /// From the `-` before a list item to its end; in brackets, just the item.

@@ -58,6 +58,11 @@ pub struct LineColumn {
 }
 
 impl SourceFile {
+    /// Which of the sources it is.
+    pub(crate) fn id(&self) -> FileId {
+        self.id
+    }
+
     /// The path, relative to the working folder where possible, as messages print it.
     pub fn path(&self) -> &str {
         &self.path

@@ -14,31 +14,45 @@ pub(crate) use syntax_error::{SyntaxError, SyntaxErrorKind};
 /// A deeper file is no topology; the limit keeps every walk over the tree from overflowing the stack.
 pub(crate) const MAX_DEPTH: usize = 16;
 
+/// How many values all aliases of a file may stand for, so that a small text does not become an enormous tree.
+pub(crate) const MOST_REPEATED: usize = 10_000;
+
 /// One value and its place.
 #[derive(Debug, Clone)]
-pub(crate) struct Node {
+pub struct Node {
     /// From the first to the last character that belongs to it; quotes and brackets belong.
-    pub(crate) span: Span,
+    pub span: Span,
     /// What it is.
-    pub(crate) kind: NodeKind,
+    pub kind: NodeKind,
 }
 
 /// The shapes of a value.
 #[derive(Debug, Clone)]
-pub(crate) enum NodeKind {
+pub enum NodeKind {
     /// Text; empty and plain where no value is written.
-    Scalar { text: String, style: Style },
+    Scalar {
+        /// As written, without quotes and escapes.
+        text: String,
+        /// How.
+        style: Style,
+    },
     /// A list.
-    Sequence { items: Vec<Node> },
-    /// Keys and values, in file order; a key may occur twice.
-    Mapping { entries: Vec<(Node, Node)> },
+    Sequence {
+        /// In file order.
+        items: Vec<Node>,
+    },
+    /// Keys and values.
+    Mapping {
+        /// In file order; a key may occur twice.
+        entries: Vec<(Node, Node)>,
+    },
     /// A place whose value could not be read, and about which a problem is reported already.
     Unread,
 }
 
 /// How a scalar is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Style {
+pub enum Style {
     /// Without quotes.
     Plain,
     /// In single or double quotes.
@@ -48,8 +62,37 @@ pub(crate) enum Style {
 }
 
 impl Node {
+    /// The text of a scalar that is not "no value".
+    pub fn text(&self) -> Option<&str> {
+        match &self.kind {
+            NodeKind::Scalar { text, .. } if !self.is_null() => Some(text),
+            _ => None,
+        }
+    }
+
+    /// The items of a list.
+    pub fn items(&self) -> Option<&[Node]> {
+        match &self.kind {
+            NodeKind::Sequence { items } => Some(items),
+            _ => None,
+        }
+    }
+
+    /// The keys and values of a mapping.
+    pub fn entries(&self) -> Option<&[(Node, Node)]> {
+        match &self.kind {
+            NodeKind::Mapping { entries } => Some(entries),
+            _ => None,
+        }
+    }
+
+    /// Whether a scalar stands without quotes, so that YAML may read it as something other than text.
+    pub fn is_plain(&self) -> bool {
+        matches!(self.kind, NodeKind::Scalar { style: Style::Plain, .. })
+    }
+
     /// Whether it is "no value" as YAML reads it: nothing, `~` or `null`.
-    pub(crate) fn is_null(&self) -> bool {
+    pub fn is_null(&self) -> bool {
         matches!(&self.kind, NodeKind::Scalar { text, style: Style::Plain }
             if matches!(text.as_str(), "" | "~" | "null" | "Null" | "NULL"))
     }
@@ -79,18 +122,21 @@ pub(crate) struct Tree {
     pub(crate) second_document: Option<Span>,
     /// The first value below [`MAX_DEPTH`].
     pub(crate) too_deep: Option<Span>,
+    /// The first alias past [`MOST_REPEATED`].
+    pub(crate) too_much: Option<Span>,
 }
 
 impl Tree {
     /// Whether a part of the text could not be read, so that what seems to be missing may be in it.
     pub(crate) fn is_partial(&self) -> bool {
-        self.error.is_some() || self.too_deep.is_some() || self.second_document.is_some()
+        self.error.is_some() || self.too_deep.is_some() || self.too_much.is_some() || self.second_document.is_some()
     }
 }
 
-/// Reads a text. Takes linear time and never fails: what is wrong is part of the answer.
-pub(crate) fn read(text: &str, file: FileId) -> Tree {
-    let mut builder = build::Builder::new(text, file);
+/// Reads a text. Takes linear time and never fails: what is wrong is part of the answer. With `has_aliases`, a copy of
+/// the anchor's value stands in the place of an alias, else nothing that can be read.
+pub(crate) fn read(text: &str, file: FileId, has_aliases: bool) -> Tree {
+    let mut builder = build::Builder::new(text, file, has_aliases);
     for next in Parser::new_from_str_with_options(text, options()) {
         match next {
             Ok((Event::DocumentStart(..), span)) if builder.has_document() => {

@@ -1,5 +1,6 @@
 //! The section `components`.
 
+use super::dialect::TOPOLOGY;
 use super::field::{Field, Fields};
 use super::words::{COMPONENT_KEYS, is_kind};
 use super::{Reader, pitfall, scalar, shape};
@@ -204,7 +205,7 @@ impl Reader<'_> {
     ) -> crate::diagnostic::Diagnostic {
         let look_alike =
             || scalar(node).and_then(|text| pitfall::look_alike::in_word(node, &text.value, "the text", self.source));
-        pitfall::missing_space::in_node(node, self.source).or_else(look_alike).unwrap_or(otherwise)
+        pitfall::missing_space::in_node(node, self.source, &TOPOLOGY).or_else(look_alike).unwrap_or(otherwise)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The section `connections`.
 
 use super::field::Field;
-use super::{Reader, is_plain, pitfall, scalar, shape};
+use super::{Reader, pitfall, scalar, shape};
 use crate::confusable;
 use crate::diagnostic::Diagnostic;
 use crate::model::ConnectionModel;
@@ -72,7 +72,7 @@ impl Reader<'_> {
     /// The problem of a text that is `-[a.b, c.d]`, or `-- [a.b, c.d]`: a list item with an odd dash.
     fn glued_dash(&self, value: &Node) -> Option<Diagnostic> {
         let NodeKind::Scalar { text, .. } = &value.kind else { return None };
-        if !is_plain(value) || !text.starts_with('-') {
+        if !value.is_plain() || !text.starts_with('-') {
             return None;
         }
         if text.starts_with("--") {

@@ -6,31 +6,31 @@ use crate::yaml::Node;
 
 /// One key and its value.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Field<'n> {
+pub struct Field<'n> {
     /// The key as text.
-    pub(super) key: &'n str,
+    pub key: &'n str,
     /// The key's place.
-    pub(super) key_span: Span,
+    pub key_span: Span,
     /// The key's node, which knows whether it was quoted.
-    pub(super) key_node: &'n Node,
+    pub key_node: &'n Node,
     /// The value.
-    pub(super) value: &'n Node,
+    pub value: &'n Node,
 }
 
 /// The readable keys of a mapping.
 #[derive(Debug, Default)]
-pub(super) struct Fields<'n> {
+pub struct Fields<'n> {
     /// In file order, each key once.
-    pub(super) list: Vec<Field<'n>>,
+    pub list: Vec<Field<'n>>,
     /// The second and later fields of the same key; a problem says so.
-    pub(super) repeated: Vec<Field<'n>>,
+    pub repeated: Vec<Field<'n>>,
     /// A key could not be read, and a problem says so: whatever seems to be missing may be behind it.
-    pub(super) damaged: bool,
+    pub damaged: bool,
 }
 
 impl<'n> Fields<'n> {
     /// The field with this key.
-    pub(super) fn get(&self, key: &str) -> Option<Field<'n>> {
+    pub fn get(&self, key: &str) -> Option<Field<'n>> {
         self.list.iter().copied().find(|field| field.key == key)
     }
 

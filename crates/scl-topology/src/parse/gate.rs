@@ -1,8 +1,9 @@
 //! The gates of a component.
 
+use super::dialect::TOPOLOGY;
 use super::field::{Field, Fields, spanned_key};
 use super::words::{is_kind, is_like_option, is_option};
-use super::{Reader, is_plain, pitfall, scalar, shape};
+use super::{Reader, pitfall, scalar, shape};
 use crate::confusable;
 use crate::diagnostic::Diagnostic;
 use crate::model::{ComponentModel, GateModel};
@@ -83,7 +84,7 @@ impl Reader<'_> {
                 return;
             }
             NodeKind::Scalar { .. } if item.is_null() => pitfall::no_value::in_list(item, "list item", self.source),
-            NodeKind::Scalar { text, .. } => match pitfall::missing_space::in_node(item, self.source) {
+            NodeKind::Scalar { text, .. } => match pitfall::missing_space::in_node(item, self.source, &TOPOLOGY) {
                 Some(problem) => {
                     let name = text.split(':').next().unwrap_or(text).to_owned();
                     component.gates.push(unread_gate(Spanned { value: name, span: item.span }));
@@ -121,7 +122,7 @@ impl Reader<'_> {
             span: Span { end: item.span.start + name.len() as u32, ..item.span },
         };
         match text.split_once(' ').filter(|(_, kind)| is_kind(kind.trim())) {
-            Some((name, kind)) if is_plain(item) => {
+            Some((name, kind)) if item.is_plain() => {
                 component.gates.push(bare_gate(
                     named(name),
                     Spanned { value: kind.trim().to_owned(), span: item.span },
@@ -138,7 +139,7 @@ impl Reader<'_> {
 
     /// `name: kind` or `name: {kind: type, option: value}`.
     fn read_gate(&mut self, field: Field<'_>, component: &mut ComponentModel) {
-        if let Some((name, rest)) = field.key.split_once(" {").filter(|_| is_plain(field.key_node)) {
+        if let Some((name, rest)) = field.key.split_once(" {").filter(|_| field.key_node.is_plain()) {
             self.report(shape::gate::without_colon(name, &format!("{{{rest}: ...}}"), field.key_span));
             let span = Span { end: field.key_span.start + name.len() as u32, ..field.key_span };
             return component.gates.push(unread_gate(Spanned { value: name.to_owned(), span }));
@@ -267,17 +268,17 @@ impl Reader<'_> {
             payload.value = meant;
         }
         // A type in quotes is the same type; the place is that of the whole value.
-        (is_plain(kind.value) || !payload.value.trim().is_empty()).then_some(payload)
+        (kind.value.is_plain() || !payload.value.trim().is_empty()).then_some(payload)
     }
 }
 
 /// `{pub: Type, doc: One, two}`: the keys after the first comma of a text without quotes.
 fn rest_of_doc<'f, 'n>(fields: &'f Fields<'n>) -> &'f [Field<'n>] {
-    let is_doc = |field: &Field<'_>| field.key == "doc" && is_plain(field.value) && !field.value.is_null();
+    let is_doc = |field: &Field<'_>| field.key == "doc" && field.value.is_plain() && !field.value.is_null();
     let Some(doc) = fields.list.iter().position(is_doc) else { return &[] };
     let rest = &fields.list[doc + 1..];
     let is_option = |field: &Field<'_>| is_kind(field.key) || is_option(field.key);
-    let is_text = |field: &Field<'_>| field.value.is_null() && is_plain(field.key_node) && !is_option(field);
+    let is_text = |field: &Field<'_>| field.value.is_null() && field.key_node.is_plain() && !is_option(field);
     &rest[..rest.iter().take_while(|field| is_text(field)).count()]
 }
 
@@ -286,7 +287,7 @@ fn glued_key<'n>(fields: &Fields<'n>) -> Option<Field<'n>> {
     let is_glued = |field: &&Field<'n>| {
         let word = first_word(field.key);
         let is_known = is_kind(word) || is_option(word);
-        field.value.is_null() && word.len() < field.key.len() && is_known && is_plain(field.key_node)
+        field.value.is_null() && word.len() < field.key.len() && is_known && field.key_node.is_plain()
     };
     fields.list.iter().find(is_glued).copied()
 }
@@ -299,7 +300,7 @@ fn first_word(key: &str) -> &str {
 /// Whether each entry is an item of a list whose dash lacks its space: `-measurements: pub`.
 fn is_glued_dash(entries: &[(Node, Node)]) -> bool {
     let is_glued = |key: &Node| {
-        is_plain(key) && scalar(key).is_some_and(|key| key.value.starts_with('-') && !key.value.starts_with("--"))
+        key.is_plain() && scalar(key).is_some_and(|key| key.value.starts_with('-') && !key.value.starts_with("--"))
     };
     !entries.is_empty() && entries.iter().all(|(key, _)| is_glued(key))
 }

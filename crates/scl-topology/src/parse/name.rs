@@ -1,7 +1,7 @@
 //! A name, wherever one stands: of a component, a gate, a type, a file.
 
 use super::field::Field;
-use super::{Reader, is_plain, pitfall, scalar, shape};
+use super::{Reader, pitfall, scalar, shape};
 use crate::confusable;
 use crate::source::Spanned;
 use crate::yaml::{Node, NodeKind, Style};
@@ -30,7 +30,7 @@ impl Reader<'_> {
                 let value = text.trim().to_owned();
                 return (!value.is_empty() && !value.contains('\n')).then_some(Spanned { value, span: node.span });
             }
-            NodeKind::Scalar { text, .. } if is_plain(node) => self.check_word(node, text),
+            NodeKind::Scalar { text, .. } if node.is_plain() => self.check_word(node, text),
             NodeKind::Scalar { .. } => {}
             _ => {
                 self.report(shape::option_value::not_text(place, node));

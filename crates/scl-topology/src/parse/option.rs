@@ -1,7 +1,7 @@
 //! The options of a gate.
 
 use super::field::{Field, spanned_key};
-use super::{Reader, is_plain, pitfall, scalar, shape};
+use super::{Reader, pitfall, scalar, shape};
 use crate::grammar::{Shape, option};
 use crate::model::OptionModel;
 use crate::source::Spanned;
@@ -15,7 +15,7 @@ impl Reader<'_> {
             Shape::Name | Shape::Codec => self.name_in(field, &format!("value of `{}`", field.key)),
             shape => self.shaped(field, shape),
         }?;
-        let quoted = !is_plain(field.value);
+        let quoted = !field.value.is_plain();
         Some(OptionModel { key: spanned_key(field), value, quoted })
     }
 
@@ -30,7 +30,7 @@ impl Reader<'_> {
             _ if super::name::is_empty(field.value) => {
                 pitfall::no_value::in_field(field, &format!("value of `{}`", field.key), self.source)
             }
-            NodeKind::Scalar { text, .. } if expected.fits(text, is_plain(field.value)) => {
+            NodeKind::Scalar { text, .. } if expected.fits(text, field.value.is_plain()) => {
                 match pitfall::leading_zero::find(field, text) {
                     Some(problem) if matches!(expected, Shape::Number { .. }) => problem,
                     _ => return scalar(field.value),

@@ -22,6 +22,7 @@ pub(super) mod tab;
 pub(super) mod unexpected;
 pub(super) mod unsupported;
 
+use super::dialect::Dialect;
 use crate::diagnostic::{Diagnostics, Rule};
 use crate::source::SourceFile;
 use crate::yaml::Tree;
@@ -74,26 +75,29 @@ pub(super) struct CheckedText {
 }
 
 /// The rules that need no parser.
-pub(super) fn check_text(source: &SourceFile, problems: &mut Diagnostics) -> CheckedText {
+pub(super) fn check_text(source: &SourceFile, dialect: &Dialect, problems: &mut Diagnostics) -> CheckedText {
     let mut text = source.text().to_owned();
     let conflict = conflict_marker::check(source, &mut text);
     let has_conflict = conflict.is_some();
     problems.extend(conflict);
     let scan = scan::scan(&text);
     let is_cleaned = invisible::check(source, &scan, &mut text, problems);
-    unsupported::check_directives(source, &mut text, problems);
+    unsupported::check_directives(source, &mut text, dialect, problems);
     let has_tabs = tab::check_indentation(source, &scan, &mut text, problems);
     tab::check_separators(source, &scan, &mut text, problems);
     CheckedText { text, is_mended: is_cleaned || has_tabs || has_conflict, has_conflict }
 }
 
 /// The rules about what the parser found, but not about what it means.
-pub(super) fn check_tree(tree: &Tree, source: &SourceFile, problems: &mut Diagnostics) {
-    unsupported::check_anchors(tree, source, problems);
-    problems.extend(tree.tags.iter().map(|tag| unsupported::tag(*tag)));
-    problems.extend(tree.second_document.map(|at| unsupported::second_document(source, at)));
-    problems.extend(tree.too_deep.map(depth::diagnose));
+pub(super) fn check_tree(tree: &Tree, source: &SourceFile, dialect: &Dialect, problems: &mut Diagnostics) {
+    match dialect.has_aliases {
+        true => unsupported::check_aliases(tree, problems),
+        false => unsupported::check_anchors(tree, source, problems),
+    }
+    problems.extend(tree.tags.iter().map(|tag| unsupported::tag(*tag, dialect)));
+    problems.extend(tree.second_document.map(|at| unsupported::second_document(source, at, dialect)));
+    problems.extend(tree.too_deep.map(|at| depth::diagnose(at, dialect)));
     if tree.error.is_none() {
-        problems.extend(empty_file::find(tree, source));
+        problems.extend(empty_file::find(tree, source, dialect));
     }
 }

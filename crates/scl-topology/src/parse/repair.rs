@@ -9,11 +9,12 @@ mod line;
 mod tell;
 mod window;
 
+use super::Document;
+use super::dialect::Dialect;
 use super::pitfall::CheckedText;
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::parse::words::is_kind;
-use crate::parse::{Reader, shape};
 use crate::source::{SourceFile, Sources};
 use crate::yaml::{self, SyntaxError};
 use std::ops::Range;
@@ -103,21 +104,28 @@ pub(super) struct Repair {
 const MOST_RIVALS: usize = 16;
 
 /// The problem that the best change stands for, if any change makes the text readable.
-pub(super) fn find(error: &SyntaxError, text: &CheckedText, source: &SourceFile) -> Option<Repair> {
+pub(super) fn find(error: &SyntaxError, text: &CheckedText, source: &SourceFile, dialect: &Dialect) -> Option<Repair> {
     let text = &text.text;
     let window = window::around(error, text, source)?;
-    find_in(&window, true, error, text, source).or_else(|| {
+    find_in(&window, true, error, text, source, dialect).or_else(|| {
         // A second mistake below keeps all of it from being read.
         let above = window.without_lines_below(error, text, source)?;
-        find_in(&above, false, error, text, source).filter(|repair| repair.is_sure)
+        find_in(&above, false, error, text, source, dialect).filter(|repair| repair.is_sure)
     })
 }
 
 /// The same for a part of the text. Fixes are sure only if that is all of what belongs together.
-fn find_in(window: &Window, is_complete: bool, error: &SyntaxError, text: &str, source: &SourceFile) -> Option<Repair> {
+fn find_in(
+    window: &Window,
+    is_complete: bool,
+    error: &SyntaxError,
+    text: &str,
+    source: &SourceFile,
+    dialect: &Dialect,
+) -> Option<Repair> {
     let lines = window::suspects(error, text, source, window);
     let mut edits: Vec<(usize, Edit)> = Vec::new();
-    for edit in lines.iter().flat_map(|line| candidates::of_line(line, text, source)) {
+    for edit in lines.iter().flat_map(|line| candidates::of_line(line, text, source, dialect)) {
         if edit.changes.iter().all(|(range, _)| range.start >= window.range.start && range.end <= window.range.end) {
             let distance = edit.changes.first().map_or(0, |(range, _)| range.start.abs_diff(error.at));
             edits.push((distance, edit));
@@ -127,7 +135,7 @@ fn find_in(window: &Window, is_complete: bool, error: &SyntaxError, text: &str, 
     let mut best: Option<(usize, usize)> = None;
     for (at, (_, edit)) in edits.iter().take(MOST_TRIES).enumerate() {
         let most = best.map_or(MOST_PROBLEMS, |(left, _)| left - 1);
-        if let Some(left) = problems_left(&window.with(edit, text)).filter(|left| *left <= most) {
+        if let Some(left) = problems_left(&window.with(edit, text), dialect).filter(|left| *left <= most) {
             best = Some((left, at));
             // The others are no smaller, and mend no more.
             if left == 0 {
@@ -140,35 +148,31 @@ fn find_in(window: &Window, is_complete: bool, error: &SyntaxError, text: &str, 
     let rivals = edits[at + 1..].iter().map(|(_, rival)| rival).take_while(|rival| rival.cost == edit.cost);
     let mended = window.with(edit, text);
     let mut rivals = rivals.take(MOST_RIVALS).map(|rival| window.with(rival, text)).filter(|other| *other != mended);
-    let is_meant = is_complete && left == 0 && edit.is_meant() && !rivals.any(|other| problems_left(&other) == Some(0));
-    let problem = edit.changes.iter().fold(tell::tell(edit, text, source), |problem, (range, with)| match is_meant {
-        true => problem.fix(source.span(range.clone()), with),
-        false => problem.maybe_fix(source.span(range.clone()), with),
-    });
+    let is_meant =
+        is_complete && left == 0 && edit.is_meant() && !rivals.any(|other| problems_left(&other, dialect) == Some(0));
+    let problem =
+        edit.changes.iter().fold(tell::tell(edit, text, source, dialect), |problem, (range, with)| match is_meant {
+            true => problem.fix(source.span(range.clone()), with),
+            false => problem.maybe_fix(source.span(range.clone()), with),
+        });
     Some(Repair { problem, is_sure: left == 0 })
 }
 
 /// How much there is to complain about in a text; none if it cannot be read.
-fn problems_left(text: &str) -> Option<usize> {
+fn problems_left(text: &str, dialect: &Dialect) -> Option<usize> {
     let mut sources = Sources::new();
     let file = sources.add("", text);
-    let tree = yaml::read(sources.file(file).text(), file);
+    let tree = yaml::read(sources.file(file).text(), file, dialect.has_aliases);
     if tree.error.is_some() || tree.too_deep.is_some() {
         return None;
     }
-    let odd = tree.anchors.len() + tree.tags.len() + usize::from(tree.second_document.is_some());
-    let mut reader = Reader::new(sources.file(file));
-    reader.read_root(&tree);
-    let Reader { model, problems, .. } = reader;
-    let found = problems.into_sorted();
-    // The window may show one section only.
-    let counts =
-        |found: &&Diagnostic| found.severity == Severity::Error && found.code() != shape::missing::SECTION.code;
-    Some(odd + found.iter().filter(counts).count() + implausible(&model))
+    let anchors = tree.anchors.iter().filter(|anchor| !dialect.has_aliases || anchor.definition.is_none());
+    let odd = anchors.count() + tree.tags.len() + usize::from(tree.second_document.is_some());
+    Some(odd + (dialect.mistakes)(&Document::of(tree), sources.file(file)))
 }
 
 /// Words that have a shape and yet no meaning.
-fn implausible(model: &Model) -> usize {
+pub(super) fn implausible(model: &Model) -> usize {
     let is_name = |name: &str| {
         let is_letter = |letter: char| letter.is_alphanumeric() || matches!(letter, '_' | '-');
         name.chars().all(is_letter) && !name.starts_with('-')

@@ -1,5 +1,6 @@
 //! Why the parser stopped: the rule that explains it best.
 
+use super::dialect::Dialect;
 use super::pitfall::{
     CheckedText, bracket, depth, indentation, missing_space, not_yaml, quote, reserved_character, tab, unsupported,
 };
@@ -9,36 +10,37 @@ use crate::source::SourceFile;
 use crate::yaml::{SyntaxErrorKind, Tree};
 
 /// `None` where the parser did not stop, or a problem says so already.
-pub(super) fn explain(tree: &Tree, text: &CheckedText, source: &SourceFile) -> Option<Diagnostic> {
+pub(super) fn explain(tree: &Tree, text: &CheckedText, source: &SourceFile, dialect: &Dialect) -> Option<Diagnostic> {
     let error = tree.error.as_ref()?;
     if error.kind == SyntaxErrorKind::Limit {
         // The parser may notice it before it hands out the first of the nested values.
-        return tree.too_deep.is_none().then(|| depth::diagnose(source.span(error.at..error.at)));
+        return tree.too_deep.is_none().then(|| depth::diagnose(source.span(error.at..error.at), dialect));
     }
     if text.is_mended {
         return None;
     }
     let explained = match error.kind {
-        SyntaxErrorKind::Glued => missing_space::at_bracket(error, &text.text, source),
+        SyntaxErrorKind::Glued => missing_space::at_bracket(error, &text.text, source, dialect),
         SyntaxErrorKind::Quote => quote::find(error, &text.text, source),
         SyntaxErrorKind::Character(character) => Some(reserved_character::diagnose(error.at, character, source)),
         SyntaxErrorKind::Property => reserved_character::find(error.at, source),
         SyntaxErrorKind::Tab => Some(tab::elsewhere(error.at, source)),
-        SyntaxErrorKind::Directive => Some(unsupported::diagnose_directive(source, error.at)),
+        SyntaxErrorKind::Directive => Some(unsupported::diagnose_directive(source, error.at, dialect)),
         _ => None,
     };
-    let explained =
-        explained.or_else(|| missing_space::before(error, source)).or_else(|| quote::find(error, &text.text, source));
+    let explained = explained
+        .or_else(|| missing_space::before(error, source, dialect))
+        .or_else(|| quote::find(error, &text.text, source));
     if explained.is_some() {
         return explained;
     }
-    let repair = repair::find(error, text, source);
+    let repair = repair::find(error, text, source, dialect);
     if repair.as_ref().is_some_and(|repair| repair.is_sure) {
         return repair.map(|repair| repair.problem);
     }
     bracket::find(error, &text.text, source)
         .or_else(|| not_yaml::missing_dash_space(error, source))
-        .or_else(|| not_yaml::missing_colon(error, source))
+        .or_else(|| not_yaml::missing_colon(error, source, dialect))
         .or_else(|| indentation::find(error, &text.text, source))
         .or_else(|| repair.map(|repair| repair.problem))
         .or_else(|| Some(not_yaml::diagnose(error, source)))

@@ -1,6 +1,6 @@
 //! The parser's events, put together to a tree. Works on a stack of its own, never on the program's.
 
-use super::{Anchor, MAX_DEPTH, Node, NodeKind, Style, SyntaxError, Tree};
+use super::{Anchor, MAX_DEPTH, MOST_REPEATED, Node, NodeKind, Style, SyntaxError, Tree};
 use crate::source::{FileId, Span};
 use granit_parser::{Event, ScalarStyle, StructureStyle};
 use std::collections::HashMap;
@@ -8,6 +8,7 @@ use std::collections::HashMap;
 /// A collection whose end is still to come.
 struct Open {
     start: Span,
+    anchor: Option<usize>,
     flow: bool,
     content: Content,
 }
@@ -27,12 +28,30 @@ pub(super) struct Builder<'t> {
     documents: usize,
     /// The place in `tree.anchors` of each of the parser's anchor numbers.
     anchors: HashMap<usize, usize>,
+    has_aliases: bool,
+    /// The number of the anchor whose value comes next.
+    next_anchor: Option<usize>,
+    /// What each anchor stands for, with its number of values and its depth, if there are aliases.
+    values: HashMap<usize, (Node, usize, usize)>,
+    /// How many values the aliases so far stand for.
+    repeated: usize,
 }
 
 impl<'t> Builder<'t> {
-    pub(super) fn new(text: &'t str, file: FileId) -> Self {
-        let (tree, stack, anchors) = (Tree::default(), Vec::new(), HashMap::new());
-        Self { text, file, tree, stack, skipped: 0, documents: 0, anchors }
+    pub(super) fn new(text: &'t str, file: FileId, has_aliases: bool) -> Self {
+        Self {
+            text,
+            file,
+            tree: Tree::default(),
+            stack: Vec::new(),
+            skipped: 0,
+            documents: 0,
+            anchors: HashMap::new(),
+            has_aliases,
+            next_anchor: None,
+            values: HashMap::new(),
+            repeated: 0,
+        }
     }
 
     pub(super) fn has_document(&self) -> bool {
@@ -90,7 +109,8 @@ impl<'t> Builder<'t> {
         // The parser says `~` where nothing is written.
         let text = if span.start == span.end && style == Style::Plain { String::new() } else { text };
         let span = if style == Style::Block { self.without_blank_end(span) } else { span };
-        self.attach(Node { span, kind: NodeKind::Scalar { text, style } });
+        let anchor = self.next_anchor.take();
+        self.attach_value(Node { span, kind: NodeKind::Scalar { text, style } }, anchor);
     }
 
     /// The parser counts the empty lines after a text block to it.
@@ -100,15 +120,16 @@ impl<'t> Builder<'t> {
     }
 
     fn open(&mut self, start: Span, style: StructureStyle, content: Content) {
+        let anchor = self.next_anchor.take();
         if self.skipped > 0 || self.stack.len() >= MAX_DEPTH {
             if self.skipped == 0 {
                 self.tree.too_deep.get_or_insert(start);
-                self.stack.push(Open { start, flow: true, content });
+                self.stack.push(Open { start, anchor, flow: true, content });
             }
             self.skipped += 1;
             return;
         }
-        self.stack.push(Open { start, flow: style == StructureStyle::Flow, content });
+        self.stack.push(Open { start, anchor, flow: style == StructureStyle::Flow, content });
     }
 
     fn close(&mut self, end: Option<Span>) {
@@ -120,6 +141,7 @@ impl<'t> Builder<'t> {
         let unread = self.skipped == 1;
         self.skipped = 0;
         let span = closed_span(&open, end);
+        let anchor = open.anchor.filter(|_| end.is_some());
         let kind = match open.content {
             _ if unread => NodeKind::Unread,
             Content::Items(items) => NodeKind::Sequence { items },
@@ -131,7 +153,16 @@ impl<'t> Builder<'t> {
                 NodeKind::Mapping { entries }
             }
         };
-        self.attach(Node { span, kind });
+        self.attach_value(Node { span, kind }, anchor);
+    }
+
+    /// Attaches what is written in the text, and keeps it for the aliases of its anchor.
+    fn attach_value(&mut self, node: Node, anchor: Option<usize>) {
+        if let Some(id) = anchor.filter(|_| self.has_aliases && self.skipped == 0) {
+            let (values, depth) = size(&node);
+            self.values.insert(id, (node.clone(), values, depth));
+        }
+        self.attach(node);
     }
 
     fn attach(&mut self, node: Node) {
@@ -150,17 +181,49 @@ impl<'t> Builder<'t> {
     }
 
     fn anchor(&mut self, id: usize, span: Span) {
+        self.next_anchor = Some(id);
         self.anchors.insert(id, self.tree.anchors.len());
         self.tree.anchors.push(Anchor { definition: Some(span), aliases: Vec::new() });
     }
 
     fn alias(&mut self, id: Option<usize>, span: Span) {
+        if self.has_aliases {
+            return self.repeat(id, span);
+        }
         match id.and_then(|id| self.anchors.get(&id)) {
             Some(&index) => self.tree.anchors[index].aliases.push(span),
             None => self.tree.anchors.push(Anchor { definition: None, aliases: vec![span] }),
         }
         self.attach(Node { span, kind: NodeKind::Unread });
     }
+
+    /// Puts a copy of an anchor's value in the place of an alias. Its places are those of the original.
+    fn repeat(&mut self, id: Option<usize>, span: Span) {
+        let Some((node, values, depth)) = id.and_then(|id| self.values.get(&id)) else {
+            self.tree.anchors.push(Anchor { definition: None, aliases: vec![span] });
+            return self.attach(Node { span, kind: NodeKind::Unread });
+        };
+        let is_too_deep = self.stack.len() + depth > MAX_DEPTH;
+        if is_too_deep || self.repeated + values > MOST_REPEATED {
+            let place = if is_too_deep { &mut self.tree.too_deep } else { &mut self.tree.too_much };
+            place.get_or_insert(span);
+            return self.attach(Node { span, kind: NodeKind::Unread });
+        }
+        self.repeated += values;
+        self.attach(node.clone());
+    }
+}
+
+/// The number of values in a node, itself included, and how many collections are in each other. The depth of the tree
+/// bounds the recursion.
+fn size(node: &Node) -> (usize, usize) {
+    let below: Vec<(usize, usize)> = match &node.kind {
+        NodeKind::Scalar { .. } | NodeKind::Unread => return (1, 0),
+        NodeKind::Sequence { items } => items.iter().map(size).collect(),
+        NodeKind::Mapping { entries } => entries.iter().flat_map(|(key, value)| [size(key), size(value)]).collect(),
+    };
+    let values = below.iter().map(|(values, _)| values).sum::<usize>() + 1;
+    (values, below.iter().map(|(_, depth)| *depth).max().unwrap_or_default() + 1)
 }
 
 /// A collection in brackets ends with its bracket; the parser lets the others run to the next token, so they end with

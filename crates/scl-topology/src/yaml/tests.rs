@@ -27,7 +27,7 @@ fn dump(node: &Node, sources: &Sources, depth: usize, out: &mut String) {
 fn check(text: &str, expected: Expect) {
     let mut sources = Sources::new();
     let file = sources.add("t.yaml", text);
-    let tree = read(sources.file(file).text(), file);
+    let tree = read(sources.file(file).text(), file, false);
     let mut out = String::new();
     if let Some(root) = &tree.root {
         dump(root, &sources, 0, &mut out);

@@ -1,6 +1,7 @@
 //! SCL0116: nested too deeply.
 
 use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::parse::dialect::Dialect;
 use crate::source::Span;
 use crate::yaml::MAX_DEPTH;
 
@@ -16,10 +17,12 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-pub(in crate::parse) fn diagnose(at: Span) -> Diagnostic {
+pub(in crate::parse) fn diagnose(at: Span, dialect: &Dialect) -> Diagnostic {
     let message = format!("the file is nested more than {MAX_DEPTH} levels deep here");
-    RULE.at(message, at, format!("level {}", MAX_DEPTH + 1))
-        .note("a topology needs 6 levels; the limit keeps the compiler from overflowing its stack")
+    RULE.at(message, at, format!("level {}", MAX_DEPTH + 1)).note(format!(
+        "{} needs {} levels; the limit keeps programs that read it from overflowing their stack",
+        dialect.noun, dialect.levels
+    ))
 }
 
 #[cfg(test)]
@@ -39,7 +42,7 @@ mod tests {
             1 | components: [[[[[[[[[[[[[[[[[x]]]]]]]]]]]]]]]]]
               |                            ^ level 17
               |
-              = note: a topology needs 6 levels; the limit keeps the compiler from overflowing its stack"#]],
+              = note: a topology needs 6 levels; the limit keeps programs that read it from overflowing their stack"#]],
         );
     }
 }

@@ -1,6 +1,7 @@
 //! SCL0115: nothing in the file.
 
 use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::parse::dialect::Dialect;
 use crate::source::SourceFile;
 use crate::yaml::Tree;
 
@@ -19,7 +20,7 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-pub(super) fn find(tree: &Tree, source: &SourceFile) -> Option<Diagnostic> {
+pub(super) fn find(tree: &Tree, source: &SourceFile, dialect: &Dialect) -> Option<Diagnostic> {
     if tree.root.as_ref().is_some_and(|root| !root.is_null()) {
         return None;
     }
@@ -32,8 +33,9 @@ pub(super) fn find(tree: &Tree, source: &SourceFile) -> Option<Diagnostic> {
         Some(_) => "no value here",
     };
     let span = if first == text.len() { source.span(0..0) } else { source.span(first..line.end.max(first)) };
-    let example = "a minimal topology:\ncomponents:\n  - name: sensor\n    gates:\n      - measurements: pub";
-    Some(RULE.at("the topology file is empty", span, label).help(example))
+    let what = dialect.noun.trim_start_matches("a ");
+    let example = format!("a minimal {what}:\n{}", dialect.minimal);
+    Some(RULE.at(format!("the {what} is empty"), span, label).help(example))
 }
 
 #[cfg(test)]
@@ -47,7 +49,7 @@ mod tests {
         check(
             &RULE,
             expect![[r#"
-            error: [SCL0115] the topology file is empty
+            error: [SCL0115] the topology is empty
              --> topology.yaml:1:1
               |
             1 | # TODO

@@ -1,9 +1,7 @@
 //! SCL0103: no space after `:`.
 
 use crate::diagnostic::{Diagnostic, Rule, Severity};
-use crate::parse::is_plain;
-use crate::parse::words::is_kind;
-use crate::parse::words::known_word;
+use crate::parse::dialect::Dialect;
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, SyntaxError};
 use std::ops::Range;
@@ -26,39 +24,49 @@ pub(crate) const RULE: Rule = Rule {
 const LINES: usize = 3;
 
 /// A word such as `name:sensor` where a mapping is expected.
-pub(in crate::parse) fn in_node(node: &Node, source: &SourceFile) -> Option<Diagnostic> {
-    if !is_plain(node) {
+pub(in crate::parse) fn in_node(node: &Node, source: &SourceFile, dialect: &Dialect) -> Option<Diagnostic> {
+    if !node.is_plain() {
         return None;
     }
     let written = source.snippet(node.span);
     let (key, value) = split(written.lines().next()?)?;
-    Some(diagnose(key, value, node.span))
+    Some(diagnose(key, value, node.span, dialect))
 }
 
 /// A key of a mapping that starts a list or mapping at its colon: `gates:[x: pub]`.
-pub(in crate::parse) fn in_key(key: &Node, text: &str) -> Option<Diagnostic> {
-    let (word, value) = split(text).filter(|_| is_plain(key))?;
-    value.starts_with(['[', '{']).then(|| diagnose(word, value, key.span))
+pub(in crate::parse) fn in_key(key: &Node, text: &str, dialect: &Dialect) -> Option<Diagnostic> {
+    let (word, value) = split(text).filter(|_| key.is_plain())?;
+    value.starts_with(['[', '{']).then(|| diagnose(word, value, key.span, dialect))
 }
 
 /// `{x:{pub: A}}`: YAML 1.2 allows it, and most readers do not.
-pub(in crate::parse) fn in_brackets(glued: &Range<usize>, text: &str, source: &SourceFile) -> Diagnostic {
+pub(in crate::parse) fn in_brackets(
+    glued: &Range<usize>,
+    text: &str,
+    source: &SourceFile,
+    dialect: &Dialect,
+) -> Diagnostic {
     let written = &text[glued.clone()];
     let (key, value) = written.split_once(':').unwrap_or((written, ""));
-    diagnose(key, value, source.span(glued.start..glued.start))
+    diagnose(key, value, source.span(glued.start..glued.start), dialect)
 }
 
 /// The colon at or shortly before an error, where a bracket follows at once.
-pub(in crate::parse) fn at_bracket(error: &SyntaxError, text: &str, source: &SourceFile) -> Option<Diagnostic> {
+pub(in crate::parse) fn at_bracket(
+    error: &SyntaxError,
+    text: &str,
+    source: &SourceFile,
+    dialect: &Dialect,
+) -> Option<Diagnostic> {
     let end = text.get(error.at..)?.find(['[', '{'])?;
     let bracket = error.at + end;
     let before = text[..bracket].strip_suffix(':')?;
     let start = before.rfind([' ', ',', '[', '{', '\n']).map_or(0, |at| at + 1);
-    Some(in_brackets(&(start..bracket + 1), text, source))
+    Some(in_brackets(&(start..bracket + 1), text, source, dialect))
 }
 
 /// A word such as `name:sensor` in the lines before a syntax error.
-pub(in crate::parse) fn before(error: &SyntaxError, source: &SourceFile) -> Option<Diagnostic> {
+pub(in crate::parse) fn before(error: &SyntaxError, source: &SourceFile, dialect: &Dialect) -> Option<Diagnostic> {
     let text = source.text();
     let mut line = source.line_range(error.at);
     for _ in 0..LINES {
@@ -66,7 +74,7 @@ pub(in crate::parse) fn before(error: &SyntaxError, source: &SourceFile) -> Opti
         let word = content.trim_start_matches([' ', '-']);
         if let Some((key, value)) = split(word) {
             let start = line.start + content.len() - word.len();
-            let problem = diagnose(key, value, source.span(start..start));
+            let problem = diagnose(key, value, source.span(start..start), dialect);
             return Some(with_words(problem, error, start, source));
         }
         line = source.line_range(line.start.checked_sub(1)?);
@@ -83,7 +91,7 @@ fn with_words(problem: Diagnostic, error: &SyntaxError, start: usize, source: &S
 }
 
 /// The problem of a key and all that stands after its colon; the span starts with the key.
-fn diagnose(key: &str, written_after: &str, at: Span) -> Diagnostic {
+fn diagnose(key: &str, written_after: &str, at: Span, dialect: &Dialect) -> Diagnostic {
     let value = written_after.split_whitespace().next().unwrap_or("");
     let colon = at.start + key.len() as u32;
     let span = Span { start: colon, end: colon + 1, ..at };
@@ -95,7 +103,7 @@ fn diagnose(key: &str, written_after: &str, at: Span) -> Diagnostic {
     let after = Span { start: span.end, ..span };
     // More than one word after the colon: the colon may be a slip of its own.
     let is_one = written_after.trim_end() == value || value.starts_with(['[', '{']);
-    match is_one && (known_word(key).is_some() || is_kind(value)) {
+    match is_one && ((dialect.word)(key).or_else(|| (dialect.word)(value)).is_some()) {
         true => problem.fix(after, " "),
         false => problem.maybe_fix(after, " "),
     }

@@ -2,7 +2,7 @@
 
 use super::{dash, missing_mark};
 use crate::diagnostic::{Diagnostic, Rule, Severity};
-use crate::parse::words::{COMPONENT_KEYS, SECTIONS};
+use crate::parse::dialect::Dialect;
 use crate::source::SourceFile;
 use crate::yaml::SyntaxError;
 use std::ops::Range;
@@ -36,11 +36,15 @@ pub(in crate::parse) fn diagnose(error: &SyntaxError, source: &SourceFile) -> Di
 }
 
 /// A section or key without its colon, in the line of the error or the one before.
-pub(in crate::parse) fn missing_colon(error: &SyntaxError, source: &SourceFile) -> Option<Diagnostic> {
+pub(in crate::parse) fn missing_colon(
+    error: &SyntaxError,
+    source: &SourceFile,
+    dialect: &Dialect,
+) -> Option<Diagnostic> {
     let text = source.text();
     here_and_above(error, source).find_map(|line| {
         let content = text[line.clone()].trim_start_matches([' ', '-']);
-        let word = content.split([' ', '#']).next().filter(|word| is_key(word))?;
+        let word = content.split([' ', '#']).next().filter(|word| (dialect.is_key)(word))?;
         let start = line.end - content.len();
         Some(missing_mark::colon_after(&(start..start + word.len()), text, source))
     })
@@ -68,8 +72,4 @@ pub(in crate::parse) fn missing_dash_space(error: &SyntaxError, source: &SourceF
             _ => None,
         }
     })
-}
-
-fn is_key(word: &str) -> bool {
-    SECTIONS.contains(&word) || COMPONENT_KEYS.contains(&word)
 }

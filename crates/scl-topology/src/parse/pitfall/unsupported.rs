@@ -2,8 +2,9 @@
 //! tag. SCL0114: more than one document. SCL0118: a directive, such as `%YAML 1.1`.
 
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::parse::dialect::Dialect;
 use crate::source::{SourceFile, Span};
-use crate::yaml::{Anchor, Node, NodeKind, Tree};
+use crate::yaml::{Anchor, MOST_REPEATED, Node, NodeKind, Tree};
 use std::ops::Range;
 
 /// SCL0111.
@@ -35,6 +36,21 @@ pub(super) fn check_anchors(tree: &Tree, source: &SourceFile, problems: &mut Dia
         let root = tree.root.as_ref().filter(|_| number < EXPLAINED);
         problems.push(diagnose_anchor(anchor, root, source));
     }
+}
+
+/// Reports each alias that stands for nothing, in a file that may have aliases.
+pub(super) fn check_aliases(tree: &Tree, problems: &mut Diagnostics) {
+    let undefined = tree.anchors.iter().filter(|anchor| anchor.definition.is_none());
+    for alias in undefined.flat_map(|anchor| &anchor.aliases) {
+        let problem = ANCHOR.at("this alias stands for nothing", *alias, "no anchor of this name ends above");
+        problems.push(problem.help("write the value out, or put `&` and the name before the value that is meant"));
+    }
+    problems.extend(tree.too_much.map(|alias| {
+        ANCHOR
+            .at("the aliases of the file stand for too much", alias, "not read")
+            .help("write out what is needed")
+            .note(format!("all of them may stand for {MOST_REPEATED} values together"))
+    }));
 }
 
 fn diagnose_anchor(anchor: &Anchor, root: Option<&Node>, source: &SourceFile) -> Diagnostic {
@@ -102,9 +118,9 @@ pub(crate) const MERGE_KEY: Rule = Rule {
 ",
 };
 
-pub(in crate::parse) fn merge_key(key: &Node) -> Diagnostic {
+pub(in crate::parse) fn merge_key(key: &Node, dialect: &Dialect) -> Diagnostic {
     let message = "the merge key `<<` is not supported";
-    MERGE_KEY.at(message, key.span, "YAML 1.1 extension, not part of YAML 1.2").help("write the keys out")
+    MERGE_KEY.at(message, key.span, "YAML 1.1 extension, not part of YAML 1.2").help(dialect.instead_of_merge)
 }
 
 /// SCL0113.
@@ -121,8 +137,8 @@ pub(crate) const TAG: Rule = Rule {
 ",
 };
 
-pub(super) fn tag(tag: Span) -> Diagnostic {
-    TAG.at("YAML tags are not supported in a topology", tag, "tag").help("remove the tag")
+pub(super) fn tag(tag: Span, dialect: &Dialect) -> Diagnostic {
+    TAG.at(format!("YAML tags are not supported in {}", dialect.noun), tag, "tag").help("remove the tag")
 }
 
 /// SCL0114.
@@ -139,12 +155,13 @@ pub(crate) const SECOND_DOCUMENT: Rule = Rule {
 };
 
 /// The parser may place the start of a document without `---` at its content.
-pub(super) fn second_document(source: &SourceFile, at: Span) -> Diagnostic {
+pub(super) fn second_document(source: &SourceFile, at: Span, dialect: &Dialect) -> Diagnostic {
     let rest = source.text().get(at.start as usize..).unwrap_or("");
     let marker = rest.starts_with("---");
     let help = if marker { "remove the `---` line" } else { "remove the `...` line above" };
     let span = if marker { Span { end: at.start + 3, ..at } } else { at };
-    SECOND_DOCUMENT.at("a topology is one YAML document; a second one starts here", span, "second document").help(help)
+    let message = format!("{} is one YAML document; a second one starts here", dialect.noun);
+    SECOND_DOCUMENT.at(message, span, "second document").help(help)
 }
 
 /// SCL0118.
@@ -161,15 +178,20 @@ pub(crate) const DIRECTIVE: Rule = Rule {
 };
 
 /// Reports the directives before the document, and puts spaces in their place.
-pub(in crate::parse) fn check_directives(source: &SourceFile, text: &mut String, problems: &mut Diagnostics) {
+pub(in crate::parse) fn check_directives(
+    source: &SourceFile,
+    text: &mut String,
+    dialect: &Dialect,
+    problems: &mut Diagnostics,
+) {
     let directives = leading_directives(text);
     for directive in &directives {
-        problems.push(diagnose_directive(source, directive.start));
+        problems.push(diagnose_directive(source, directive.start, dialect));
         text.replace_range(directive.clone(), &" ".repeat(directive.len()));
     }
 }
 
-pub(in crate::parse) fn diagnose_directive(source: &SourceFile, at: usize) -> Diagnostic {
+pub(in crate::parse) fn diagnose_directive(source: &SourceFile, at: usize, dialect: &Dialect) -> Diagnostic {
     let range = source.line_range(at);
     let line = source.line(at);
     let marker = source.text()[range.end..].trim_start().starts_with("---");
@@ -182,7 +204,7 @@ pub(in crate::parse) fn diagnose_directive(source: &SourceFile, at: usize) -> Di
         .at("YAML directives are not supported", source.span(range), "directive")
         .help(help)
         .fix(removed, "")
-        .note("a topology is read as YAML 1.2; see SCL0108 for the words that differ")
+        .note(format!("{} is read as YAML 1.2; see SCL0108 for the words that differ", dialect.noun))
 }
 
 /// Lines that start with `%` before anything else than comments.

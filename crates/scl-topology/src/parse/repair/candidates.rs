@@ -2,8 +2,9 @@
 
 use super::line::{Class, Token, tokens};
 use super::{Edit, Kind};
+use crate::parse::dialect::Dialect;
 use crate::parse::pitfall::look_alike;
-use crate::parse::words::{COMPONENT_KEYS, SECTIONS};
+use crate::parse::words::COMPONENT_KEYS;
 use crate::source::SourceFile;
 use std::ops::Range;
 
@@ -16,7 +17,7 @@ const MOST_ABOVE: usize = 40;
 /// How much of a file shows which columns are usual.
 const MOST_LINES: usize = 400;
 
-pub(super) fn of_line(line: &Range<usize>, text: &str, source: &SourceFile) -> Vec<Edit> {
+pub(super) fn of_line(line: &Range<usize>, text: &str, source: &SourceFile, dialect: &Dialect) -> Vec<Edit> {
     let (tokens, open_after) = tokens(line, text);
     let mut edits = Vec::new();
     look_alikes(line, text, &mut edits);
@@ -27,7 +28,7 @@ pub(super) fn of_line(line: &Range<usize>, text: &str, source: &SourceFile) -> V
         marks(&tokens[at], next, text, &mut edits);
     }
     if let Some(last) = tokens.last() {
-        at_end(last, &open_after, line, text, &mut edits);
+        at_end(last, &open_after, line, text, dialect, &mut edits);
     }
     surplus(&tokens, line, text, &mut edits);
     quotes(line, text, &mut edits);
@@ -167,11 +168,11 @@ fn is_followed(next: Option<&Token>, range: &Range<usize>) -> bool {
 }
 
 /// What may be missing at the end of a line: a comma before the next, a bracket, the colon of a known key.
-fn at_end(last: &Token, open: &[usize], line: &Range<usize>, text: &str, edits: &mut Vec<Edit>) {
+fn at_end(last: &Token, open: &[usize], line: &Range<usize>, text: &str, dialect: &Dialect, edits: &mut Vec<Edit>) {
     let end = last.range.end;
     if open.is_empty() && last.class == Class::Word {
         let word = &text[last.range.clone()];
-        if SECTIONS.contains(&word) || COMPONENT_KEYS.contains(&word) {
+        if (dialect.is_key)(word) {
             edits.push(edit(Kind::Colon(last.range.clone()), end..end, ":", 0));
         }
     }

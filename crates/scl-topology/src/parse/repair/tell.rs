@@ -2,12 +2,13 @@
 
 use super::{Edit, Kind};
 use crate::diagnostic::Diagnostic;
+use crate::parse::dialect::Dialect;
 use crate::parse::pitfall::{bracket, dash, indentation, look_alike, missing_mark, missing_space, quote, unexpected};
 use crate::parse::shape::nameless;
 use crate::source::SourceFile;
 use std::ops::Range;
 
-pub(super) fn tell(edit: &Edit, text: &str, source: &SourceFile) -> Diagnostic {
+pub(super) fn tell(edit: &Edit, text: &str, source: &SourceFile, dialect: &Dialect) -> Diagnostic {
     match &edit.kind {
         Kind::Comma(before, after) => missing_mark::comma_between(before, after, text, source),
         Kind::Colon(word) => missing_mark::colon_after(word, text, source),
@@ -18,7 +19,7 @@ pub(super) fn tell(edit: &Edit, text: &str, source: &SourceFile) -> Diagnostic {
         Kind::Instead(range, _) => missing_mark::instead_of_colon(range, text, source),
         Kind::Surplus(range) => surplus(range, text, source),
         Kind::ArrayType(range) => unexpected::brackets_after_type(range, text, source),
-        Kind::Space(glued) => missing_space::in_brackets(glued, text, source),
+        Kind::Space(glued) => missing_space::in_brackets(glued, text, source, dialect),
         Kind::CommentSpace(hash) => unexpected::glued_comment(*hash, text, source),
         Kind::Break(dash) => unexpected::item_in_line(*dash, text, source),
         Kind::Dash(item) => dash::missing(item, text, source),

@@ -3,7 +3,7 @@
 use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::grammar::{self, Shape};
 use crate::parse::field::Field;
-use crate::parse::{is_plain, shape_word};
+use crate::parse::shape_word;
 use crate::suggest::similar;
 use crate::yaml::{Node, NodeKind};
 use scl_text::size;
@@ -57,7 +57,7 @@ fn label(value: &Node, expected: Shape) -> String {
             "this is a number without a unit".to_owned()
         }
         NodeKind::Scalar { .. } if is_size => "this is not a size".to_owned(),
-        NodeKind::Scalar { .. } if !is_plain(value) => "this is text, because of the quotes".to_owned(),
+        NodeKind::Scalar { .. } if !value.is_plain() => "this is text, because of the quotes".to_owned(),
         NodeKind::Scalar { text, .. } if text.parse::<i64>().is_ok() => "this is a number without a unit".to_owned(),
         NodeKind::Scalar { text, .. } if text.parse::<f64>().is_ok() => "this is not a whole number".to_owned(),
         _ => format!("this is {}", shape_word(value)),
@@ -68,7 +68,7 @@ fn label(value: &Node, expected: Shape) -> String {
 fn meant(value: &Node, expected: Shape) -> Vec<String> {
     let NodeKind::Scalar { text, .. } = &value.kind else { return Vec::new() };
     let words: Vec<&str> = match expected {
-        Shape::Number { .. } if !is_plain(value) && text.parse::<u32>().is_ok() => return vec![text.clone()],
+        Shape::Number { .. } if !value.is_plain() && text.parse::<u32>().is_ok() => return vec![text.clone()],
         // A bare number is most probably meant as milliseconds.
         Shape::Duration { .. } if text.parse::<u32>().is_ok() => return vec![format!("{text}ms")],
         Shape::Size { .. } => return size::suggestions(text),

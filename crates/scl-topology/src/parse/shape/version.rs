@@ -4,7 +4,6 @@ use super::option_value;
 use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::grammar::{FORMAT, Shape, is_whole_number};
 use crate::parse::field::Field;
-use crate::parse::is_plain;
 use crate::parse::pitfall::leading_zero;
 use crate::yaml::NodeKind;
 
@@ -24,8 +23,8 @@ pub(crate) const RULE: Rule = Rule {
 pub(in crate::parse) fn find(field: Field<'_>) -> Option<Diagnostic> {
     match &field.value.kind {
         NodeKind::Unread => None,
-        NodeKind::Scalar { text, .. } if is_plain(field.value) && *text == FORMAT.to_string() => None,
-        NodeKind::Scalar { text, .. } if is_plain(field.value) && is_whole_number(text) => {
+        NodeKind::Scalar { text, .. } if field.value.is_plain() && *text == FORMAT.to_string() => None,
+        NodeKind::Scalar { text, .. } if field.value.is_plain() && is_whole_number(text) => {
             Some(leading_zero::find(field, text).unwrap_or_else(|| unsupported(field, text)))
         }
         _ => Some(option_value::diagnose(field, Shape::Number { least: FORMAT, most: FORMAT })),
