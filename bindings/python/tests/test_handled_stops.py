@@ -88,6 +88,59 @@ def test_a_program_that_handles_the_request_can_still_send(
     assert sink.next_line() == "4242..4243"
 
 
+@pytest.mark.parametrize(
+    ("place", "wait"),
+    [
+        ("a program", "scl.until_stopped()"),
+        ("a program", "sink.readings.recv_async()"),
+        ("a loop with handlers of its own", "sink.readings.recv_async()"),
+        ("a forked child", "scl.until_stopped()"),
+    ],
+)
+def test_a_signal_just_before_a_wait_wakes_the_event_loop(system: System, place: str, wait: str) -> None:
+    program = system.python(f"""
+        import asyncio, os, selectors, signal, sys
+
+        class Selector(selectors.DefaultSelector):
+            is_first = True
+            def select(self, timeout=None):
+                if timeout is not None or not self.is_first:
+                    return super().select(timeout)
+                self.is_first = False
+                # All that Python does when a signal arrives, if no more of its steps follow.
+                wakeup = signal.set_wakeup_fd(-1)
+                signal.set_wakeup_fd(wakeup)
+                os.write(wakeup, bytes(1))
+                events = super().select(timeout)
+                print("woken", flush=True)
+                os.kill(os.getpid(), signal.SIGTERM)
+                return events
+
+        async def main():
+            with scl.open(SIX, "sink") as sink:
+                if {place == "a loop with handlers of its own"}:
+                    asyncio.get_running_loop().add_signal_handler(signal.SIGUSR1, print)
+                await {wait}
+
+        def run():
+            with asyncio.Runner(loop_factory=lambda: asyncio.SelectorEventLoop(Selector())) as runner:
+                runner.run(main())
+
+        async def look():
+            await asyncio.wait([asyncio.ensure_future(scl.until_stopped())], timeout=0)
+
+        if {place == "a forked child"}:
+            asyncio.run(look())
+            if child := os.fork():
+                sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+            # Only a child that hangs reaches it; the test would wait for its output.
+            signal.alarm(60)
+        run()
+    """)
+    program.expect("woken")
+    assert program.end() == (0, "")
+
+
 @pytest.mark.parametrize("number", REQUESTS[0] + REQUESTS[1])
 def test_a_second_signal_ends_a_program_between_no_steps_of_python(system: System, number: signal.Signals) -> None:
     program = system.python("""

@@ -6,7 +6,7 @@ import weakref
 from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeVar
 
-from scl import _native
+from scl import _native, _wakeup
 
 # Imported where it is used: that takes longer than all else, and most programs do without.
 if TYPE_CHECKING:
@@ -24,6 +24,7 @@ class Waiters:
         self._loop = weakref.ref(loop)
         self._waiting: set[asyncio.Future[None]] = set()
         loop.add_reader(self.readiness.fileno(), self._wake)
+        _wakeup.wake_at_signals(loop)
 
     async def changed(self) -> None:
         """Waits until the next event. The gate was polled before, without an `await` in between."""

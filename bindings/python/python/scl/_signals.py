@@ -9,7 +9,7 @@ import threading
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
-from scl import _native, _stopping
+from scl import _native, _stopping, _wakeup
 
 # Imported by programs that use it.
 if TYPE_CHECKING:
@@ -37,7 +37,9 @@ async def wait_for_request() -> None:
     """Waits for a stop request, which the program handles itself, as after `stop_requested`."""
     import asyncio
 
-    request = asyncio.get_running_loop().create_future()
+    loop = asyncio.get_running_loop()
+    _wakeup.wake_at_signals(loop)
+    request = loop.create_future()
     # Before the question, so that a request in between finds it.
     _waiting.add(request)
     try:
@@ -63,6 +65,7 @@ def forget() -> None:
     """Leaves the signals to Python in a forked child, which has no component yet."""
     for number in _watched():
         signal.signal(number, _DEFAULTS[number])
+    _wakeup.forget()
 
 
 def _stop(number: int, frame: FrameType | None) -> None:
