@@ -1,9 +1,10 @@
-//! `scl check`: says about topology files what the macro would say.
+//! `scl check`: says about topology files what the macro would say, and about launch files what `scl run` would say.
 
 mod checked;
 mod deny;
 mod fix;
 mod report;
+mod source;
 mod watch;
 
 use crate::exit::COULD_NOT_DO;
@@ -17,12 +18,13 @@ use scl_terminal::print_err;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Check topology files, with the words of the macro.
+/// Check topology files, with the words of the macro, and launch files.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   scl check                         topology.yaml in the working folder
   scl check a.yaml b.yaml --lints   two files, and what is off by default
+  scl check launch.yaml             a launch file, with the names of its topology
   scl check --deny warnings         for continuous integration: nothing to complain about, or exit code 1
   scl check --for cpp --for python  also names that C++ or Python cannot tell apart
   scl check --deny SCL0402          untyped connections are errors here
@@ -33,10 +35,11 @@ Examples:
   scl check --format sarif > s.json for code hosts
   generate | scl check -            standard input
 
+A file is a launch file if its name starts or ends with `launch`, as in `sim.launch.yaml`.
 Text goes to standard error, everything else to standard output.
 Exit code: 0 clean or only warnings, 1 errors, 2 a file could not be read.")]
 pub(crate) struct CheckArguments {
-    /// The topology files; `-` is standard input.
+    /// The topology and launch files; `-` is a topology from standard input.
     #[arg(value_name = "FILE", default_value = "topology.yaml")]
     files: Vec<PathBuf>,
     /// How to say it.

@@ -30,15 +30,14 @@ pub(crate) struct ExplainArguments {
 pub(crate) fn explain(arguments: &ExplainArguments) -> ExitCode {
     let Some(written) = &arguments.word else {
         let entries = grammar::entries();
-        let lines = ALL.iter().map(|rule| line(rule)).chain(entries.iter().map(word_line));
+        let lines = all_rules().into_iter().map(line).chain(entries.iter().map(word_line));
         print_out(&lines.chain(launch_keys().iter().map(|(entry, _)| word_line(entry))).collect::<String>());
         return ExitCode::SUCCESS;
     };
     let code = full_code(written);
     let word = written.trim_matches([':', '`', ' ']).to_ascii_lowercase();
     let keys = launch_keys().into_iter().filter(|(key, _)| key.word == word).map(|(key, _)| key.text);
-    let found: Vec<String> =
-        catalogue::explain(&code).or_else(|| grammar::explain(&word)).into_iter().chain(keys).collect();
+    let found: Vec<String> = explain_rule(&code).or_else(|| grammar::explain(&word)).into_iter().chain(keys).collect();
     match (!found.is_empty()).then(|| found.iter().map(|text| text.trim_end()).collect::<Vec<_>>().join("\n\n")) {
         Some(text) => {
             print_out(&format!("{}\n", text.trim_end()));
@@ -79,6 +78,24 @@ fn unknown_word(written: &str, word: &str) -> String {
     text + "  = help: `scl explain` lists all of them\n"
 }
 
+/// The rules about topologies, and those about launch files if this program reads such files.
+pub(crate) fn all_rules() -> Vec<&'static Rule> {
+    #[cfg(feature = "run")]
+    let of_launch_files = &scl_run::LAUNCH_RULES[..];
+    #[cfg(not(feature = "run"))]
+    let of_launch_files = &[];
+    [&ALL, of_launch_files].concat()
+}
+
+/// The entry of a code, as Markdown; none if there is no such code.
+pub(crate) fn explain_rule(code: &str) -> Option<String> {
+    #[cfg(feature = "run")]
+    let of_launch_files = scl_run::explain_launch_rule(code);
+    #[cfg(not(feature = "run"))]
+    let of_launch_files = None;
+    catalogue::explain(code).or(of_launch_files)
+}
+
 /// The keys of launch files with the names that other tools use for them, if this program reads such files.
 #[cfg(feature = "run")]
 fn launch_keys() -> Vec<(Entry, &'static [&'static str])> {
@@ -104,13 +121,14 @@ pub(crate) fn full_code(written: &str) -> String {
 /// Says that there is no such code, and which one may have been meant.
 pub(crate) fn unknown(written: &str, code: &str) -> String {
     let mut text = format!("error: there is no check `{written}`\n");
-    let near = similar(code, ALL.iter().map(|rule| rule.code));
+    let rules = all_rules();
+    let near = similar(code, rules.iter().map(|rule| rule.code));
     text.extend(near.iter().map(|near| format!("  = help: a similar code exists: `{near}`{}\n", titled(near))));
     text + "  = help: `scl explain` lists all of them\n"
 }
 
 fn titled(code: &str) -> String {
-    ALL.iter().find(|rule| rule.code == code).map_or_else(String::new, |rule| format!(", {}", rule.title))
+    all_rules().iter().find(|rule| rule.code == code).map_or_else(String::new, |rule| format!(", {}", rule.title))
 }
 
 /// `SCL0502  error  unknown gate`

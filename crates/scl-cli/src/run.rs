@@ -3,6 +3,7 @@
 use crate::exit::exit_code_of_all;
 use crate::load::{MaxSize, load_file, show_errors};
 use clap::Args;
+use scl_loader::Loaded;
 use scl_run::SystemNames;
 use scl_terminal::parse_duration;
 use std::ffi::OsString;
@@ -115,10 +116,16 @@ pub(crate) fn start_component(arguments: &StartArguments) -> ExitCode {
 
 pub(crate) fn component_names(topology: &Path) -> Option<SystemNames> {
     let loaded = load_file(topology, MaxSize::default());
-    let Some(topology) = &loaded.topology else {
+    let names = names_of(&loaded);
+    if names.is_none() {
         show_errors(&loaded);
-        return None;
-    };
+    }
+    names
+}
+
+/// The names of a topology without errors.
+pub(crate) fn names_of(loaded: &Loaded) -> Option<SystemNames> {
+    let topology = loaded.topology.as_ref()?;
     let components = topology.components().map(|(_, component)| component.name().to_owned()).collect();
     let gates = topology.components().flat_map(|(_, component)| component.gates());
     let gates = gates.map(|gate| topology.gate_path(*gate)).collect();

@@ -99,9 +99,13 @@ fn mistakes_are_reported_and_nothing_is_written() {
     let system = system(LAUNCH);
     let output = deploy(&system, &["--host", "bord"]);
     expect![[r#"
-        error: host `ground` has no list of `components`
-         --> ./launch.yaml:13:32
-          = help: write `components: [sensor, controller]`
+        error: [SCL1202] host `ground` has no list of `components`
+          --> ./launch.yaml:13:44
+           |
+        13 |   ground: {address: 127.0.0.2, components: []}
+           |                                            ^^
+           |
+           = help: write `components: [sensor, controller]`
 
     "#]]
     .assert_eq(&text(&output.stderr));

@@ -9,6 +9,8 @@ mod check;
 mod check_fix;
 mod check_formats;
 mod check_inputs;
+#[cfg(feature = "run")]
+mod check_launch;
 mod check_watch;
 #[cfg(feature = "record")]
 mod compare;

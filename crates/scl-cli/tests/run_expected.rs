@@ -113,7 +113,7 @@ fn a_program_may_open_what_its_entry_allows() {
     }
     let system = system(&[("sensor", "sensor", "    opens: [controler]\n")]);
     let (code, _, err) = run(&system);
-    assert!(err.contains("error: unknown component `controler`\n"), "{err}");
+    assert!(err.contains("error: [SCL1205] unknown component `controler`\n"), "{err}");
     assert!(err.contains("  = help: did you mean `controller`?\n"), "{err}");
     assert_eq!(code, Some(2), "{err}");
 }

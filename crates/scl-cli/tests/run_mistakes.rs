@@ -20,16 +20,28 @@ fn unknown_keys_get_a_suggestion_and_the_list() {
     check(
         "transprt: ipc\ncomponents:\n  # sensor: {comand: ls}\n  sensor: {command: ls, comand: ls}\n  b: {command: ls, colour: red}\n",
         &expect![[r#"
-            error: unknown key `transprt` in a launch file
+            error: [SCL1201] unknown key `transprt` in a launch file
              --> launch.yaml:1:1
+              |
+            1 | transprt: ipc
+              | ^^^^^^^^
+              |
               = help: did you mean `transport`?
 
-            error: unknown key `comand` in component `sensor`
+            error: [SCL1201] unknown key `comand` in component `sensor`
              --> launch.yaml:4:25
+              |
+            4 |   sensor: {command: ls, comand: ls}
+              |                         ^^^^^^
+              |
               = help: did you mean `command`?
 
-            error: unknown key `colour` in component `b`
+            error: [SCL1201] unknown key `colour` in component `b`
              --> launch.yaml:5:20
+              |
+            5 |   b: {command: ls, colour: red}
+              |                    ^^^^^^
+              |
               = note: the keys are `alive_within`, `build`, `command`, `cpu`, `descriptors`, `environment`, `essential`, `input`, `opens`, `priority`, `ready_within`, `replay`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
 
         "#]],
@@ -41,24 +53,44 @@ fn a_missing_or_empty_command_is_shown_how_to_write() {
     check(
         "components:\n  a: {working_directory: .}\n  b:\n    command: []\n  c: ./run\n  d: {comand: ls}\n  e: {command: ['']}\n",
         &expect![[r#"
-            error: component `a` has no usable `command`
+            error: [SCL1204] component `a` has no usable `command`
              --> launch.yaml:2:3
+              |
+            2 |   a: {working_directory: .}
+              |   ^
+              |
               = help: write `command: ./a` or `command: [./a, --verbose]`
 
-            error: component `b` has no usable `command`
-             --> launch.yaml:4:5
+            error: [SCL1202] component `b` has no usable `command`
+             --> launch.yaml:4:14
+              |
+            4 |     command: []
+              |              ^^
+              |
               = help: write `command: ./b` or `command: [./b, --verbose]`
 
-            error: the entry of component `c` is not a mapping
-             --> launch.yaml:5:3
+            error: [SCL1203] the entry of component `c` is a mapping, not `./run`
+             --> launch.yaml:5:6
+              |
+            5 |   c: ./run
+              |      ^^^^^
+              |
               = help: write `c: {command: ./run}`
 
-            error: unknown key `comand` in component `d`
+            error: [SCL1201] unknown key `comand` in component `d`
              --> launch.yaml:6:7
+              |
+            6 |   d: {comand: ls}
+              |       ^^^^^^
+              |
               = help: did you mean `command`?
 
-            error: component `e` has no usable `command`
-             --> launch.yaml:7:7
+            error: [SCL1202] component `e` has no usable `command`
+             --> launch.yaml:7:16
+              |
+            7 |   e: {command: ['']}
+              |                ^^^^
+              |
               = help: write `command: ./e` or `command: [./e, --verbose]`
 
         "#]],
@@ -70,28 +102,41 @@ fn values_of_the_wrong_kind_are_named() {
     check(
         "transport: udp\nenvironment: [A]\ncomponents:\n  a: {command: ls, working_directory: 3, environment: {A: [1], B: , 'C=': x}}\n  1: {command: ls}\n",
         &expect![[r#"
-            error: the variable `A` is a text, not a list
-             --> launch.yaml:4:56
+            error: [SCL1202] `transport` is `ipc`, `tcp` or `shm`, not `udp`
+             --> launch.yaml:1:12
+              |
+            1 | transport: udp
+              |            ^^^
+
+            error: [SCL1203] `environment` is a mapping, not a list
+             --> launch.yaml:2:14
+              |
+            2 | environment: [A]
+              |              ^^^
+              |
+              = help: write `environment: {RUST_LOG: info}`
+
+            error: [SCL1202] the variable `A` is a text, not a list
+             --> launch.yaml:4:59
+              |
+            4 |   a: {command: ls, working_directory: 3, environment: {A: [1], B: , 'C=': x}}
+              |                                                           ^^^
+              |
               = help: write `A: "..."`
 
-            error: the variable `B` is a text, not nothing
+            error: [SCL1202] the variable `B` is a text, not nothing
              --> launch.yaml:4:64
+              |
+            4 |   a: {command: ls, working_directory: 3, environment: {A: [1], B: , 'C=': x}}
+              |                                                                ^
+              |
               = help: write `B: "..."`
 
-            error: `C=` is not the name of an environment variable
-             --> launch.yaml:4:42
-
-            error: `working_directory` is a path, not `3`
-             --> launch.yaml:4:20
-
-            error: the name of a component is a word, not `1`
-             --> launch.yaml:3:1
-
-            error: `environment` is a mapping like `{RUST_LOG: info}`, not a list
-             --> launch.yaml:2:1
-
-            error: `transport` is `ipc`, `tcp` or `shm`, not `udp`
-             --> launch.yaml:1:1
+            error: [SCL1207] `C=` is not the name of an environment variable
+             --> launch.yaml:4:69
+              |
+            4 |   a: {command: ls, working_directory: 3, environment: {A: [1], B: , 'C=': x}}
+              |                                                                     ^^^^
 
         "#]],
     );
@@ -113,8 +158,11 @@ fn a_text_that_is_no_mapping_says_so() {
     check(
         "- a\n",
         &expect![[r#"
-            error: a launch file is a mapping that starts with `components:`
-             --> launch.yaml
+            error: [SCL1203] a launch file is a mapping that starts with `components:`
+             --> launch.yaml:1:1
+              |
+            1 | - a
+              | ^^^
 
         "#]],
     );
@@ -125,8 +173,13 @@ fn a_text_that_is_no_yaml_has_its_place() {
     check(
         "components:\n  a: {command: [ls}\n",
         &expect![[r#"
-            error: did not find expected ',' or ']', while parsing a flow sequence at line 2 column 16
-             --> launch.yaml:2:19
+            error: [SCL0102] this `[` is never closed
+             --> launch.yaml:2:16
+              |
+            2 |   a: {command: [ls}
+              |                ^ opened here
+              |
+              = help: add `]` after `ls`
 
         "#]],
     );
@@ -137,8 +190,16 @@ fn a_key_given_twice_is_named() {
     check(
         "components:\n  a: {command: ls}\n  a: {command: ls}\n",
         &expect![[r#"
-            error: components: duplicate entry with key "a"
-             --> launch.yaml:2:3
+            error: [SCL0107] the key `a` is written twice in `components`
+             --> launch.yaml:3:3
+              |
+            2 |   a: {command: ls}
+              |   - first time
+            3 |   a: {command: ls}
+              |   ^ second time
+              |
+              = help: remove one of them
+              = note: YAML tools disagree which one wins: PyYAML silently keeps the second
 
         "#]],
     );
@@ -187,50 +248,74 @@ profiles:
   2: {}
 ",
         &expect![[r#"
-            error: this `build` is not a command
-             --> launch.yaml:4:1
+            error: [SCL1202] this `build` is not a command
+             --> launch.yaml:2:27
+              |
+            2 |   a: {command: ls, build: []}
+              |                           ^^
+              |
               = help: write `build: make sensor` or `build: [make, sensor]`
 
-            error: this `build` is not a command
-             --> launch.yaml:2:20
+            error: [SCL1202] this `build` is not a command
+             --> launch.yaml:3:27
+              |
+            3 |   b: {command: ls, build: {make: all}}
+              |                           ^^^^^^^^^^^
+              |
               = help: write `build: make sensor` or `build: [make, sensor]`
 
-            error: this `build` is not a command
-             --> launch.yaml:3:20
-              = help: write `build: make sensor` or `build: [make, sensor]`
-
-            error: unknown key `comand` in component `a`
+            error: [SCL1201] unknown key `comand` in component `a`
              --> launch.yaml:6:16
+              |
+            6 |   python: {a: {comand: ls}, c: {working_directory: .}, b: ls}
+              |                ^^^^^^
+              |
               = help: did you mean `command`?
 
-            error: component `c` has no usable `command`
+            error: [SCL1204] component `c` has no usable `command`
              --> launch.yaml:6:29
+              |
+            6 |   python: {a: {comand: ls}, c: {working_directory: .}, b: ls}
+              |                             ^
+              |
               = help: write `command: ./c` or `command: [./c, --verbose]`
 
-            error: the entry of component `b` is not a mapping
-             --> launch.yaml:6:56
+            error: [SCL1203] the entry of component `b` is a mapping, not `ls`
+             --> launch.yaml:6:59
+              |
+            6 |   python: {a: {comand: ls}, c: {working_directory: .}, b: ls}
+              |                                                           ^^
+              |
               = help: write `b: {command: ls}`
 
-            error: profile `sim` is not a mapping from components to commands
-             --> launch.yaml:7:3
+            error: [SCL1203] profile `sim` is a mapping from components to entries, not a list
+             --> launch.yaml:7:8
+              |
+            7 |   sim: [a]
+              |        ^^^
+              |
               = help: write `sim: {sensor: {command: ./sensor}}`
-
-            error: the name of a profile is a word, not `2`
-             --> launch.yaml:5:1
 
         "#]],
     );
     check(
         "components: {a: {command: ls}}\nprofiles: [python]\ntopology: []\n",
         &expect![[r#"
-        error: `topology` is a path, not a list
-         --> launch.yaml:3:1
+            error: [SCL1203] `profiles` is a mapping, not a list
+             --> launch.yaml:2:11
+              |
+            2 | profiles: [python]
+              |           ^^^^^^^^
+              |
+              = help: write `profiles: {python: {sensor: {command: ./sensor.py}}}`
 
-        error: `profiles` is a mapping, not a list
-         --> launch.yaml:2:1
-          = help: write `profiles: {python: {sensor: {command: ./sensor.py}}}`
+            error: [SCL1202] `topology` is a path, not a list
+             --> launch.yaml:3:11
+              |
+            3 | topology: []
+              |           ^^
 
-    "#]],
+        "#]],
     );
 }
 
@@ -239,10 +324,10 @@ fn a_missing_topology_file_is_reported_where_it_is_named() {
     check(
         "components: {a: {command: ls}}\ntopology: wiring.yaml\n",
         &expect![[r#"
-        error: the topology file does not exist: `FOLDER/wiring.yaml`
-         --> launch.yaml:2:1
+            error: the topology file does not exist: `FOLDER/wiring.yaml`
+             --> launch.yaml:2:11
 
-    "#]],
+        "#]],
     );
 }
 
@@ -253,8 +338,12 @@ fn profiles_are_compared_with_the_topology() {
     let system = System::of_files(&[("launch.yaml", launch), ("t.yaml", topology)]);
     let output = system.run(&["launch.yaml"]);
     expect![[r#"
-        error: unknown component `sensr`
+        error: [SCL1205] unknown component `sensr`
          --> launch.yaml:3:21
+          |
+        3 | profiles: {python: {sensr: {command: ls}}}
+          |                     ^^^^^
+          |
           = help: did you mean `sensor`?
           = note: the topology has the components `sensor`
 
@@ -288,85 +377,165 @@ components:
   f: {repaly: a.mcap}
 ",
         &expect![[r#"
-            error: `restart` is `never`, `on_abnormal`, `on_failure` or `always`, not `on-failure`
-             --> launch.yaml:5:5
+            error: [SCL1201] unknown key `command` in `defaults`
+             --> launch.yaml:1:12
+              |
+            1 | defaults: {command: ls, restart: sometimes, environment: {}}
+              |            ^^^^^^^
+              |
+              = note: the keys are `alive_within`, `cpu`, `descriptors`, `essential`, `priority`, `ready_within`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
+
+            error: [SCL1202] `restart` is `never`, `on_abnormal`, `on_failure` or `always`, not `sometimes`
+             --> launch.yaml:1:34
+              |
+            1 | defaults: {command: ls, restart: sometimes, environment: {}}
+              |                                  ^^^^^^^^^
+
+            error: [SCL1201] unknown key `environment` in `defaults`
+             --> launch.yaml:1:45
+              |
+            1 | defaults: {command: ls, restart: sometimes, environment: {}}
+              |                                             ^^^^^^^^^^^
+              |
+              = note: the keys are `alive_within`, `cpu`, `descriptors`, `essential`, `priority`, `ready_within`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
+
+            error: [SCL1202] `restart` is `never`, `on_abnormal`, `on_failure` or `always`, not `on-failure`
+             --> launch.yaml:5:14
+              |
+            5 |     restart: on-failure
+              |              ^^^^^^^^^^
+              |
               = help: did you mean `restart: on_failure`?
 
-            error: `restart_delay` is a range like `100ms..5s`, or one time, not `100ms-5s`
-             --> launch.yaml:6:5
+            error: [SCL1202] `restart_delay` is a range like `100ms..5s`, or one time, not `100ms-5s`
+             --> launch.yaml:6:20
+              |
+            6 |     restart_delay: 100ms-5s
+              |                    ^^^^^^^^
+              |
               = help: did you mean `restart_delay: 100ms..5s`?
 
-            error: `restart_limit` is a number of restarts and a time, like `5 in 1m`, not `5/1m`
-             --> launch.yaml:7:5
+            error: [SCL1202] `restart_limit` is a number of restarts and a time, like `5 in 1m`, not `5/1m`
+             --> launch.yaml:7:20
+              |
+            7 |     restart_limit: 5/1m
+              |                    ^^^^
+              |
               = help: did you mean `restart_limit: 5 in 1m`?
 
-            error: `essential` is `true` or `false`, not `yes please`
-             --> launch.yaml:8:5
+            error: [SCL1202] `essential` is `true` or `false`, not `yes please`
+             --> launch.yaml:8:16
+              |
+            8 |     essential: yes please
+              |                ^^^^^^^^^^
 
-            error: `stop_within` is a time like `500ms` or `3s`, not `3`
-             --> launch.yaml:9:5
+            error: [SCL1202] `stop_within` is a time like `500ms` or `3s`, not `3`
+             --> launch.yaml:9:18
+              |
+            9 |     stop_within: 3
+              |                  ^
+              |
               = help: did you mean `stop_within: 3s`?
 
-            error: `ready_within` is a time like `500ms` or `3s`, not `0s`
-             --> launch.yaml:10:5
+            error: [SCL1202] `ready_within` is a time like `500ms` or `3s`, not `0s`
+              --> launch.yaml:10:19
+               |
+            10 |     ready_within: 0s
+               |                   ^^
 
-            error: `alive_within` is a time like `500ms` or `3s`, not `soon`
-             --> launch.yaml:11:5
+            error: [SCL1202] `alive_within` is a time like `500ms` or `3s`, not `soon`
+              --> launch.yaml:11:19
+               |
+            11 |     alive_within: soon
+               |                   ^^^^
 
-            error: `cpu` is a list of processors like `[2, 3]`, counted from 0, or one of them, not `[0, -1]`
-             --> launch.yaml:12:5
+            error: [SCL1202] `cpu` is a list of processors like `[2, 3]`, counted from 0, or one of them, not `[0, -1]`
+              --> launch.yaml:12:10
+               |
+            12 |     cpu: [0, -1]
+               |          ^^^^^^^
 
-            error: `priority` is `fifo:1` to `fifo:99`, not `80`
-             --> launch.yaml:13:5
-              = help: did you mean `priority: fifo:80`?
+            error: [SCL1202] `priority` is `fifo:1` to `fifo:99`, not `80`
+              --> launch.yaml:13:15
+               |
+            13 |     priority: 80
+               |               ^^
+               |
+               = help: did you mean `priority: fifo:80`?
 
-            error: `working_directory` is a path, not ``
-             --> launch.yaml:14:5
+            error: [SCL1202] `working_directory` is a path, not ``
+              --> launch.yaml:14:24
+               |
+            14 |     working_directory: ''
+               |                        ^^
 
-            error: `restart` is `never`, `on_abnormal`, `on_failure` or `always`, not `true`
-             --> launch.yaml:15:20
+            error: [SCL1202] `restart` is `never`, `on_abnormal`, `on_failure` or `always`, not `true`
+              --> launch.yaml:15:29
+               |
+            15 |   b: {command: ls, restart: true, restart_delay: 5s..1s, restart_limit: 5, cpu: [], priority: fifo:100, essential: off}
+               |                             ^^^^
 
-            error: `restart_delay` is a range like `100ms..5s`, or one time, not `5s..1s`
-             --> launch.yaml:15:35
+            error: [SCL1202] `restart_delay` is a range like `100ms..5s`, or one time, not `5s..1s`
+              --> launch.yaml:15:50
+               |
+            15 |   b: {command: ls, restart: true, restart_delay: 5s..1s, restart_limit: 5, cpu: [], priority: fifo:100, essential: off}
+               |                                                  ^^^^^^
 
-            error: `restart_limit` is a number of restarts and a time, like `5 in 1m`, not `5`
-             --> launch.yaml:15:58
+            error: [SCL1202] `restart_limit` is a number of restarts and a time, like `5 in 1m`, not `5`
+              --> launch.yaml:15:73
+               |
+            15 |   b: {command: ls, restart: true, restart_delay: 5s..1s, restart_limit: 5, cpu: [], priority: fifo:100, essential: off}
+               |                                                                         ^
 
-            error: `essential` is `true` or `false`, not `off`
-             --> launch.yaml:15:105
-              = help: did you mean `essential: false`?
+            error: [SCL1202] `cpu` is a list of processors like `[2, 3]`, counted from 0, or one of them, not a list
+              --> launch.yaml:15:81
+               |
+            15 |   b: {command: ls, restart: true, restart_delay: 5s..1s, restart_limit: 5, cpu: [], priority: fifo:100, essential: off}
+               |                                                                                 ^^
 
-            error: `cpu` is a list of processors like `[2, 3]`, counted from 0, or one of them, not a list
-             --> launch.yaml:15:76
+            error: [SCL1202] `priority` is `fifo:1` to `fifo:99`, not `fifo:100`
+              --> launch.yaml:15:95
+               |
+            15 |   b: {command: ls, restart: true, restart_delay: 5s..1s, restart_limit: 5, cpu: [], priority: fifo:100, essential: off}
+               |                                                                                               ^^^^^^^^
 
-            error: `priority` is `fifo:1` to `fifo:99`, not `fifo:100`
-             --> launch.yaml:15:85
+            error: [SCL1202] `essential` is `true` or `false`, not `off`
+              --> launch.yaml:15:116
+               |
+            15 |   b: {command: ls, restart: true, restart_delay: 5s..1s, restart_limit: 5, cpu: [], priority: fifo:100, essential: off}
+               |                                                                                                                    ^^^
+               |
+               = help: did you mean `essential: false`?
 
-            error: component `c` has both a `command` and a `replay`
-             --> launch.yaml:16:20
-              = help: put one of them into a profile
+            error: [SCL1206] component `c` has both a `command` and a `replay`
+              --> launch.yaml:16:20
+               |
+            16 |   c: {command: ls, replay: a.mcap}
+               |                    ^^^^^^
+               |
+               = help: put one of them into a profile
 
-            error: a `replay` needs no `build`
-             --> launch.yaml:17:23
-              = help: remove it
+            error: [SCL1206] a `replay` needs no `build`
+              --> launch.yaml:17:23
+               |
+            17 |   d: {replay: a.mcap, build: make}
+               |                       ^^^^^
+               |
+               = help: remove it
 
-            error: `replay` is a path, not a list
-             --> launch.yaml:18:7
+            error: [SCL1202] `replay` is a path, not a list
+              --> launch.yaml:18:15
+               |
+            18 |   e: {replay: [a.mcap]}
+               |               ^^^^^^^^
 
-            error: unknown key `repaly` in component `f`
-             --> launch.yaml:19:7
-              = help: did you mean `replay`?
-
-            error: unknown key `command` in `defaults`
-             --> launch.yaml:1:12
-              = note: the keys are `alive_within`, `cpu`, `descriptors`, `essential`, `priority`, `ready_within`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
-
-            error: unknown key `environment` in `defaults`
-             --> launch.yaml:1:45
-              = note: the keys are `alive_within`, `cpu`, `descriptors`, `essential`, `priority`, `ready_within`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
-
-            error: `restart` is `never`, `on_abnormal`, `on_failure` or `always`, not `sometimes`
-             --> launch.yaml:1:25
+            error: [SCL1201] unknown key `repaly` in component `f`
+              --> launch.yaml:19:7
+               |
+            19 |   f: {repaly: a.mcap}
+               |       ^^^^^^
+               |
+               = help: did you mean `replay`?
 
         "#]],
     );
@@ -381,41 +550,77 @@ components:
 default: {restart: always}
 ",
         &expect![[r#"
-            error: unknown key `default` in a launch file
-             --> launch.yaml:3:1
-              = help: did you mean `defaults`?
-
-            error: unknown key `cmd` in component `a`
+            error: [SCL1201] unknown key `cmd` in component `a`
              --> launch.yaml:2:7
+              |
+            2 |   a: {cmd: ls, folder: x, depends_on: b, respawn: true, watchdog: 1s, env: {A: 1}, max_restarts: 3, Grace: 1s}
+              |       ^^^
+              |
               = help: did you mean `command`?
 
-            error: unknown key `folder` in component `a`
+            error: [SCL1201] unknown key `folder` in component `a`
              --> launch.yaml:2:16
+              |
+            2 |   a: {cmd: ls, folder: x, depends_on: b, respawn: true, watchdog: 1s, env: {A: 1}, max_restarts: 3, Grace: 1s}
+              |                ^^^^^^
+              |
               = help: did you mean `working_directory`?
 
-            error: unknown key `depends_on` in component `a`
+            error: [SCL1201] unknown key `depends_on` in component `a`
              --> launch.yaml:2:27
+              |
+            2 |   a: {cmd: ls, folder: x, depends_on: b, respawn: true, watchdog: 1s, env: {A: 1}, max_restarts: 3, Grace: 1s}
+              |                           ^^^^^^^^^^
+              |
               = help: did you mean `ready_within`?
 
-            error: unknown key `respawn` in component `a`
+            error: [SCL1201] unknown key `respawn` in component `a`
              --> launch.yaml:2:42
+              |
+            2 |   a: {cmd: ls, folder: x, depends_on: b, respawn: true, watchdog: 1s, env: {A: 1}, max_restarts: 3, Grace: 1s}
+              |                                          ^^^^^^^
+              |
               = help: did you mean `restart`?
 
-            error: unknown key `watchdog` in component `a`
+            error: [SCL1201] unknown key `watchdog` in component `a`
              --> launch.yaml:2:57
+              |
+            2 |   a: {cmd: ls, folder: x, depends_on: b, respawn: true, watchdog: 1s, env: {A: 1}, max_restarts: 3, Grace: 1s}
+              |                                                         ^^^^^^^^
+              |
               = help: did you mean `alive_within`?
 
-            error: unknown key `env` in component `a`
+            error: [SCL1201] unknown key `env` in component `a`
              --> launch.yaml:2:71
+              |
+            2 |   a: {cmd: ls, folder: x, depends_on: b, respawn: true, watchdog: 1s, env: {A: 1}, max_restarts: 3, Grace: 1s}
+              |                                                                       ^^^
+              |
               = help: did you mean `environment`?
 
-            error: unknown key `max_restarts` in component `a`
+            error: [SCL1201] unknown key `max_restarts` in component `a`
              --> launch.yaml:2:84
+              |
+            2 |   a: {cmd: ls, folder: x, depends_on: b, respawn: true, watchdog: 1s, env: {A: 1}, max_restarts: 3, Grace: 1s}
+              |                                                                                    ^^^^^^^^^^^^
+              |
               = help: did you mean `restart_limit`?
 
-            error: unknown key `Grace` in component `a`
+            error: [SCL1201] unknown key `Grace` in component `a`
              --> launch.yaml:2:101
+              |
+            2 |   a: {cmd: ls, folder: x, depends_on: b, respawn: true, watchdog: 1s, env: {A: 1}, max_restarts: 3, Grace: 1s}
+              |                                                                                                     ^^^^^
+              |
               = help: did you mean `stop_within`?
+
+            error: [SCL1201] unknown key `default` in a launch file
+             --> launch.yaml:3:1
+              |
+            3 | default: {restart: always}
+              | ^^^^^^^
+              |
+              = help: did you mean `defaults`?
 
         "#]],
     );
@@ -437,10 +642,14 @@ fn defaults_are_a_mapping() {
     check(
         "components: {a: {command: ls}}\ndefaults: always\n",
         &expect![[r#"
-        error: `defaults` is a mapping, not `always`
-         --> launch.yaml:2:1
-          = help: write `defaults: {restart: on_failure, stop_within: 3s}`
+            error: [SCL1203] `defaults` is a mapping, not `always`
+             --> launch.yaml:2:11
+              |
+            2 | defaults: always
+              |           ^^^^^^
+              |
+              = help: write `defaults: {restart: on_failure, stop_within: 3s}`
 
-    "#]],
+        "#]],
     );
 }

@@ -73,8 +73,12 @@ fn a_launch_file_is_compared_with_the_topology() {
     let launch = "components:\n  sensr: {command: echo one}\n";
     let output = System::of_files(&[("topology.yaml", TOPOLOGY), ("launch.yaml", launch)]).run(&["launch.yaml"]);
     let expected = "\
-error: unknown component `sensr`
+error: [SCL1205] unknown component `sensr`
  --> launch.yaml:2:3
+  |
+2 |   sensr: {command: echo one}
+  |   ^^^^^
+  |
   = help: did you mean `sensor`?
   = note: the topology has the components `sensor`, `user_interface`
 

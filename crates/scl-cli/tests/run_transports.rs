@@ -50,36 +50,65 @@ transports:
     let system = System::of_files(&[("launch.yaml", &launch(wrong)), ("topology.yaml", TOPOLOGY)]);
     let output = system.run(&["launch.yaml"]);
     expect![[r#"
-        error: `transport` is `ipc`, `tcp` or `shm`, not `shn`
-         --> launch.yaml:2:1
+        error: [SCL1202] `transport` is `ipc`, `tcp` or `shm`, not `shn`
+         --> launch.yaml:2:12
+          |
+        2 | transport: shn
+          |            ^^^
+          |
           = help: did you mean `transport: shm`?
 
-        error: unknown gate `camera.frame`
+        error: [SCL1205] unknown gate `camera.frame`
          --> launch.yaml:4:3
+          |
+        4 |   camera.frame: shm
+          |   ^^^^^^^^^^^^
+          |
           = help: did you mean `camera.frames`?
           = note: component `camera` has the gates `camera.frames`
 
-        error: unknown gate `camra.frames`
+        error: [SCL1205] unknown gate `camra.frames`
          --> launch.yaml:5:3
+          |
+        5 |   camra.frames: shm
+          |   ^^^^^^^^^^^^
+          |
           = help: did you mean `camera.frames`?
           = note: the topology has the components `camera`, `viewer`
 
-        error: unknown gate `viewer.x`
+        error: [SCL1205] unknown gate `viewer.x`
          --> launch.yaml:6:3
+          |
+        6 |   viewer.x: shm
+          |   ^^^^^^^^
+          |
           = note: component `viewer` has the gates `viewer.frames`
 
-        error: a gate is named like `camera.frames`, not `frames`
+        error: [SCL1207] a gate is named like `camera.frames`, not `frames`
          --> launch.yaml:7:3
+          |
+        7 |   frames: ipc
+          |   ^^^^^^
 
-        error: the transport of `viewer.frames` is `ipc`, `tcp` or `shm`, not a list
-         --> launch.yaml:8:3
+        error: [SCL1202] the transport of `viewer.frames` is `ipc`, `tcp` or `shm`, not a list
+         --> launch.yaml:8:18
+          |
+        8 |   viewer.frames: [shm]
+          |                  ^^^^^
 
-        error: the transport of `camera.frames` is `ipc`, `tcp` or `shm`, not `smh`
-         --> launch.yaml:9:3
+        error: [SCL1202] the transport of `camera.frames` is `ipc`, `tcp` or `shm`, not `smh`
+         --> launch.yaml:9:18
+          |
+        9 |   camera.frames: smh
+          |                  ^^^
+          |
           = help: did you mean `camera.frames: shm`?
 
-        error: a gate is named like `camera.frames`, not `1`
-         --> launch.yaml:3:1
+        error: [SCL1207] a gate is named like `camera.frames`, not `1`
+          --> launch.yaml:10:3
+           |
+        10 |   1: ipc
+           |   ^
 
     "#]]
     .assert_eq(&String::from_utf8(output.stderr).unwrap());
@@ -87,8 +116,13 @@ transports:
     let system = System::of_files(&[("launch.yaml", &launch("transports: shm"))]);
     let output = system.run(&["launch.yaml"]);
     expect![[r#"
-        error: `transports` is a mapping from gates like `camera.frames` to transports, not `shm`
-         --> launch.yaml:2:1
+        error: [SCL1203] `transports` is a mapping, not `shm`
+         --> launch.yaml:2:13
+          |
+        2 | transports: shm
+          |             ^^^
+          |
+          = help: write `transports: {camera.frames: shm}`
 
     "#]]
     .assert_eq(&String::from_utf8(output.stderr).unwrap());

@@ -60,17 +60,7 @@ pub struct Loaded {
 /// Never panics and never waits: what is no regular file is not opened, and no file is read past its limit. Each
 /// problem is in [`Loaded::diagnostics`], all of them at once.
 pub fn load(request: &Request) -> Loaded {
-    let mut loaded = Loaded::default();
-    let mut problems = Diagnostics::new();
-    match read::read_text(&request.path, request.max_size) {
-        Ok(text) => {
-            loaded.files_read.push(request.path.clone());
-            check_text(request, text, &mut loaded, &mut problems);
-        }
-        Err(cause) => problems.push(unreadable::diagnose(request, cause, &mut loaded.sources)),
-    }
-    loaded.diagnostics = problems.into_sorted();
-    loaded
+    checked(request, read(request))
 }
 
 /// As [`load`], with the bytes of the topology file from elsewhere, for example standard input.
@@ -78,19 +68,34 @@ pub fn load(request: &Request) -> Loaded {
 /// The request's path is not read; it says where schemas are looked for and gives the system its default name. Bytes
 /// past the limit, and bytes that are no UTF-8, are refused as those of a file.
 pub fn load_bytes(request: &Request, bytes: Vec<u8>) -> Loaded {
+    checked(request, read_bytes(request, bytes))
+}
+
+/// Reads a file of any kind, without a look at what is in it: its text, or the problem that there is none.
+pub fn read(request: &Request) -> Loaded {
+    let text = read::read_text(&request.path, request.max_size);
+    let files_read = if text.is_ok() { vec![request.path.clone()] } else { Vec::new() };
+    Loaded { files_read, ..with_text(request, text) }
+}
+
+/// As [`read`], with the bytes of the file from elsewhere.
+pub fn read_bytes(request: &Request, bytes: Vec<u8>) -> Loaded {
+    with_text(request, read::decode(bytes, request.max_size))
+}
+
+fn with_text(request: &Request, text: Result<String, read::Unreadable>) -> Loaded {
     let mut loaded = Loaded::default();
-    let mut problems = Diagnostics::new();
-    match read::decode(bytes, request.max_size) {
-        Ok(text) => check_text(request, text, &mut loaded, &mut problems),
-        Err(cause) => problems.push(unreadable::diagnose(request, cause, &mut loaded.sources)),
+    match text {
+        Ok(text) => loaded.file = Some(loaded.sources.add(&request.shown_as, text)),
+        Err(cause) => loaded.diagnostics = vec![unreadable::diagnose(request, cause, &mut loaded.sources)],
     }
-    loaded.diagnostics = problems.into_sorted();
     loaded
 }
 
-fn check_text(request: &Request, text: String, loaded: &mut Loaded, problems: &mut Diagnostics) {
-    let file = loaded.sources.add(&request.shown_as, text);
-    loaded.file = Some(file);
+fn checked(request: &Request, mut loaded: Loaded) -> Loaded {
+    let Some(file) = loaded.file else { return loaded };
+    let mut found = Diagnostics::new();
+    let problems = &mut found;
     loaded.model = parse(&loaded.sources, file, problems);
     let compiled = schemas::compile(request, &loaded.model, &mut loaded.sources, problems);
     let facts =
@@ -99,4 +104,6 @@ fn check_text(request: &Request, text: String, loaded: &mut Loaded, problems: &m
     loaded.schemas = compiled.schemas;
     loaded.outlines = compiled.outlines;
     loaded.topology = check(&loaded.model, &facts, &loaded.sources, problems);
+    loaded.diagnostics = found.into_sorted();
+    loaded
 }

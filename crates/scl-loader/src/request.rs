@@ -8,6 +8,8 @@ use std::path::PathBuf;
 pub struct Request {
     /// The path to read.
     pub path: PathBuf,
+    /// What kind of file messages call it: `topology` by default.
+    pub kind: &'static str,
     /// How messages name the file, for example relative to the working folder.
     pub shown_as: String,
     /// The most bytes that a file may have, the topology as well as each schema. [`Request::MAX_SIZE`] by default.
@@ -39,7 +41,7 @@ impl Request {
         let path = path.into();
         let shown_as = path.display().to_string();
         let crates = ["alloc", "core", "scl", "std"].map(str::to_owned).into();
-        Self { path, shown_as, max_size: Self::MAX_SIZE, looked_in: Vec::new(), crates }
+        Self { path, kind: "topology", shown_as, max_size: Self::MAX_SIZE, looked_in: Vec::new(), crates }
     }
 
     /// The system's name if the file gives none: the file's name without its ending.

@@ -18,16 +18,16 @@ const BYTE_ORDER_MARK: usize = '\u{feff}'.len_utf8();
 
 /// Says why the file cannot be read and what to do.
 pub(crate) fn diagnose(request: &Request, cause: Unreadable, sources: &mut Sources) -> Diagnostic {
-    let shown = &request.shown_as;
+    let Request { shown_as: shown, kind, .. } = request;
     match cause {
         Unreadable::Missing => missing(request),
         Unreadable::NotAFile(word) => not_a_file(request, word),
         Unreadable::BrokenLink(error) => UNREADABLE_FILE
-            .without_place(format!("the topology path `{shown}` is a symbolic link that leads to no file"))
-            .help("let the link point to the topology file")
+            .without_place(format!("the {kind} path `{shown}` is a symbolic link that leads to no file"))
+            .help(format!("let the link point to the {kind} file"))
             .note(error.to_string()),
         Unreadable::Refused(error) => {
-            UNREADABLE_FILE.without_place(format!("the topology file `{shown}` cannot be read")).note(error.to_string())
+            UNREADABLE_FILE.without_place(format!("the {kind} file `{shown}` cannot be read")).note(error.to_string())
         }
         Unreadable::TooLarge(size) => too_large(request, size),
         Unreadable::NotUtf8(bad) => not_utf8(request, bad, sources),
@@ -38,7 +38,7 @@ fn missing(request: &Request) -> Diagnostic {
     let tried: Vec<&Path> = request.looked_in.iter().map(|at| at.path.as_path()).collect();
     let near = similar_file(&request.path, &tried);
     let problem = FILE_NOT_FOUND
-        .without_place(format!("cannot find the topology file `{}`", request.shown_as))
+        .without_place(format!("cannot find the {} file `{}`", request.kind, request.shown_as))
         .helps(near.map(|name| format!("a file with a similar name exists: `{name}`")));
     if request.looked_in.is_empty() {
         return problem;
@@ -52,17 +52,18 @@ fn missing(request: &Request) -> Diagnostic {
 }
 
 fn not_a_file(request: &Request, word: &str) -> Diagnostic {
-    let shown = &request.shown_as;
-    let problem = UNREADABLE_FILE.without_place(format!("the topology path `{shown}` is {word}, not a file"));
+    let Request { shown_as: shown, kind, .. } = request;
+    let problem = UNREADABLE_FILE.without_place(format!("the {kind} path `{shown}` is {word}, not a file"));
     match topology_inside(&request.path) {
         Some(name) => problem.help(format!("did you mean `{}/{name}`?", shown.trim_end_matches('/'))),
-        None => problem.help("name the topology file itself"),
+        None => problem.help(format!("name the {kind} file itself")),
     }
 }
 
 fn too_large(request: &Request, size: u64) -> Diagnostic {
     let message = format!(
-        "the topology file `{}` is {}; the limit is {}",
+        "the {} file `{}` is {}; the limit is {}",
+        request.kind,
         request.shown_as,
         in_units(size),
         in_units(request.max_size)
@@ -82,7 +83,7 @@ fn not_utf8(request: &Request, bad: BadByte, sources: &mut Sources) -> Diagnosti
     let mark = if sources.file(file).has_byte_order_mark() { BYTE_ORDER_MARK } else { 0 };
     let start = (offset - mark) as u32;
     let place = Span { file, start, end: start + char::REPLACEMENT_CHARACTER.len_utf8() as u32 };
-    let message = format!("the topology file `{}` is not valid UTF-8", request.shown_as);
+    let message = format!("the {} file `{}` is not valid UTF-8", request.kind, request.shown_as);
     let problem = NOT_UTF8
         .at(message, place, format!("invalid byte {value:#04X}"))
         .help("save the file as UTF-8 (without or with a BOM)")

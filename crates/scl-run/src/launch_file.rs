@@ -2,29 +2,32 @@
 //!
 //! `docs/launch.md` is the reference; its tables are those of [`keys`], its first example is [`EXAMPLE`].
 
+mod dialect;
+mod document;
 mod entry;
 mod environment;
 mod explained;
 mod hosts;
 mod keys;
-mod merge;
 mod profile;
 mod reader;
+mod rules;
 mod settings;
 mod transports;
-mod yaml;
+mod value;
 
+pub(crate) use document::LaunchDocument;
 pub(crate) use entry::{LaunchComponent, Source};
 pub(crate) use settings::Settings;
 pub(crate) use transports::Transports;
 
 use super::deployment::Deployment;
-use super::launch_text::LaunchText;
-use super::system_names::SystemNames;
+use keys::is_own;
 use profile::Profile;
-use reader::Reader;
-use scl_terminal::Problem;
-use serde_yaml::{Mapping, Value};
+use reader::{Keys, Reader, wrong};
+use rules::{MISSING, WRONG_SHAPE};
+use scl_topology::source::Span;
+use scl_topology::yaml::Node;
 
 /// A launch file that shows most keys, for help texts.
 pub const EXAMPLE: &str = "\
@@ -60,12 +63,6 @@ hosts:                                 # for `scl run --host board`
 gateway: {port: 7447, certificates: ./keys}
 ";
 
-/// A launch file that is valid YAML.
-pub(crate) struct LaunchDocument<'a> {
-    text: LaunchText<'a>,
-    value: Value,
-}
-
 /// A launch file without mistakes.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct LaunchFile {
@@ -84,97 +81,57 @@ pub(crate) struct LaunchFile {
     profiles: Vec<Profile>,
 }
 
-impl<'a> LaunchDocument<'a> {
-    /// Reads the YAML; `path` is how messages name the file.
-    ///
-    /// # Errors
-    ///
-    /// The first place that is not YAML.
-    pub(crate) fn parse(path: &'a str, text: &'a str) -> Result<Self, Problem> {
-        let text = LaunchText::new(path, text);
-        let value = yaml::read(text.text()).map_err(|error| text.syntax_problem(&error))?;
-        Ok(Self { text, value })
-    }
-
-    /// The topology file that the launch file names, and where it does. One that is not a path is reported by
-    /// [`read`](Self::read).
-    pub(crate) fn topology(&self) -> Option<(&str, String)> {
-        let path = self.value.as_mapping()?.get("topology")?.as_str().filter(|path| !path.is_empty())?;
-        Some((path, self.text.place(&["topology"])))
-    }
-
-    /// Reads the keys; `known` are the names of the topology where there is one.
-    ///
-    /// # Errors
-    ///
-    /// Every mistake of the file.
-    pub(crate) fn read(&self, known: Option<&SystemNames>) -> Result<LaunchFile, Vec<Problem>> {
-        let mut reader = Reader { text: self.text, known, problems: Vec::new() };
-        reader.report_merge_keys(&self.value, &[]);
-        // What they would add is no further mistake.
-        let mut merged = self.value.clone();
-        let file = match merged.apply_merge() {
-            Ok(()) => reader.read_file(&merged),
-            Err(_) => reader.read_file(&self.value),
-        };
-        if reader.problems.is_empty() { Ok(file) } else { Err(reader.problems) }
-    }
-}
-
 impl Reader<'_> {
-    fn read_file(&mut self, value: &Value) -> LaunchFile {
-        let Some(top) = value.as_mapping() else {
-            let problem = Problem::new("a launch file is a mapping that starts with `components:`");
-            self.problems.push(problem.at(self.text.place(&[])));
+    pub(super) fn read_file(&mut self, root: &Node) -> LaunchFile {
+        let Some(entries) = root.entries() else {
+            let message = "a launch file is a mapping that starts with `components:`";
+            self.report(WRONG_SHAPE.at(message, root.span, ""));
             return LaunchFile::default();
         };
-        self.check_keys(top, &[], keys::TOP, "in a launch file");
-        self.read_path(top.get("topology"), &["topology"]);
+        let top = self.keys_but(is_own, entries, keys::TOP, "a launch file");
+        top.get("topology").and_then(|field| self.read_path(field));
         LaunchFile {
-            build: self.read_build(top.get("build"), &["build"]),
-            components: self.read_components(top),
-            profiles: self.read_profiles(top.get("profiles"), top.get("components")),
-            environment: self.read_environment(top.get("environment"), &["environment"]),
-            transports: self.read_transports(top.get("transport"), top.get("transports")),
-            defaults: self.read_defaults(top.get("defaults")),
-            deployment: self.read_deployment(top),
+            build: top.get("build").and_then(|field| self.read_build(field)),
+            components: self.read_components(&top, root.span),
+            profiles: self.read_profiles(&top),
+            environment: self.read_environment(&top),
+            transports: self.read_transports(&top),
+            defaults: self.read_defaults(&top),
+            deployment: self.read_deployment(&top),
         }
     }
 
-    fn read_defaults(&mut self, value: Option<&Value>) -> Settings {
-        let Some(value) = value else { return Settings::default() };
-        let Some(keys) = value.as_mapping() else {
-            let problem = Problem::new(format!("`defaults` is a mapping, not {}", reader::shown(value)));
-            let problem = problem.at(self.text.place(&["defaults"]));
-            self.problems.push(problem.help("write `defaults: {restart: on_failure, stop_within: 3s}`"));
-            return Settings::default();
-        };
-        let allowed = keys::COMPONENT.iter().filter(|key| key.in_defaults);
-        self.check_keys(keys, &["defaults"], allowed, "in `defaults`");
-        self.read_settings(keys, &["defaults"])
+    fn read_defaults(&mut self, top: &Keys<'_, '_>) -> Settings {
+        let help = "write `defaults: {restart: on_failure, stop_within: 3s}`";
+        let entries = top.get("defaults").and_then(|field| self.entries(field, "`defaults` is a mapping", help));
+        let Some(entries) = entries else { return Settings::default() };
+        let keys = self.keys(entries, keys::COMPONENT.iter().filter(|key| key.in_defaults), "`defaults`");
+        self.read_settings(&keys)
     }
 
-    fn read_components(&mut self, top: &Mapping) -> Vec<LaunchComponent> {
-        let value = top.get("components");
-        // The gateway of a host needs no more than `hosts`; the components may be started by something else.
-        if value.is_none() && top.contains_key("hosts") {
-            return Vec::new();
-        }
-        let Some(entries) = value.and_then(Value::as_mapping).filter(|entries| !entries.is_empty()) else {
-            let problem = match value {
-                None => Problem::new("`components` is missing").at(self.text.place(&[])),
-                Some(_) => Problem::new("`components` is not a mapping from names to commands")
-                    .at(self.text.place(&["components"])),
-            };
-            self.problems.push(problem.help("write `components: {sensor: {command: ./sensor}}`"));
+    fn read_components(&mut self, top: &Keys<'_, '_>, root: Span) -> Vec<LaunchComponent> {
+        let help = "write `components: {sensor: {command: ./sensor}}`";
+        let Some(field) = top.get("components") else {
+            // The gateway of a host needs no more than `hosts`; the components may be started by something else.
+            if !top.may_have("components") && !top.may_have("hosts") {
+                let place = top.fields.list.first().map_or(root, |first| first.key_span);
+                self.report(MISSING.at("`components` is missing", place, "").help(help));
+            }
             return Vec::new();
         };
-        let read = |(name, entry)| self.read_component(name, entry, &["components"]);
-        entries.iter().filter_map(read).collect()
+        let message = "`components` is a mapping from names to entries";
+        let Some(entries) = self.entries(field, message, help) else { return Vec::new() };
+        if entries.is_empty() {
+            self.report(wrong(&MISSING, "`components` is empty", field).help(help));
+        }
+        let entries = self.names(entries, "`components`").list;
+        entries.into_iter().filter_map(|field| self.read_entry(field, true)?.into_component()).collect()
     }
 }
 
 #[cfg(test)]
 mod tests;
 
-pub use explained::{LaunchKey, launch_keys};
+pub use document::{CheckedLaunchFile, LaunchTopology, check_launch_file};
+pub use explained::{LaunchKey, explain_launch_rule, launch_keys};
+pub use rules::LAUNCH_RULES;

@@ -17,7 +17,6 @@ mod event;
 mod family;
 mod gateway_program;
 mod launch_file;
-mod launch_text;
 mod lifecycle;
 mod log_file;
 mod member;
@@ -46,7 +45,8 @@ mod units;
 
 pub use deployment::{Deployment, Host};
 pub use launch_file::EXAMPLE as EXAMPLE_LAUNCH_FILE;
-pub use launch_file::{LaunchKey, launch_keys};
+pub use launch_file::{CheckedLaunchFile, LaunchKey, LaunchTopology, check_launch_file, launch_keys};
+pub use launch_file::{LAUNCH_RULES, explain_launch_rule};
 pub use log_file::{LogEntry, LogFolder, LogReader, LogStream};
 pub use orphan_guard::{GUARD_WORD, START_WORD, keep_watch, start_component};
 pub use placement::Placement;

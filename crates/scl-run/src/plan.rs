@@ -147,10 +147,11 @@ fn plan_from_launch_file(
 ) -> Result<RunPlan, Vec<Problem>> {
     let shown = launch_path.display().to_string();
     let text = read_text(launch_path)?;
-    let document = LaunchDocument::parse(&shown, &text).map_err(|problem| vec![problem])?;
+    let document = LaunchDocument::parse(&shown, &text);
+    document.check_text()?;
     let topology = find_topology(folder, &document).map_err(|problem| vec![problem])?;
     let known = topology.as_deref().map(|topology| read_names(topology, component_names)).transpose()?;
-    let launch = document.read(known.as_ref())?;
+    let launch = document.read_shown(known.as_ref())?;
     let mut components = launch.components_with(&options.profiles)?;
     let mut expected = known.as_ref().map_or_else(Vec::new, |names| names.components.clone());
     let host = host::choose(&launch, options, &shown).map_err(|problem| vec![problem])?;
@@ -197,8 +198,8 @@ fn read_text(launch_path: &Path) -> Result<String, Vec<Problem>> {
 }
 
 /// The topology file that the launch file names, or the one beside it, where there is one.
-fn find_topology(folder: &Path, document: &LaunchDocument<'_>) -> Result<Option<PathBuf>, Problem> {
-    let Some((path, place)) = document.topology() else {
+fn find_topology(folder: &Path, document: &LaunchDocument) -> Result<Option<PathBuf>, Problem> {
+    let Some((path, place)) = document.topology_with_place() else {
         return Ok(Some(folder.join(TOPOLOGY_FILE)).filter(|path| path.is_file()));
     };
     let path: PathBuf = folder.join(path);

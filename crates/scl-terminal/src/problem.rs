@@ -1,4 +1,4 @@
-//! What is wrong and what to do, worded like the checker's diagnostics, for everything that the checker does not read.
+//! What is wrong and what to do, worded like the checker's diagnostics.
 
 use scl_text::suggest::closest_name;
 use std::fmt;
@@ -6,6 +6,8 @@ use std::fmt;
 /// One problem: what is wrong, where, and the way out.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
+    /// The text of a problem that the checker has found, which has all of it.
+    rendered: Option<String>,
     message: String,
     place: Option<String>,
     helps: Vec<String>,
@@ -15,7 +17,12 @@ pub struct Problem {
 impl Problem {
     /// A problem with its headline: lower case, no full stop, names in backticks.
     pub fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), place: None, helps: Vec::new(), notes: Vec::new() }
+        Self { rendered: None, message: message.into(), place: None, helps: Vec::new(), notes: Vec::new() }
+    }
+
+    /// A diagnostic of the checker, as its text.
+    pub fn rendered(text: impl Into<String>) -> Self {
+        Self { rendered: Some(text.into()), ..Self::new("") }
     }
 
     /// The headline.
@@ -62,6 +69,9 @@ impl Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(rendered) = &self.rendered {
+            return writeln!(f, "{rendered}");
+        }
         writeln!(f, "error: {}", self.message)?;
         if let Some(place) = &self.place {
             writeln!(f, " --> {place}")?;

@@ -6,4 +6,4 @@ mod page;
 mod tests;
 
 pub use crate::check::{ALL, find};
-pub use page::{explain, page};
+pub use page::{entry, explain, page};

@@ -136,7 +136,7 @@ impl Diagnostic {
     }
 
     /// Adds the names that a wrong one may have meant, if there are any.
-    pub(crate) fn did_you_mean<S: AsRef<str>>(self, names: &[S]) -> Self {
+    pub fn did_you_mean<S: AsRef<str>>(self, names: &[S]) -> Self {
         if names.is_empty() { self } else { self.help(format!("did you mean {}?", either(names))) }
     }
 
@@ -196,7 +196,7 @@ impl Diagnostics {
     }
 
     /// Lets every problem be looked at and changed; those for which `keep` is false are taken out.
-    pub(crate) fn retain(&mut self, keep: impl FnMut(&mut Diagnostic) -> bool) {
+    pub fn retain(&mut self, keep: impl FnMut(&mut Diagnostic) -> bool) {
         self.items.retain_mut(keep);
     }
 

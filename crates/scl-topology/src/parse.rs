@@ -21,10 +21,11 @@ mod shape;
 mod syntax_error;
 #[cfg(test)]
 mod testing;
+mod topology_dialect;
 mod words;
 
 pub use dialect::Dialect;
-pub use document::{Document, read_document};
+pub use document::Document;
 pub use field::{Field, Fields};
 pub use fields::fields;
 pub(crate) use pitfall::look_alike::LETTER;
@@ -34,8 +35,8 @@ pub(crate) use shape::RULES as SHAPES;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
 use crate::source::{FileId, SourceFile, Sources, Span, Spanned};
-use crate::yaml::{Node, NodeKind};
-use dialect::TOPOLOGY;
+use crate::yaml::{self, Node, NodeKind};
+use topology_dialect::TOPOLOGY;
 
 /// Reads a topology file as it is written.
 ///
@@ -69,6 +70,32 @@ pub fn parse(sources: &Sources, file: FileId, problems: &mut Diagnostics) -> Mod
     model
 }
 
+/// Reads a YAML file of any kind, and reports what is wrong with the text itself: all of `SCL01xx` that does not depend
+/// on what the values mean.
+///
+/// Takes linear time and does not panic, whatever the text.
+pub fn read_document(source: &SourceFile, dialect: &Dialect, problems: &mut Diagnostics) -> Document {
+    let text = pitfall::check_text(source, dialect, problems);
+    let tree = yaml::read(&text.text, source.id(), dialect.has_aliases);
+    pitfall::check_tree(&tree, source, dialect, problems);
+    problems.extend(syntax_error::explain(&tree, &text, source, dialect));
+    let mut document = Document::of(tree);
+    document.is_partial |= text.has_conflict;
+    document
+}
+
+/// A text such as `command:./sensor`, `command ./sensor` or `command：./sensor` in the place of a mapping, where a key
+/// has lost its space or its colon.
+pub fn damaged_key(node: &Node, source: &SourceFile, dialect: &Dialect) -> Option<Diagnostic> {
+    let without_colon = || {
+        let word = node.text().filter(|_| node.is_plain())?.split(' ').next().filter(|word| (dialect.is_key)(word))?;
+        let start = node.span.start as usize;
+        Some(pitfall::missing_mark::colon_after(&(start..start + word.len()), source.text(), source))
+    };
+    let look_alike = || pitfall::look_alike::in_word(node, node.text()?, "the entry", source);
+    pitfall::missing_space::in_node(node, source, dialect).or_else(without_colon).or_else(look_alike)
+}
+
 /// The walk over the tree: where it reads, what it found so far.
 struct Reader<'s> {
     source: &'s SourceFile,
@@ -89,7 +116,7 @@ impl<'s> Reader<'s> {
         match &document.root {
             Some(Node { kind: NodeKind::Mapping { entries, .. }, .. }) => self.read_sections(entries),
             Some(root) if !root.is_null() && !matches!(root.kind, NodeKind::Unread) => {
-                self.report(shape::top_level::diagnose(root, self.source));
+                self.report(shape::top_level::diagnose(root, self.source, &TOPOLOGY));
             }
             _ => {}
         }

@@ -111,6 +111,12 @@ impl SourceFile {
         Span { file: self.id, start: range.start as u32, end: range.end as u32 }
     }
 
+    /// `path:line:column` of the start of a span in this file.
+    pub fn place(&self, span: Span) -> String {
+        let at = self.line_column(span.start);
+        format!("{}:{}:{}", self.path, at.line, at.column)
+    }
+
     /// The text that a span covers.
     pub(crate) fn snippet(&self, span: Span) -> &str {
         self.text.get(span.start as usize..span.end as usize).unwrap_or("")
@@ -205,8 +211,6 @@ impl Sources {
 
     /// `path:line:column` of the start of a span.
     pub fn place(&self, span: Span) -> String {
-        let file = self.file(span.file);
-        let at = file.line_column(span.start);
-        format!("{}:{}:{}", file.path(), at.line, at.column)
+        self.file(span.file).place(span)
     }
 }

@@ -3,8 +3,8 @@
 use super::CheckArguments;
 use super::deny::deny;
 use super::fix::{Outcome, fix_file};
+use super::source::load;
 use crate::exit::COULD_NOT_DO;
-use crate::load::load_file;
 use scl_loader::Loaded;
 use scl_topology::diagnostic::{Diagnostic, Severity};
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ pub(super) struct Checked {
 
 /// Checks a file, fixes it if asked to, and chooses what is shown.
 pub(super) fn check_file(path: &Path, arguments: &CheckArguments) -> Checked {
-    let mut loaded = load_file(path, arguments.max_size);
+    let mut loaded = load(path, arguments);
     let outcome = arguments.fix.then(|| fix_file(path, &mut loaded, arguments)).flatten();
     let all = std::mem::take(&mut loaded.diagnostics).into_iter().chain(refusals(&loaded, arguments));
     let all = all.map(|it| deny(it, &arguments.deny));
@@ -49,7 +49,6 @@ impl Checked {
         match &self.loaded {
             Loaded { file: None, .. } => COULD_NOT_DO,
             _ if self.outcome.as_ref().is_some_and(|outcome| outcome.error.is_some()) => COULD_NOT_DO,
-            Loaded { topology: None, .. } => 1,
             _ => u8::from(self.number_of(Severity::Error) > 0),
         }
     }

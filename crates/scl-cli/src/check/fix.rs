@@ -8,12 +8,13 @@ mod replace_file;
 mod tests;
 
 use super::CheckArguments;
-use crate::load::{STDIN, request, shown_path};
+use super::source::load_text;
+use crate::load::{STDIN, shown_path};
 use damage::Damage;
 use diff::unified_diff;
 use edit::{BYTE_ORDER_MARK, FixGroup, apply, groups};
 use replace_file::replace_file;
-use scl_loader::{Loaded, load_bytes};
+use scl_loader::Loaded;
 use std::collections::HashSet;
 use std::path::Path;
 
@@ -38,8 +39,7 @@ pub(super) struct Outcome {
 /// Fixes a file that was loaded, and leaves the check of what it now holds in `loaded`; `None` if the file could not be
 /// read.
 pub(super) fn fix_file(path: &Path, loaded: &mut Loaded, arguments: &CheckArguments) -> Option<Outcome> {
-    let request = request(path, arguments.max_size);
-    let check = |text: &str| load_bytes(&request, text.into());
+    let check = |text: &str| load_text(path, text, arguments);
     let source = loaded.sources.file(loaded.file?);
     let mark = if source.has_byte_order_mark() { BYTE_ORDER_MARK } else { "" };
     let old = format!("{mark}{}", source.text());

@@ -101,6 +101,7 @@ fn closing_line(checked: &Checked) -> String {
     let words = match checked.loaded.topology.as_ref().map(size_of) {
         Some(size) if problems.is_empty() => size,
         Some(size) => format!("{size}; {problems}"),
+        None if problems.is_empty() => "no mistakes".to_owned(),
         None => problems,
     };
     format!("{}: {words}\n", shown_path(&checked.path))

@@ -3,10 +3,13 @@
 use super::super::command_line;
 use super::super::terminal::StandardInput;
 use super::keys;
-use super::reader::{KeyPath, Reader, joined, likely_key, scalar_text, shown};
+use super::reader::{Keys, Reader, wrong};
+use super::rules::{CONTRADICTION, MISSING, WRONG_VALUE};
 use super::settings::Settings;
-use scl_terminal::{Problem, quoted_list};
-use serde_yaml::{Mapping, Value};
+use super::value::{text, texts};
+use scl_topology::parse::Field;
+use scl_topology::source::Span;
+use scl_topology::yaml::Node;
 
 /// A component and the program that runs it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -111,135 +114,97 @@ impl Entry {
 }
 
 impl Reader<'_> {
-    /// Reads an entry of `components`, which must have a command.
-    pub(super) fn read_component(&mut self, name: &Value, entry: &Value, at: KeyPath<'_>) -> Option<LaunchComponent> {
-        self.read_entry(name, entry, at, |_| true)?.into_component()
-    }
-
-    /// Reads the entry of a component in the mapping at `within`; `must_have_command` decides by the component's name.
-    pub(super) fn read_entry(
-        &mut self,
-        name: &Value,
-        entry: &Value,
-        within: KeyPath<'_>,
-        must_have_command: impl Fn(&str) -> bool,
-    ) -> Option<Entry> {
-        let Some(name) = name.as_str() else {
-            let shown = shown(name);
-            self.wrong(within, &format!("the name of a component is a word, not {shown}"));
-            return None;
-        };
-        let at = joined(within, name);
-        self.check_known(name, &at);
-        let Some(keys) = entry.as_mapping() else {
-            let message = format!("the entry of component `{name}` is not a mapping");
-            let help = format!("write `{name}: {{command: {}}}`", entry.as_str().unwrap_or("./program"));
-            self.problems.push(Problem::new(message).at(self.text.place(&at)).help(help));
-            return None;
-        };
-        self.check_keys(keys, &at, keys::COMPONENT, &format!("in component `{name}`"));
+    /// Reads the entry of a component, in `components` or in a profile.
+    pub(super) fn read_entry(&mut self, field: Field<'_>, must_have_command: bool) -> Option<Entry> {
+        let name = field.key;
+        self.check_known(name, field.key_span);
+        let help = format!("write `{name}: {{command: {}}}`", field.value.text().unwrap_or("./program"));
+        let entries = self.entries(field, &format!("the entry of component `{name}` is a mapping"), &help)?;
+        let keys = self.keys(entries, keys::COMPONENT, &format!("component `{name}`"));
         let source = match (keys.get("command"), keys.get("replay")) {
-            (None, None) if !must_have_command(name) => None,
-            (None, Some(_)) => self.read_replay(keys, &at),
+            (None, None) if !must_have_command => None,
+            (None, Some(replay)) => self.read_replay(replay, &keys),
             (command, replay) => {
-                if command.is_some() && replay.is_some() {
+                if let Some(replay) = replay {
                     let message = format!("component `{name}` has both a `command` and a `replay`");
-                    let problem = Problem::new(message).at(self.text.place(&joined(&at, "replay")));
-                    self.problems.push(problem.help("put one of them into a profile"));
+                    let problem = CONTRADICTION.at(message, replay.key_span, "");
+                    self.report(problem.help("put one of them into a profile"));
                 }
-                Some(Source::Command(self.read_command(name, keys, &at)))
+                Some(Source::Command(self.read_command(field, command, &keys)))
             }
         };
         Some(Entry {
             name: name.to_owned(),
-            build: self.read_build(keys.get("build"), &joined(&at, "build")),
+            build: keys.get("build").and_then(|field| self.read_build(field)),
             source,
-            environment: self.read_environment(keys.get("environment"), &joined(&at, "environment")),
-            opens: self.read_opens(keys.get("opens"), &joined(&at, "opens")),
-            input: self.read_setting(keys, &at, "input", standard_input),
-            settings: self.read_settings(keys, &at),
-            place: self.text.place(&at),
+            environment: self.read_environment(&keys),
+            opens: keys.get("opens").and_then(|field| self.read_opens(field)),
+            input: self.read_setting(&keys, "input", standard_input),
+            settings: self.read_settings(&keys),
+            place: self.place(field.key_span),
         })
     }
 
     /// Reads a build command.
-    pub(super) fn read_build(&mut self, value: Option<&Value>, at: KeyPath<'_>) -> Option<Vec<String>> {
-        let words = command_words(value?);
+    pub(super) fn read_build(&mut self, field: Field<'_>) -> Option<Vec<String>> {
+        let words = command_words(field.value);
         if words.is_none() {
-            let problem = Problem::new("this `build` is not a command").at(self.text.place(at));
-            self.problems.push(problem.help("write `build: make sensor` or `build: [make, sensor]`"));
+            let problem = wrong(&WRONG_VALUE, "this `build` is not a command", field);
+            self.report(problem.help("write `build: make sensor` or `build: [make, sensor]`"));
         }
         words
     }
 
-    fn read_opens(&mut self, value: Option<&Value>, at: KeyPath<'_>) -> Option<Opens> {
-        let value = value?;
-        if value.as_str() == Some(Opens::ANY) {
+    fn read_opens(&mut self, field: Field<'_>) -> Option<Opens> {
+        if field.value.text() == Some(Opens::ANY) {
             return Some(Opens::Any);
         }
-        let names =
-            value.as_sequence().and_then(|names| names.iter().map(Value::as_str).collect::<Option<Vec<&str>>>());
-        let Some(names) = names else {
-            self.wrong_value(at, value);
+        let Some(names) = texts(field.value) else {
+            self.wrong_value(field);
             return None;
         };
-        names.iter().for_each(|name| self.check_known(name, at));
-        Some(Opens::Also(names.into_iter().map(str::to_owned).collect()))
+        let places = field.value.items().into_iter().flatten().map(|item| item.span);
+        names.iter().zip(places).for_each(|(name, place)| self.check_known(name, place));
+        Some(Opens::Also(names))
     }
 
-    fn read_replay(&mut self, keys: &Mapping, at: KeyPath<'_>) -> Option<Source> {
-        if keys.contains_key("build") {
-            let problem = Problem::new("a `replay` needs no `build`").at(self.text.place(&joined(at, "build")));
-            self.problems.push(problem.help("remove it"));
+    fn read_replay(&mut self, replay: Field<'_>, keys: &Keys<'_, '_>) -> Option<Source> {
+        if let Some(build) = keys.get("build") {
+            self.report(CONTRADICTION.at("a `replay` needs no `build`", build.key_span, "").help("remove it"));
         }
-        self.read_path(keys.get("replay"), &joined(at, "replay")).map(Source::Replay)
+        self.read_path(replay).map(Source::Replay)
     }
 
-    fn read_command(&mut self, name: &str, keys: &Mapping, at: KeyPath<'_>) -> Vec<String> {
-        let value = keys.get("command");
-        let means_it = |key: &str| matches!(likely_key(key, keys::COMPONENT), Some("command" | "replay"));
-        if value.is_none() && keys.keys().filter_map(Value::as_str).any(means_it) {
-            // The misspelt key has been reported, with the right one as its help.
-            return Vec::new();
-        }
-        value.and_then(command_words).unwrap_or_else(|| {
+    fn read_command(&mut self, entry: Field<'_>, command: Option<Field<'_>>, keys: &Keys<'_, '_>) -> Vec<String> {
+        let words = command.and_then(|command| command_words(command.value));
+        let is_reported = command.is_none() && (keys.may_have("command") || keys.may_have("replay"));
+        if words.is_none() && !is_reported {
+            let name = entry.key;
             let message = format!("component `{name}` has no usable `command`");
-            let help = format!("write `command: ./{name}` or `command: [./{name}, --verbose]`");
-            let place = if value.is_some() { self.text.place(&joined(at, "command")) } else { self.text.place(at) };
-            self.problems.push(Problem::new(message).at(place).help(help));
-            Vec::new()
-        })
+            let problem = match command {
+                Some(command) => wrong(&WRONG_VALUE, message, command),
+                None => MISSING.at(message, entry.key_span, ""),
+            };
+            self.report(problem.help(format!("write `command: ./{name}` or `command: [./{name}, --verbose]`")));
+        }
+        words.unwrap_or_default()
     }
 
-    fn check_known(&mut self, name: &str, at: KeyPath<'_>) {
+    fn check_known(&mut self, name: &str, at: Span) {
         if let Some(known) = self.known {
             self.check_among(name, at, &known.components, "the topology");
         }
     }
-
-    /// Reports a component that is not among these, which are those of `source`.
-    pub(super) fn check_among(&mut self, name: &str, at: KeyPath<'_>, known: &[String], source: &str) {
-        if known.iter().any(|it| it == name) {
-            return;
-        }
-        let problem = Problem::new(format!("unknown component `{name}`")).at(self.text.place(at));
-        let problem = problem.did_you_mean(name, known.iter().map(String::as_str));
-        let names = quoted_list(known);
-        self.problems.push(problem.note(format!("{source} has the components {names}")));
-    }
 }
 
-fn standard_input(value: &Value) -> Option<StandardInput> {
-    let word = value.as_str()?;
+fn standard_input(value: &Node) -> Option<StandardInput> {
+    let word = value.text()?;
     StandardInput::WORDS.into_iter().find(|(name, _)| *name == word).map(|(_, input)| input)
 }
 
 /// The program and arguments of a command: a list as it is, the words of a text. `None` if the value is not a command.
-fn command_words(value: &Value) -> Option<Vec<String>> {
-    let words: Vec<String> = match value {
-        Value::String(line) if !line.trim().is_empty() && !line.contains('\0') => command_line::words(line),
-        Value::Sequence(words) => words.iter().map(scalar_text).collect::<Option<_>>()?,
-        _ => return None,
-    };
+fn command_words(value: &Node) -> Option<Vec<String>> {
+    let line = text(value).filter(|line| !line.trim().is_empty());
+    let words = line.map(command_line::words).or_else(|| texts(value))?;
     words.first().is_some_and(|program| !program.is_empty()).then_some(words)
 }

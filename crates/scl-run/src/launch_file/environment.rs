@@ -1,36 +1,31 @@
 //! `environment`: variables for programs.
 
-use super::reader::{KeyPath, Reader, scalar_text, shown};
-use scl_terminal::Problem;
-use serde_yaml::Value;
+use super::reader::{Keys, Reader, wrong};
+use super::rules::{WRONG_NAME, WRONG_VALUE};
+use super::value::{shown, text};
+use scl_topology::parse::Field;
 
 impl Reader<'_> {
     /// Reads the variables in file order.
-    pub(super) fn read_environment(&mut self, value: Option<&Value>, at: KeyPath<'_>) -> Vec<(String, String)> {
-        let entries = match value {
-            None => return Vec::new(),
-            Some(Value::Mapping(entries)) => entries,
-            Some(other) => {
-                let shown = shown(other);
-                self.wrong(at, &format!("`environment` is a mapping like `{{RUST_LOG: info}}`, not {shown}"));
-                return Vec::new();
-            }
-        };
-        entries.iter().filter_map(|(key, value)| self.read_variable(key, value, at)).collect()
+    pub(super) fn read_environment(&mut self, keys: &Keys<'_, '_>) -> Vec<(String, String)> {
+        let help = "write `environment: {RUST_LOG: info}`";
+        let entries = keys.get("environment").and_then(|field| self.entries(field, "`environment` is a mapping", help));
+        let variables = entries.map(|entries| self.names(entries, "`environment`").list).unwrap_or_default();
+        variables.into_iter().filter_map(|field| self.read_variable(field)).collect()
     }
 
-    fn read_variable(&mut self, key: &Value, value: &Value, at: KeyPath<'_>) -> Option<(String, String)> {
-        let name = key.as_str().filter(|name| !name.is_empty() && !name.contains(['=', '\0']));
-        let Some(name) = name else {
-            self.wrong(at, &format!("{} is not the name of an environment variable", shown(key)));
+    fn read_variable(&mut self, field: Field<'_>) -> Option<(String, String)> {
+        let name = field.key;
+        if name.is_empty() || name.contains(['=', '\0']) {
+            let message = format!("`{name}` is not the name of an environment variable");
+            self.report(WRONG_NAME.at(message, field.key_span, ""));
             return None;
-        };
-        let text = scalar_text(value).filter(|text| !text.contains('\0'));
-        if text.is_none() {
-            let path: Vec<&str> = at.iter().copied().chain([name]).collect();
-            let problem = Problem::new(format!("the variable `{name}` is a text, not {}", shown(value)));
-            self.problems.push(problem.at(self.text.place(&path)).help(format!("write `{name}: \"...\"`")));
         }
-        Some((name.to_owned(), text?))
+        let value = text(field.value);
+        if value.is_none() {
+            let message = format!("the variable `{name}` is a text, not {}", shown(field.value));
+            self.report(wrong(&WRONG_VALUE, message, field).help(format!("write `{name}: \"...\"`")));
+        }
+        Some((name.to_owned(), value?.to_owned()))
     }
 }

@@ -1,6 +1,10 @@
-//! The keys of launch files with their documentation, for `scl explain`.
+//! The keys and the rules of launch files with their documentation, for `scl explain`.
 
+use super::document::LaunchDocument;
 use super::keys::{COMPONENT, GATEWAY, HOST, Key, TOP};
+use super::rules::LAUNCH_RULES;
+use scl_topology::catalogue::entry;
+use scl_topology::diagnostic::render;
 
 /// A key of launch files with its documentation.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -58,4 +62,76 @@ fn without_links(text: &str) -> String {
         rest = after;
     }
     plain + rest
+}
+
+/// The entry of a code of launch files, as Markdown; none if there is no such code.
+pub fn explain_launch_rule(code: &str) -> Option<String> {
+    let rule = LAUNCH_RULES.into_iter().find(|rule| rule.code == code)?;
+    Some(format!("# {}", entry(rule, "yaml", told)))
+}
+
+/// What is said about an example.
+fn told(text: &str) -> String {
+    let document = LaunchDocument::parse("launch.yaml", text);
+    let found = document.read(None).err().unwrap_or_default();
+    found.iter().map(|problem| render(problem, &document.sources)).collect::<Vec<_>>().join("\n\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LAUNCH_RULES, LaunchDocument, explain_launch_rule};
+    use expect_test::expect;
+
+    /// The promise: the wrong example of a rule has this mistake and no other, and the right one has none.
+    #[test]
+    fn examples_are_what_they_say() {
+        for rule in LAUNCH_RULES {
+            let codes = |text: &str| {
+                let found = LaunchDocument::parse("launch.yaml", text).read(None).err().unwrap_or_default();
+                found.iter().map(|problem| problem.code()).collect::<Vec<_>>()
+            };
+            assert_eq!(codes(&rule.bad_example()), [rule.code]);
+            assert_eq!(codes(&rule.good_example()), [""; 0], "{}", rule.code);
+        }
+    }
+
+    #[test]
+    fn codes_are_in_order_and_explained() {
+        assert!(LAUNCH_RULES.is_sorted_by_key(|rule| rule.code));
+        let text = explain_launch_rule("SCL1202").unwrap();
+        expect![[r#"
+            # SCL1202 value that the key cannot have (error)
+
+            The value has another form than the key needs: a time without its unit, a word that the key does not know, a number out of range. The message says what the key takes.
+
+            Wrong:
+
+            ```yaml
+            components:
+              sensor:
+                command: ./sensor
+                restart: on-failure
+            ```
+
+            ```text
+            error: [SCL1202] `restart` is `never`, `on_abnormal`, `on_failure` or `always`, not `on-failure`
+             --> launch.yaml:4:14
+              |
+            4 |     restart: on-failure
+              |              ^^^^^^^^^^
+              |
+              = help: did you mean `restart: on_failure`?
+            ```
+
+            Right:
+
+            ```yaml
+            components:
+              sensor:
+                command: ./sensor
+                restart: on_failure
+            ```
+        "#]].assert_eq(&text);
+        assert_eq!(explain_launch_rule("SCL0502"), None);
+    }
 }

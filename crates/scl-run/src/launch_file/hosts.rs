@@ -5,17 +5,22 @@ mod together;
 
 use super::super::deployment::{Deployment, Host};
 use super::keys;
-use super::reader::{KeyPath, Reader, joined, likely_key, shown};
-use scl_terminal::Problem;
-use serde_yaml::{Mapping, Value};
+use super::reader::{Keys, Reader, wrong};
+use super::rules::{CONTRADICTION, MISSING, WRONG_NAME, WRONG_VALUE};
+use super::value::{flag, number, texts};
+use scl_topology::parse::Field;
+use scl_topology::source::Span;
+use scl_topology::yaml::Node;
 use std::path::PathBuf;
 
 /// The longest name of a host: a label of DNS.
 const LONGEST_NAME: usize = 63;
 
 /// `gateway` as written.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Gateway {
+    /// The place of the key.
+    place: Span,
     port: Option<u16>,
     /// Whether there is one, right or wrong.
     has_port: bool,
@@ -28,146 +33,130 @@ struct Gateway {
 #[derive(Debug)]
 struct HostEntry {
     name: String,
-    address: Option<String>,
+    /// With its place.
+    address: Option<(String, Span)>,
     port: Option<u16>,
     /// Whether a `port` is there, right or wrong.
     has_port: bool,
-    components: Vec<String>,
+    /// With their places.
+    components: Vec<(String, Span)>,
 }
+
+const EXAMPLE: &str = "write `hosts: {board: {address: 192.0.2.10, components: [sensor]}}`";
+const GATEWAY_EXAMPLE: &str = "write `gateway: {port: 7447, certificates: ./keys}`";
 
 impl Reader<'_> {
     /// Reads both keys of the file; `None` without hosts. The folder of the certificates is as written.
-    pub(super) fn read_deployment(&mut self, top: &Mapping) -> Option<Deployment> {
-        let gateway = top.get("gateway").map(|value| self.read_gateway(value));
-        let Some(hosts) = top.get("hosts") else {
-            if gateway.is_some() {
-                let problem = Problem::new("`gateway` has no effect without `hosts`");
-                let problem = problem.at(self.text.place(&["gateway"]));
-                self.problems.push(problem.help("write `hosts: {board: {address: 192.0.2.10, components: [sensor]}}`"));
+    pub(super) fn read_deployment(&mut self, top: &Keys<'_, '_>) -> Option<Deployment> {
+        let gateway = top.get("gateway").map(|field| self.read_gateway(field));
+        let Some(field) = top.get("hosts") else {
+            if let Some(gateway) = gateway.filter(|_| !top.may_have("hosts")) {
+                let message = "`gateway` has no effect without `hosts`";
+                self.report(CONTRADICTION.at(message, gateway.place, "").help(EXAMPLE));
             }
             return None;
         };
-        let Some(entries) = hosts.as_mapping().filter(|entries| !entries.is_empty()) else {
-            let problem =
-                Problem::new(format!("`hosts` is a mapping from names to entries, not {}", shown_hosts(hosts)));
-            let problem = problem.at(self.text.place(&["hosts"]));
-            self.problems.push(problem.help("write `hosts: {board: {address: 192.0.2.10, components: [sensor]}}`"));
-            return None;
-        };
-        let hosts: Vec<HostEntry> =
-            entries.iter().filter_map(|(name, entry)| self.read_host(name, entry, top.get("components"))).collect();
-        if hosts.len() == entries.len() {
-            self.check_placement(&hosts, top.get("components"));
+        let entries = self.entries(field, "`hosts` is a mapping from names to entries", EXAMPLE)?;
+        if entries.is_empty() {
+            self.report(wrong(&MISSING, "`hosts` is empty", field).help(EXAMPLE));
         }
-        self.check_addresses(&hosts, gateway.as_ref());
-        let gateway = gateway.unwrap_or_default();
+        let started = top.names_of("components");
+        let fields = self.names(entries, "`hosts`").list;
+        let count = fields.len();
+        let hosts: Vec<HostEntry> = fields.into_iter().filter_map(|host| self.read_host(host, &started)).collect();
+        if hosts.len() == count {
+            self.check_placement(&hosts, &started, field.key_span);
+        }
+        self.check_addresses(&hosts, gateway.as_ref(), field.key_span);
+        let port = gateway.as_ref().and_then(|gateway| gateway.port);
         let host = |entry: HostEntry| Host {
             name: entry.name,
-            address: entry.address.unwrap_or_default(),
-            port: entry.port.or(gateway.port).unwrap_or_default(),
-            components: entry.components,
+            address: entry.address.map(|(address, _)| address).unwrap_or_default(),
+            port: entry.port.or(port).unwrap_or_default(),
+            components: entry.components.into_iter().map(|(name, _)| name).collect(),
         };
         Some(Deployment {
             hosts: hosts.into_iter().map(host).collect(),
-            certificates: gateway.certificates.map(PathBuf::from),
-            insecure: gateway.insecure,
+            insecure: gateway.as_ref().is_some_and(|gateway| gateway.insecure),
+            certificates: gateway.and_then(|gateway| gateway.certificates).map(PathBuf::from),
         })
     }
 
-    fn read_gateway(&mut self, value: &Value) -> Gateway {
-        let Some(keys) = value.as_mapping() else {
-            let problem = Problem::new(format!("`gateway` is a mapping, not {}", shown(value)));
-            let problem = problem.at(self.text.place(&["gateway"]));
-            self.problems.push(problem.help("write `gateway: {port: 7447, certificates: ./keys}`"));
+    fn read_gateway(&mut self, field: Field<'_>) -> Gateway {
+        let place = field.key_span;
+        let Some(entries) = self.entries(field, "`gateway` is a mapping", GATEWAY_EXAMPLE) else {
             // What is missing in it has been said.
-            return Gateway { has_port: true, has_certificates: true, ..Gateway::default() };
+            return Gateway {
+                place,
+                port: None,
+                has_port: true,
+                certificates: None,
+                has_certificates: true,
+                insecure: false,
+            };
         };
-        let at = ["gateway"];
-        self.check_keys(keys, &at, keys::GATEWAY, "in `gateway`");
+        let keys = self.keys(entries, keys::GATEWAY, "`gateway`");
         Gateway {
-            port: self.read_setting(keys, &at, "port", port),
-            has_port: means_to_have(keys, "port"),
-            certificates: self.read_path(keys.get("certificates"), &joined(&at, "certificates")),
-            has_certificates: means_to_have(keys, "certificates"),
-            insecure: self.read_setting(keys, &at, "insecure", Value::as_bool).unwrap_or_default(),
+            place,
+            port: self.read_setting(&keys, "port", port),
+            has_port: keys.may_have("port"),
+            certificates: keys.get("certificates").and_then(|field| self.read_path(field)),
+            has_certificates: keys.may_have("certificates"),
+            insecure: self.read_setting(&keys, "insecure", flag).unwrap_or_default(),
         }
     }
 
-    fn read_host(&mut self, name: &Value, entry: &Value, components: Option<&Value>) -> Option<HostEntry> {
-        let name = self.read_host_name(name)?;
-        let at = joined(&["hosts"], name);
-        let Some(keys) = entry.as_mapping() else {
-            let problem = Problem::new(format!("the entry of host `{name}` is not a mapping")).at(self.text.place(&at));
-            let help = format!("write `{name}: {{address: 192.0.2.10, components: [sensor]}}`");
-            self.problems.push(problem.help(help));
-            return None;
-        };
-        self.check_keys(keys, &at, keys::HOST, &format!("in host `{name}`"));
+    fn read_host(&mut self, field: Field<'_>, started: &[String]) -> Option<HostEntry> {
+        self.check_host_name(field)?;
+        let name = field.key;
+        let help = format!("write `{name}: {{address: 192.0.2.10, components: [sensor]}}`");
+        let entries = self.entries(field, &format!("the entry of host `{name}` is a mapping"), &help)?;
+        let keys = self.keys(entries, keys::HOST, &format!("host `{name}`"));
         Some(HostEntry {
             name: name.to_owned(),
-            address: self.read_address(name, keys, &at),
-            port: self.read_setting(keys, &at, "port", port),
-            has_port: keys.contains_key("port"),
-            components: self.read_names(name, keys, &at, components),
+            address: self.read_address(field, &keys),
+            port: self.read_setting(&keys, "port", port),
+            has_port: keys.get("port").is_some(),
+            components: self.read_names(field, &keys, started),
         })
     }
 
     /// The name stands in certificates, keys of the network library and names of folders.
-    fn read_host_name<'n>(&mut self, name: &'n Value) -> Option<&'n str> {
-        let is_plain = |name: &&str| {
-            let starts_well = name.starts_with(|letter: char| letter.is_ascii_alphanumeric());
-            let is_allowed = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
-            starts_well && name.len() <= LONGEST_NAME && name.chars().all(is_allowed)
+    fn check_host_name(&mut self, field: Field<'_>) -> Option<()> {
+        let name = field.key;
+        let is_allowed = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
+        let starts_well = name.starts_with(|letter: char| letter.is_ascii_alphanumeric());
+        let note = match name {
+            Deployment::AUTHORITY => "this is the folder of the authority that signs the certificates".to_owned(),
+            _ if starts_well && name.len() <= LONGEST_NAME && name.chars().all(is_allowed) => return Some(()),
+            _ => format!("it has up to {LONGEST_NAME} letters, digits, `_` and `-`, and starts with a letter or digit"),
         };
-        let Some(plain) = name.as_str().filter(is_plain) else {
-            let path: Vec<&str> = ["hosts"].into_iter().chain(name.as_str()).collect();
-            let problem = Problem::new(format!("{} cannot be the name of a host", shown(name)));
-            let rule =
-                format!("it has up to {LONGEST_NAME} letters, digits, `_` and `-`, and starts with a letter or digit");
-            self.problems.push(problem.at(self.text.place(&path)).note(rule));
-            return None;
-        };
-        if plain == Deployment::AUTHORITY {
-            let problem = Problem::new(format!("no host can be called `{plain}`"));
-            let problem = problem.at(self.text.place(&["hosts", plain]));
-            self.problems.push(problem.note("this is the folder of the authority that signs the certificates"));
-            return None;
-        }
-        Some(plain)
+        self.report(WRONG_NAME.at(format!("`{name}` cannot be the name of a host"), field.key_span, "").note(note));
+        None
     }
 
-    fn read_names(&mut self, host: &str, keys: &Mapping, at: KeyPath<'_>, components: Option<&Value>) -> Vec<String> {
-        let value = keys.get("components");
-        let names = value.and_then(Value::as_sequence).filter(|names| !names.is_empty());
-        let Some(names) = names.and_then(|names| names.iter().map(Value::as_str).collect::<Option<Vec<&str>>>()) else {
-            let means_it = |key: &str| likely_key(key, keys::HOST) == Some("components");
-            if value.is_some() || !keys.keys().filter_map(Value::as_str).any(means_it) {
-                let place =
-                    if value.is_some() { self.text.place(&joined(at, "components")) } else { self.text.place(at) };
-                let problem = Problem::new(format!("host `{host}` has no list of `components`")).at(place);
-                self.problems.push(problem.help("write `components: [sensor, controller]`"));
-            }
+    fn read_names(&mut self, host: Field<'_>, keys: &Keys<'_, '_>, started: &[String]) -> Vec<(String, Span)> {
+        let field = keys.get("components");
+        let names = field.and_then(|field| texts(field.value)).filter(|names| !names.is_empty());
+        let (Some(names), Some(field)) = (names, field) else {
+            let message = format!("host `{}` has no list of `components`", host.key);
+            let problem = match field {
+                Some(field) => Some(wrong(&WRONG_VALUE, message, field)),
+                None if keys.may_have("components") => None,
+                None => Some(MISSING.at(message, host.key_span, "")),
+            };
+            problem
+                .into_iter()
+                .for_each(|problem| self.report(problem.help("write `components: [sensor, controller]`")));
             return Vec::new();
         };
-        let at = joined(at, "components");
-        names.iter().for_each(|name| self.check_is_component(name, &at, components));
-        names.into_iter().map(str::to_owned).collect()
+        let places = field.value.items().into_iter().flatten().map(|item| item.span);
+        let names: Vec<(String, Span)> = names.into_iter().zip(places).collect();
+        names.iter().for_each(|(name, place)| self.check_is_component(name, *place, started));
+        names
     }
 }
 
-/// Whether `gateway` has this key, maybe misspelt, which has been reported.
-fn means_to_have(keys: &Mapping, key: &str) -> bool {
-    let mut words = keys.keys().filter_map(Value::as_str);
-    words.any(|word| word == key || likely_key(word, keys::GATEWAY) == Some(key))
-}
-
-fn port(value: &Value) -> Option<u16> {
-    value.as_u64().and_then(|number| u16::try_from(number).ok()).filter(|port| *port != 0)
-}
-
-fn shown_hosts(value: &Value) -> String {
-    match value {
-        Value::Mapping(_) => "an empty one".to_owned(),
-        other => shown(other),
-    }
+fn port(value: &Node) -> Option<u16> {
+    number(value).and_then(|number| u16::try_from(number).ok()).filter(|port| *port != 0)
 }

@@ -90,9 +90,6 @@ const INPUTS: &[&str] = &{
 
 const KEY: Key = Key { name: "", also: &[], form: Form::Command, default: "", meaning: "", in_defaults: false };
 
-/// The merge key of YAML 1.1, which is no key of any mapping.
-pub(super) const MERGE: &str = "<<";
-
 /// Whether a key at the top of the file is the user's own, which is ignored as in a topology file.
 pub(super) fn is_own(key: &str) -> bool {
     key.starts_with("x-")

@@ -3,9 +3,9 @@
 use super::super::terminal::StandardInput;
 use super::LaunchFile;
 use super::entry::{Entry, LaunchComponent, Opens};
-use super::reader::{Reader, joined, shown};
+use super::reader::{Keys, Reader};
 use scl_terminal::{Problem, quoted_list};
-use serde_yaml::Value;
+use scl_topology::parse::Field;
 
 /// A named set of entries that replace or change those of `components`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -84,34 +84,21 @@ fn apply(entry: &Entry, components: &mut Vec<LaunchComponent>) {
 
 impl Reader<'_> {
     /// Reads all profiles, whether or not they are used. A component that is not in `components` needs a command.
-    pub(super) fn read_profiles(&mut self, value: Option<&Value>, components: Option<&Value>) -> Vec<Profile> {
-        let profiles = match value {
-            None => return Vec::new(),
-            Some(Value::Mapping(profiles)) => profiles,
-            Some(other) => {
-                let problem = Problem::new(format!("`profiles` is a mapping, not {}", shown(other)));
-                let problem = problem.at(self.text.place(&["profiles"]));
-                self.problems.push(problem.help("write `profiles: {python: {sensor: {command: ./sensor.py}}}`"));
-                return Vec::new();
-            }
-        };
-        profiles.iter().filter_map(|(name, entries)| self.read_profile(name, entries, components)).collect()
+    pub(super) fn read_profiles(&mut self, top: &Keys<'_, '_>) -> Vec<Profile> {
+        let help = "write `profiles: {python: {sensor: {command: ./sensor.py}}}`";
+        let profiles = top.get("profiles").and_then(|field| self.entries(field, "`profiles` is a mapping", help));
+        let profiles = profiles.map(|entries| self.names(entries, "`profiles`").list).unwrap_or_default();
+        let started = top.names_of("components");
+        profiles.into_iter().filter_map(|profile| self.read_profile(profile, &started)).collect()
     }
 
-    fn read_profile(&mut self, name: &Value, entries: &Value, components: Option<&Value>) -> Option<Profile> {
-        let Some(name) = name.as_str() else {
-            self.wrong(&["profiles"], &format!("the name of a profile is a word, not {}", shown(name)));
-            return None;
-        };
-        let at = joined(&["profiles"], name);
-        let Some(entries) = entries.as_mapping() else {
-            let problem = Problem::new(format!("profile `{name}` is not a mapping from components to commands"));
-            let problem = problem.at(self.text.place(&at));
-            self.problems.push(problem.help(format!("write `{name}: {{sensor: {{command: ./sensor}}}}`")));
-            return None;
-        };
-        let is_new = |component: &str| components.and_then(|entries| entries.get(component)).is_none();
-        let entries = entries.iter().filter_map(|(name, entry)| self.read_entry(name, entry, &at, is_new)).collect();
+    fn read_profile(&mut self, field: Field<'_>, started: &[String]) -> Option<Profile> {
+        let name = field.key;
+        let message = format!("profile `{name}` is a mapping from components to entries");
+        let entries = self.entries(field, &message, &format!("write `{name}: {{sensor: {{command: ./sensor}}}}`"))?;
+        let entries = self.names(entries, &format!("profile `{name}`")).list;
+        let is_new = |component: &str| !started.iter().any(|name| name == component);
+        let entries = entries.into_iter().filter_map(|entry| self.read_entry(entry, is_new(entry.key))).collect();
         Some(Profile { name: name.to_owned(), entries })
     }
 }

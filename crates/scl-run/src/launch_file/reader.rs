@@ -1,99 +1,155 @@
-//! What all parts of a launch file are read with: the collected problems, the check of keys, texts of values.
+//! What all parts of a launch file are read with: the collected problems, and the check of keys.
 
-use super::super::launch_text::LaunchText;
 use super::super::system_names::SystemNames;
-use super::keys::{Key, MERGE, is_own};
-use scl_terminal::{Problem, closest_name, quoted_list};
-use serde_yaml::{Mapping, Value};
+use super::keys::{Key, is_own};
+use super::rules::{UNKNOWN_KEY, WRONG_SHAPE};
+use super::value::shown;
+use super::{LaunchFile, rules};
+use scl_terminal::{closest_name, quoted_list};
+use scl_topology::diagnostic::{Diagnostic, Diagnostics, Rule};
+use scl_topology::parse::{Dialect, Document, Field, Fields, damaged_key, fields};
+use scl_topology::source::{SourceFile, Span};
+use scl_topology::suggest::similar;
+use scl_topology::yaml::{Node, NodeKind};
 
 /// Walks the values and collects the problems; every `read_*` continues after a mistake.
 pub(super) struct Reader<'a> {
-    pub(super) text: LaunchText<'a>,
+    pub(super) source: &'a SourceFile,
     /// The names of the topology.
     pub(super) known: Option<&'a SystemNames>,
-    pub(super) problems: Vec<Problem>,
+    dialect: &'static Dialect,
+    problems: Diagnostics,
 }
 
-/// The keys from the top of the file to a value.
-pub(super) type KeyPath<'p> = &'p [&'p str];
+impl<'a> Reader<'a> {
+    pub(super) fn new(source: &'a SourceFile, known: Option<&'a SystemNames>, dialect: &'static Dialect) -> Self {
+        Self { source, known, dialect, problems: Diagnostics::new() }
+    }
 
-impl Reader<'_> {
-    /// Reports keys that are not among those allowed; `whose` is the end of the message.
-    pub(super) fn check_keys<'k>(
+    /// Reads the whole file.
+    pub(super) fn read(mut self, document: &Document) -> (LaunchFile, Diagnostics) {
+        let file = document.root.as_ref().filter(|root| !root.is_null()).map(|root| self.read_file(root));
+        (file.unwrap_or_default(), self.problems)
+    }
+
+    pub(super) fn report(&mut self, problem: Diagnostic) {
+        self.problems.push(problem);
+    }
+
+    /// The keys of a mapping, which are names; `owner` is how messages go on after "in".
+    pub(super) fn names<'n>(&mut self, entries: &'n [(Node, Node)], owner: &str) -> Fields<'n> {
+        fields(entries, owner, self.source, self.dialect, &mut self.problems)
+    }
+
+    /// The keys of a mapping; those that are not `allowed` are reported.
+    pub(super) fn keys<'n, 'k>(
         &mut self,
-        keys: &Mapping,
-        at: KeyPath<'_>,
+        entries: &'n [(Node, Node)],
         allowed: impl IntoIterator<Item = &'k Key>,
-        whose: &str,
-    ) {
-        let allowed: Vec<&Key> = allowed.into_iter().collect();
-        let names = || allowed.iter().map(|key| key.name);
-        for key in keys.keys() {
-            let word = key.as_str();
-            let is_own = word.is_some_and(is_own);
-            if word == Some(MERGE)
-                || is_own && at.is_empty()
-                || word.is_some_and(|word| names().any(|name| name == word))
-            {
-                continue;
+        owner: &str,
+    ) -> Keys<'n, 'k> {
+        self.keys_but(|_| false, entries, allowed, owner)
+    }
+
+    /// As [`keys`](Self::keys), where keys that are `ignored` are no mistake.
+    pub(super) fn keys_but<'n, 'k>(
+        &mut self,
+        ignored: impl Fn(&str) -> bool,
+        entries: &'n [(Node, Node)],
+        allowed: impl IntoIterator<Item = &'k Key>,
+        owner: &str,
+    ) -> Keys<'n, 'k> {
+        let keys = Keys { fields: self.names(entries, owner), allowed: allowed.into_iter().collect() };
+        for field in &keys.fields.list {
+            if !ignored(field.key) && !keys.allowed.iter().any(|key| key.name == field.key) {
+                self.report(unknown_key(*field, &keys.allowed, owner));
             }
-            let path: Vec<&str> = at.iter().copied().chain(word).collect();
-            let problem = Problem::new(format!("unknown key {} {whose}", shown(key))).at(self.text.place(&path));
-            let close = word.and_then(|word| likely_key(word, allowed.iter().copied()));
-            self.problems.push(match close {
-                _ if is_own => problem.help("keys of your own, which start with `x-`, belong at the top of the file"),
-                Some(close) => problem.help(format!("did you mean `{close}`?")),
-                None => problem.note(format!("the keys are {}", quoted_list(names()))),
+        }
+        keys
+    }
+
+    /// The entries of a mapping; anything else is reported with `help`, unless a problem says so already.
+    pub(super) fn entries<'n>(&mut self, field: Field<'n>, message: &str, help: &str) -> Option<&'n [(Node, Node)]> {
+        let entries = field.value.entries();
+        if entries.is_none() && !matches!(field.value.kind, NodeKind::Unread) {
+            let problem = damaged_key(field.value, self.source, self.dialect).unwrap_or_else(|| {
+                wrong(&WRONG_SHAPE, format!("{message}, not {}", shown(field.value)), field).help(help)
             });
+            self.report(problem);
         }
+        entries
     }
 
-    /// Reads a path; the last key of `at` is how the message names it.
-    pub(super) fn read_path(&mut self, value: Option<&Value>, at: KeyPath<'_>) -> Option<String> {
-        let value = value?;
-        let path = value.as_str().filter(|path| !path.is_empty() && !path.contains('\0'));
-        if path.is_none() {
-            self.wrong_value(at, value);
+    /// Reports a component that is not among these, which are those of `source`.
+    pub(super) fn check_among(&mut self, name: &str, at: Span, known: &[String], source: &str) {
+        if known.iter().any(|it| it == name) {
+            return;
         }
-        path.map(str::to_owned)
+        let problem = unknown_name(format!("unknown component `{name}`"), name, at, known);
+        self.report(problem.note(format!("{source} has the components {}", quoted_list(known))));
     }
 
-    /// Reports a wrong value.
-    pub(super) fn wrong(&mut self, at: KeyPath<'_>, message: &str) {
-        self.problems.push(Problem::new(message).at(self.text.place(at)));
+    /// `launch.yaml:3:5`.
+    pub(super) fn place(&self, span: Span) -> String {
+        self.source.place(span)
     }
 }
 
-/// The path of keys with one more.
-pub(super) fn joined<'k>(path: &[&'k str], key: &'k str) -> Vec<&'k str> {
-    path.iter().copied().chain([key]).collect()
+/// The keys of a mapping, and those that it may have.
+pub(super) struct Keys<'n, 'k> {
+    pub(super) fields: Fields<'n>,
+    allowed: Vec<&'k Key>,
+}
+
+impl<'n> Keys<'n, '_> {
+    pub(super) fn get(&self, key: &str) -> Option<Field<'n>> {
+        self.fields.get(key)
+    }
+
+    /// The names in the mapping that a key has.
+    pub(super) fn names_of(&self, key: &str) -> Vec<String> {
+        let entries = self.get(key).and_then(|field| field.value.entries()).into_iter().flatten();
+        entries.filter_map(|(name, _)| name.text()).map(str::to_owned).collect()
+    }
+
+    /// Whether the mapping has the key, maybe misspelt or in a part that could not be read, which has been reported.
+    pub(super) fn may_have(&self, key: &str) -> bool {
+        let means_it = |field: &Field<'_>| likely_key(field.key, &self.allowed) == Some(key);
+        self.fields.damaged || self.get(key).is_some() || self.fields.list.iter().any(means_it)
+    }
+}
+
+/// A problem about a name, with the `known` ones that it may have meant.
+pub(super) fn unknown_name(message: String, name: &str, at: Span, known: &[String]) -> Diagnostic {
+    let near = similar(name, known.iter().map(String::as_str));
+    rules::UNKNOWN_NAME.at(message, at, "").did_you_mean(&near).fix_word(name, &near)
+}
+
+fn unknown_key(field: Field<'_>, allowed: &[&Key], owner: &str) -> Diagnostic {
+    let problem = UNKNOWN_KEY.at(format!("unknown key `{}` in {owner}", field.key), field.key_span, "");
+    match likely_key(field.key, allowed) {
+        _ if is_own(field.key) => {
+            problem.help("keys of your own, which start with `x-`, belong at the top of the file")
+        }
+        Some(close) => problem.help(format!("did you mean `{close}`?")).fix_word(field.key, &[close]),
+        None => problem.note(format!("the keys are {}", quoted_list(allowed.iter().map(|key| key.name)))),
+    }
 }
 
 /// The key that an unknown one probably means: another tool's word for it, or a similar name.
-pub(super) fn likely_key<'k>(word: &str, allowed: impl IntoIterator<Item = &'k Key>) -> Option<&'k str> {
-    let allowed: Vec<&Key> = allowed.into_iter().collect();
+fn likely_key<'k>(word: &str, allowed: &[&'k Key]) -> Option<&'k str> {
     let lower = word.to_lowercase().replace(['-', ' '], "_");
     let named = allowed.iter().find(|key| key.also.contains(&lower.as_str()));
     named.map(|key| key.name).or_else(|| closest_name(&lower, allowed.iter().map(|key| key.name)))
 }
 
-/// The text of a string, number or boolean that can be passed to a program, else `None`.
-pub(super) fn scalar_text(value: &Value) -> Option<String> {
-    match value {
-        Value::String(text) if !text.contains('\0') => Some(text.clone()),
-        Value::Number(number) => Some(number.to_string()),
-        Value::Bool(truth) => Some(truth.to_string()),
-        _ => None,
-    }
+/// Where the value of a field stands; the key, if nothing is written.
+pub(super) fn value_span(field: Field<'_>) -> Span {
+    let span = field.value.span;
+    if span.start == span.end { field.key_span } else { span }
 }
 
-/// Describes an unexpected value in messages.
-pub(super) fn shown(value: &Value) -> String {
-    match value {
-        Value::Sequence(_) => "a list".to_owned(),
-        Value::Mapping(_) => "a mapping".to_owned(),
-        Value::Tagged(_) => "a tagged value".to_owned(),
-        Value::Null => "nothing".to_owned(),
-        scalar => format!("`{}`", scalar_text(scalar).unwrap_or_default()),
-    }
+/// A problem of a key or its value.
+pub(super) fn wrong(rule: &'static Rule, message: impl Into<String>, field: Field<'_>) -> Diagnostic {
+    rule.at(message, value_span(field), "")
 }

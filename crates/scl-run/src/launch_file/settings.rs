@@ -3,9 +3,12 @@
 
 use super::super::policy::{Policy, Restart, RestartDelay, RestartLimit};
 use super::keys::{Form, form_of};
-use super::reader::{KeyPath, Reader, joined, scalar_text, shown};
-use scl_terminal::{Problem, closest_name, parse_duration};
-use serde_yaml::{Mapping, Value};
+use super::reader::{Keys, Reader, wrong};
+use super::rules::WRONG_VALUE;
+use super::value::{flag, number, shown, texts};
+use scl_terminal::{closest_name, parse_duration};
+use scl_topology::parse::Field;
+use scl_topology::yaml::{Node, NodeKind};
 use std::time::Duration;
 
 /// Settings as written: what is not is `None`.
@@ -64,133 +67,146 @@ impl Settings {
 
 impl Reader<'_> {
     /// Reads the settings of a mapping, whose keys have been checked.
-    pub(super) fn read_settings(&mut self, keys: &Mapping, at: KeyPath<'_>) -> Settings {
+    pub(super) fn read_settings(&mut self, keys: &Keys<'_, '_>) -> Settings {
         Settings {
-            restart: self.read_setting(keys, at, "restart", restart),
-            restart_delay: self.read_setting(keys, at, "restart_delay", restart_delay),
-            restart_limit: self.read_setting(keys, at, "restart_limit", restart_limit),
-            essential: self.read_setting(keys, at, "essential", Value::as_bool),
-            stop_within: self.read_setting(keys, at, "stop_within", any_duration),
-            ready_within: self.read_setting(keys, at, "ready_within", limit),
-            alive_within: self.read_setting(keys, at, "alive_within", limit),
-            cpu: self.read_setting(keys, at, "cpu", processors),
-            priority: self.read_setting(keys, at, "priority", priority),
-            descriptors: self.read_setting(keys, at, "descriptors", descriptors),
-            working_directory: self.read_path(keys.get("working_directory"), &joined(at, "working_directory")),
+            restart: self.read_setting(keys, "restart", restart),
+            restart_delay: self.read_setting(keys, "restart_delay", |value| restart_delay(value.text()?)),
+            restart_limit: self.read_setting(keys, "restart_limit", |value| restart_limit(value.text()?)),
+            essential: self.read_setting(keys, "essential", flag),
+            stop_within: self.read_setting(keys, "stop_within", |value| any_duration(value.text()?)),
+            ready_within: self.read_setting(keys, "ready_within", |value| limit(value.text()?)),
+            alive_within: self.read_setting(keys, "alive_within", |value| limit(value.text()?)),
+            cpu: self.read_setting(keys, "cpu", processors),
+            priority: self.read_setting(keys, "priority", |value| priority(value.text()?)),
+            descriptors: self.read_setting(keys, "descriptors", |value| number(value).filter(|most| *most > 0)),
+            working_directory: keys.get("working_directory").and_then(|field| self.read_path(field)),
         }
     }
 
     /// Reads the value of a key with `read`, which returns `None` for a wrong one.
     pub(super) fn read_setting<T>(
         &mut self,
-        keys: &Mapping,
-        at: KeyPath<'_>,
+        keys: &Keys<'_, '_>,
         key: &str,
-        read: impl Fn(&Value) -> Option<T>,
+        read: impl Fn(&Node) -> Option<T>,
     ) -> Option<T> {
-        let value = keys.get(key)?;
-        let read = read(value);
+        let field = keys.get(key)?;
+        let read = read(field.value);
         if read.is_none() {
-            self.wrong_value(&joined(at, key), value);
+            self.wrong_value(field);
         }
         read
     }
 
-    /// Reports a value that is not what the key's row in the table says; the last of `at` is the key.
-    pub(super) fn wrong_value(&mut self, at: KeyPath<'_>, value: &Value) {
-        let key = at.last().copied().unwrap_or_default();
-        let form = form_of(key);
-        let problem = Problem::new(format!("`{key}` is {}, not {}", form.description(), shown_value(form, value)));
-        let problem = problem.at(self.text.place(at));
-        let help = likely(form, value).map(|meant| format!("did you mean `{key}: {meant}`?"));
-        self.problems.push(match help {
-            Some(help) => problem.help(help),
+    /// Reads a path.
+    pub(super) fn read_path(&mut self, field: Field<'_>) -> Option<String> {
+        let path = super::value::text(field.value).filter(|path| !path.is_empty());
+        if path.is_none() {
+            self.wrong_value(field);
+        }
+        path.map(str::to_owned)
+    }
+
+    /// Reports a value that is not what the key's row in the table says.
+    pub(super) fn wrong_value(&mut self, field: Field<'_>) {
+        let form = form_of(field.key);
+        self.wrong_form(field, form, &format!("`{}`", field.key));
+    }
+
+    /// Reports a value that has not this form; `what` is what should have it.
+    pub(super) fn wrong_form(&mut self, field: Field<'_>, form: Form, what: &str) {
+        if matches!(field.value.kind, NodeKind::Unread) {
+            return;
+        }
+        let message = format!("{what} is {}, not {}", form.description(), shown_value(form, field.value));
+        let problem = wrong(&WRONG_VALUE, message, field);
+        let meant = field.value.text().and_then(|text| likely(form, text.trim()));
+        self.report(match meant {
+            // A number without a unit may be one of milliseconds.
+            Some(meant) if form == Form::Duration => {
+                let help = format!("did you mean `{}: {meant}`?", field.key);
+                problem.help(help).maybe_fix(field.value.span, meant)
+            }
+            Some(meant) => {
+                let help = format!("did you mean `{}: {meant}`?", field.key);
+                problem.help(help).fix(field.value.span, meant)
+            }
             None => problem,
         });
     }
 }
 
 /// Describes a wrong value: a list by its items, where one is expected.
-fn shown_value(form: Form, value: &Value) -> String {
-    let items = value.as_sequence().filter(|items| form == Form::Processors && !items.is_empty());
-    let texts = items.and_then(|items| items.iter().map(scalar_text).collect::<Option<Vec<String>>>());
-    texts.map_or_else(|| shown(value), |texts| format!("`[{}]`", texts.join(", ")))
+fn shown_value(form: Form, value: &Node) -> String {
+    let items = texts(value).filter(|items| form == Form::Processors && !items.is_empty());
+    items.map_or_else(|| shown(value), |items| format!("`[{}]`", items.join(", ")))
 }
 
 /// What was probably meant by a wrong value.
-pub(super) fn likely(form: Form, value: &Value) -> Option<String> {
-    let text = scalar_text(value)?;
-    let text = text.trim();
-    let candidate = match form {
-        Form::Word(words) => {
-            return closest_name(&text.replace(['-', ' '], "_"), words.iter().copied()).map(str::to_owned);
-        }
+fn likely(form: Form, text: &str) -> Option<String> {
+    match form {
+        Form::Word(words) => closest_name(&text.replace(['-', ' '], "_"), words.iter().copied()).map(str::to_owned),
         Form::Flag => match text.to_lowercase().as_str() {
-            "yes" | "on" | "y" | "1" => return Some("true".to_owned()),
-            "no" | "off" | "n" | "0" => return Some("false".to_owned()),
-            word => return closest_name(word, ["true", "false"]).map(str::to_owned),
+            "yes" | "on" | "y" | "1" => Some("true".to_owned()),
+            "no" | "off" | "n" | "0" => Some("false".to_owned()),
+            word => closest_name(word, ["true", "false"]).map(str::to_owned),
         },
-        Form::Port => return text.parse::<u16>().ok().filter(|port| *port != 0).map(|port| port.to_string()),
+        Form::Port => text.parse::<u16>().ok().filter(|port| *port != 0).map(|port| port.to_string()),
         // A number without its unit: seconds, as nearly every other tool has it.
-        Form::Duration => format!("{text}s"),
-        Form::DelayRange => text.replacen("...", "..", 1).replacen('-', "..", 1).replacen(" to ", "..", 1),
-        Form::RestartLimit => text.replace('/', " in ").replace(" per ", " in "),
-        Form::Priority => format!("fifo:{}", text.rsplit([':', ' ', '-']).next().unwrap_or(text)),
-        _ => return None,
-    };
-    let read = Value::from(candidate.as_str());
-    let usable = match form {
-        Form::Duration => limit(&read).is_some(),
-        Form::DelayRange => restart_delay(&read).is_some(),
-        Form::RestartLimit => restart_limit(&read).is_some(),
-        _ => priority(&read).is_some(),
-    };
-    usable.then_some(candidate)
-}
-
-fn restart(value: &Value) -> Option<Restart> {
-    let word = value.as_str()?;
-    Restart::WORDS.into_iter().find(|(name, _)| *name == word).map(|(_, restart)| restart)
-}
-
-fn any_duration(value: &Value) -> Option<Duration> {
-    parse_duration(value.as_str()?.trim()).ok()
-}
-
-/// A time in which something must happen, so not zero.
-fn limit(value: &Value) -> Option<Duration> {
-    any_duration(value).filter(|time| !time.is_zero())
-}
-
-fn restart_delay(value: &Value) -> Option<RestartDelay> {
-    let text = value.as_str()?;
-    let (first, longest) = text.split_once("..").unwrap_or((text, text));
-    let (first, longest) = (parse_duration(first.trim()).ok()?, parse_duration(longest.trim()).ok()?);
-    (first <= longest).then_some(RestartDelay { first, longest })
-}
-
-fn restart_limit(value: &Value) -> Option<RestartLimit> {
-    let (count, within) = value.as_str()?.split_once(" in ")?;
-    let within = parse_duration(within.trim()).ok().filter(|time| !time.is_zero())?;
-    Some(RestartLimit { count: count.trim().parse().ok()?, within })
-}
-
-fn processors(value: &Value) -> Option<Vec<usize>> {
-    let number = |value: &Value| {
-        let number = value.as_u64().and_then(|number| usize::try_from(number).ok());
-        number.filter(|number| *number < rustix::thread::CpuSet::MAX_CPU)
-    };
-    match value {
-        Value::Sequence(numbers) if !numbers.is_empty() => numbers.iter().map(number).collect(),
-        Value::Number(_) => Some(vec![number(value)?]),
+        Form::Duration => Some(format!("{text}s")).filter(|meant| limit(meant).is_some()),
+        Form::DelayRange => {
+            let meant = text.replacen("...", "..", 1).replacen('-', "..", 1).replacen(" to ", "..", 1);
+            restart_delay(&meant).map(|_| meant)
+        }
+        Form::RestartLimit => {
+            let meant = text.replace('/', " in ").replace(" per ", " in ");
+            restart_limit(&meant).map(|_| meant)
+        }
+        Form::Priority => {
+            let meant = format!("fifo:{}", text.rsplit([':', ' ', '-']).next().unwrap_or(text));
+            priority(&meant).map(|_| meant)
+        }
         _ => None,
     }
 }
 
-fn descriptors(value: &Value) -> Option<u64> {
-    value.as_u64().filter(|most| *most > 0)
+fn restart(value: &Node) -> Option<Restart> {
+    let word = value.text()?;
+    Restart::WORDS.into_iter().find(|(name, _)| *name == word).map(|(_, restart)| restart)
 }
 
-fn priority(value: &Value) -> Option<u8> {
-    value.as_str()?.strip_prefix("fifo:")?.parse().ok().filter(|priority| (1..=99).contains(priority))
+fn any_duration(text: &str) -> Option<Duration> {
+    parse_duration(text.trim()).ok()
+}
+
+/// A time in which something must happen, so not zero.
+fn limit(text: &str) -> Option<Duration> {
+    any_duration(text).filter(|time| !time.is_zero())
+}
+
+fn restart_delay(text: &str) -> Option<RestartDelay> {
+    let (first, longest) = text.split_once("..").unwrap_or((text, text));
+    let (first, longest) = (any_duration(first)?, any_duration(longest)?);
+    (first <= longest).then_some(RestartDelay { first, longest })
+}
+
+fn restart_limit(text: &str) -> Option<RestartLimit> {
+    let (count, within) = text.split_once(" in ")?;
+    Some(RestartLimit { count: count.trim().parse().ok()?, within: limit(within)? })
+}
+
+fn processors(value: &Node) -> Option<Vec<usize>> {
+    let processor = |value: &Node| {
+        let number = number(value).and_then(|number| usize::try_from(number).ok());
+        number.filter(|number| *number < rustix::thread::CpuSet::MAX_CPU)
+    };
+    match value.items() {
+        Some(numbers) if !numbers.is_empty() => numbers.iter().map(processor).collect(),
+        Some(_) => None,
+        None => Some(vec![processor(value)?]),
+    }
+}
+
+fn priority(text: &str) -> Option<u8> {
+    text.strip_prefix("fifo:")?.parse().ok().filter(|priority| (1..=99).contains(priority))
 }

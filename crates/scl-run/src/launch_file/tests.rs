@@ -4,12 +4,12 @@ use super::super::policy::{Restart, RestartDelay, RestartLimit};
 use super::super::system_names::SystemNames;
 use super::super::terminal::StandardInput;
 use super::keys::{self, Key};
-use super::{EXAMPLE, LaunchComponent, LaunchDocument, LaunchFile, Settings, Source};
+use super::{EXAMPLE, LAUNCH_RULES, LaunchComponent, LaunchDocument, LaunchFile, Settings, Source};
 use scl_terminal::Problem;
 use std::time::Duration;
 
 fn parse_launch_file(text: &str, known: Option<&SystemNames>) -> Result<LaunchFile, Vec<Problem>> {
-    LaunchDocument::parse("launch.yaml", text).map_err(|problem| vec![problem])?.read(known)
+    LaunchDocument::parse("launch.yaml", text).read_shown(known)
 }
 
 const GOOD: &str = "\
@@ -114,8 +114,8 @@ fn a_good_file_keeps_its_order_and_its_values() {
 
 #[test]
 fn the_topology_is_named_with_its_place() {
-    let document = LaunchDocument::parse("launch.yaml", GOOD).unwrap();
-    assert_eq!(document.topology(), Some(("../topology.yaml", "launch.yaml:20:1".to_owned())));
+    let document = LaunchDocument::parse("launch.yaml", GOOD);
+    assert_eq!(document.topology_with_place(), Some(("../topology.yaml", "launch.yaml:20:11".to_owned())));
 }
 
 #[test]
@@ -283,6 +283,8 @@ fn the_reference_page_is_current() {
         let table = format!("| key | value | default | meaning |\n|---|---|---|---|\n{rows}");
         assert!(page.contains(&table), "docs/launch.md lacks this table:\n{table}");
     }
+    let codes: String = LAUNCH_RULES.iter().map(|rule| format!("| {} | {} |\n", rule.code, rule.title)).collect();
+    assert!(page.contains(&format!("| code | mistake |\n|---|---|\n{codes}")), "docs/launch.md lacks:\n{codes}");
     assert!(page.contains(&format!("```yaml\n{EXAMPLE}```\n")), "docs/launch.md lacks the example:\n{EXAMPLE}");
     let blocks: Vec<&str> = page.split("```yaml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
     for text in &blocks {
@@ -361,7 +363,7 @@ fn a_number_that_no_key_can_have_has_its_place() {
     let problems = parse_launch_file(text, None).unwrap_err();
     let told: Vec<String> = problems.iter().map(ToString::to_string).collect();
     assert!(
-        told.iter().any(|it| it.contains("not `18446744073709551616`") && it.contains("launch.yaml:2:20")),
+        told.iter().any(|it| it.contains("not `18446744073709551616`") && it.contains("launch.yaml:2:25")),
         "{told:?}"
     );
 }

@@ -38,14 +38,15 @@ pub fn read_deployment(
     let (folder, launch_path) = find_folder(launch).map_err(|problem| vec![problem])?;
     let shown = launch_path.display().to_string();
     let text = read_text(&launch_path)?;
-    let document = LaunchDocument::parse(&shown, &text).map_err(|problem| vec![problem])?;
+    let document = LaunchDocument::parse(&shown, &text);
+    document.check_text()?;
     let topology = match topology {
         Some(topology) => Some(topology.to_owned()),
         None => find_topology(&folder, &document).map_err(|problem| vec![problem])?,
     };
     let topology = topology.ok_or_else(|| vec![no_topology(&shown)])?;
     let known = read_names(&topology, component_names)?;
-    let launch = document.read(Some(&known))?;
+    let launch = document.read_shown(Some(&known))?;
     let mut deployment = launch.deployment.ok_or_else(|| vec![no_hosts(&shown)])?;
     deployment.certificates = deployment.certificates.map(|path| folder.join(path));
     Ok(DeployedSystem { topology, deployment })

@@ -19,7 +19,7 @@ const MESSAGES: [&str; 3] = ["uav.Command", "uav.Measurement", "uav.Status"];
 /// assert_eq!(explain("SCL9999"), None);
 /// ```
 pub fn explain(code: &str) -> Option<String> {
-    find(code).map(|rule| format!("# {}", entry(rule)))
+    find(code).map(|rule| format!("# {}", entry_of(rule)))
 }
 
 /// All entries as one page of Markdown: `docs/diagnostics.md`.
@@ -30,7 +30,7 @@ pub fn page() -> String {
         page.push_str(&format!("| {} | {} | {} |\n", rule.code, level(rule), rule.title));
     }
     for rule in ALL.iter() {
-        page.push_str(&format!("\n## {}", entry(rule)));
+        page.push_str(&format!("\n## {}", entry_of(rule)));
     }
     page
 }
@@ -53,16 +53,25 @@ fn level(rule: &Rule) -> &'static str {
     }
 }
 
-fn entry(rule: &Rule) -> String {
+/// The entry of a rule about a topology or about Rust code.
+fn entry_of(rule: &Rule) -> String {
+    match rule.has_topology() {
+        true => entry(rule, "yaml", |text| told(rule.code, text)),
+        false => entry(rule, "rust", |_| String::new()),
+    }
+}
+
+/// The entry of a rule, as Markdown without the mark of a heading; `told` returns what is said about the wrong example,
+/// which is in `language`.
+pub fn entry(rule: &Rule, language: &str, told: impl Fn(&str) -> String) -> String {
     let level = if rule.severity == Severity::Lint { "lint, off unless asked for" } else { level(rule) };
     let mut text = format!("{} {} ({level})\n\n{}\n", rule.code, rule.title, rule.explanation);
     if rule.example.is_empty() {
         return text;
     }
-    let language = if rule.has_topology() { "yaml" } else { "rust" };
     let (bad, good) = (rule.bad_example(), rule.good_example());
     text.push_str(&format!("\nWrong:\n\n```{language}\n{}```\n", visible(&bad)));
-    let told = if rule.has_topology() { told(rule.code, &bad) } else { String::new() };
+    let told = told(&bad);
     if !told.is_empty() {
         text.push_str(&format!("\n```text\n{told}\n```\n"));
     }

@@ -36,7 +36,7 @@ impl Diagnostic {
 
     /// As [`fix_if_single`](Self::fix_if_single), for a word at the primary place, which may be in quotes; nothing if
     /// it is written in another way, with escapes for example.
-    pub(crate) fn fix_word<S: AsRef<str>>(self, word: &str, replacements: &[S]) -> Self {
+    pub fn fix_word<S: AsRef<str>>(self, word: &str, replacements: &[S]) -> Self {
         let Some(span) = self.primary.as_ref().map(|label| label.span) else { return self };
         let length = (span.end - span.start) as usize;
         match length.checked_sub(word.len()) {

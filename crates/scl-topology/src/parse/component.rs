@@ -1,7 +1,7 @@
 //! The section `components`.
 
-use super::dialect::TOPOLOGY;
 use super::field::{Field, Fields};
+use super::topology_dialect::TOPOLOGY;
 use super::words::{COMPONENT_KEYS, is_kind};
 use super::{Reader, pitfall, scalar, shape};
 use crate::model::ComponentModel;

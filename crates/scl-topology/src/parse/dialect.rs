@@ -1,9 +1,6 @@
 //! What the rules about YAML itself need to know of the kind of file that they read.
 
-use super::repair::implausible;
-use super::words::{COMPONENT_KEYS, SECTIONS, known_word};
-use super::{Document, Reader, shape};
-use crate::diagnostic::{Diagnostic, Severity};
+use super::document::Document;
 use crate::source::SourceFile;
 
 /// A kind of YAML file. The rules about YAML (`SCL01xx`) hold for each of them; what they say and propose differs.
@@ -23,29 +20,7 @@ pub struct Dialect {
     pub is_key: fn(&str) -> bool,
     /// The word of the format that this is, as key or value.
     pub word: fn(&str) -> Option<&'static str>,
-    /// The number of mistakes in a text without syntax errors: of several ways to correct one, the best leaves the fewest.
+    /// The number of mistakes in a text without syntax errors: of several ways to correct one, the best leaves the
+    /// fewest.
     pub mistakes: fn(&Document, &SourceFile) -> usize,
-}
-
-/// Topology files.
-pub(super) static TOPOLOGY: Dialect = Dialect {
-    noun: "a topology",
-    minimal: "components:\n  - name: sensor\n    gates:\n      - measurements: pub",
-    levels: 6,
-    has_aliases: false,
-    instead_of_merge: "write the keys out",
-    is_key: |word| SECTIONS.contains(&word) || COMPONENT_KEYS.contains(&word),
-    word: known_word,
-    mistakes,
-};
-
-fn mistakes(document: &Document, source: &SourceFile) -> usize {
-    let mut reader = Reader::new(source);
-    reader.read_root(document);
-    let Reader { model, problems, .. } = reader;
-    let found = problems.into_sorted();
-    // A part of the text may show one section only.
-    let counts =
-        |found: &&Diagnostic| found.severity == Severity::Error && found.code() != shape::missing::SECTION.code;
-    found.iter().filter(counts).count() + implausible(&model)
 }

@@ -1,7 +1,8 @@
 //! Reads a mapping as the keys that we can read, each once.
 
-use super::dialect::{Dialect, TOPOLOGY};
+use super::dialect::Dialect;
 use super::field::{Field, Fields};
+use super::topology_dialect::TOPOLOGY;
 use super::{Reader, pitfall};
 use crate::confusable;
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -17,8 +18,8 @@ impl Reader<'_> {
     }
 }
 
-/// Reads the keys of a mapping, and reports those that stand there twice, are no words, or are damaged; `owner` says whose
-/// they are in messages, for example `this component`.
+/// Reads the keys of a mapping, and reports those that stand there twice, are no words, or are damaged; `owner` says
+/// whose they are in messages, for example `this component`.
 pub fn fields<'n>(
     entries: &'n [(Node, Node)],
     owner: &str,

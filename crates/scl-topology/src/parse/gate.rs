@@ -1,7 +1,7 @@
 //! The gates of a component.
 
-use super::dialect::TOPOLOGY;
 use super::field::{Field, Fields, spanned_key};
+use super::topology_dialect::TOPOLOGY;
 use super::words::{is_kind, is_like_option, is_option};
 use super::{Reader, pitfall, scalar, shape};
 use crate::confusable;

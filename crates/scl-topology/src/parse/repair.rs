@@ -9,12 +9,10 @@ mod line;
 mod tell;
 mod window;
 
-use super::Document;
 use super::dialect::Dialect;
+use super::document::Document;
 use super::pitfall::CheckedText;
 use crate::diagnostic::Diagnostic;
-use crate::model::Model;
-use crate::parse::words::is_kind;
 use crate::source::{SourceFile, Sources};
 use crate::yaml::{self, SyntaxError};
 use std::ops::Range;
@@ -169,27 +167,4 @@ fn problems_left(text: &str, dialect: &Dialect) -> Option<usize> {
     let anchors = tree.anchors.iter().filter(|anchor| !dialect.has_aliases || anchor.definition.is_none());
     let odd = anchors.count() + tree.tags.len() + usize::from(tree.second_document.is_some());
     Some(odd + (dialect.mistakes)(&Document::of(tree), sources.file(file)))
-}
-
-/// Words that have a shape and yet no meaning.
-pub(super) fn implausible(model: &Model) -> usize {
-    let is_name = |name: &str| {
-        let is_letter = |letter: char| letter.is_alphanumeric() || matches!(letter, '_' | '-');
-        name.chars().all(is_letter) && !name.starts_with('-')
-    };
-    let is_type = |written: &str| {
-        written.split("->").all(|part| !part.trim().contains(|c: char| c.is_whitespace() || "[]{},;#".contains(c)))
-    };
-    let gates = model.components.iter().flat_map(|component| &component.gates);
-    let odd_gates = gates.filter(|gate| {
-        let kind = &gate.kind.value;
-        !is_name(&gate.name.value)
-            || !kind.is_empty() && !is_kind(kind)
-            || gate.payload.as_ref().is_some_and(|payload| !is_type(&payload.value))
-    });
-    let odd_components = model.components.iter().filter(|component| !is_name(&component.name.value));
-    let is_end =
-        |end: &str| end.split('.').count() == 2 && end.split('.').all(|name| !name.is_empty() && is_name(name));
-    let odd_ends = model.connections.iter().flat_map(|pair| &pair.ends).filter(|end| !is_end(&end.value));
-    odd_gates.count() + odd_components.count() + odd_ends.count()
 }

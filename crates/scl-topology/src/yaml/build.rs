@@ -8,7 +8,8 @@ use std::collections::HashMap;
 /// A collection whose end is still to come.
 struct Open {
     start: Span,
-    anchor: Option<usize>,
+    /// The number of its anchor, or 0.
+    anchor: usize,
     flow: bool,
     content: Content,
 }
@@ -29,8 +30,6 @@ pub(super) struct Builder<'t> {
     /// The place in `tree.anchors` of each of the parser's anchor numbers.
     anchors: HashMap<usize, usize>,
     has_aliases: bool,
-    /// The number of the anchor whose value comes next.
-    next_anchor: Option<usize>,
     /// What each anchor stands for, with its number of values and its depth, if there are aliases.
     values: HashMap<usize, (Node, usize, usize)>,
     /// How many values the aliases so far stand for.
@@ -48,7 +47,6 @@ impl<'t> Builder<'t> {
             documents: 0,
             anchors: HashMap::new(),
             has_aliases,
-            next_anchor: None,
             values: HashMap::new(),
             repeated: 0,
         }
@@ -65,10 +63,10 @@ impl<'t> Builder<'t> {
         }
         match event {
             Event::DocumentStart(..) => self.documents += 1,
-            Event::Scalar(text, style, ..) => self.scalar(text.into_owned(), style, span),
-            Event::SequenceStart(style, ..) => self.open(span, style, Content::Items(Vec::new())),
-            Event::MappingStart(style, ..) => {
-                self.open(span, style, Content::Entries { entries: Vec::new(), key: None })
+            Event::Scalar(text, style, anchor, _) => self.scalar(text.into_owned(), style, span, anchor),
+            Event::SequenceStart(style, anchor, _) => self.open(span, style, anchor, Content::Items(Vec::new())),
+            Event::MappingStart(style, anchor, _) => {
+                self.open(span, style, anchor, Content::Entries { entries: Vec::new(), key: None })
             }
             Event::SequenceEnd | Event::MappingEnd => self.close(Some(span)),
             Event::Anchor(id, _) => self.anchor(id, span),
@@ -100,7 +98,7 @@ impl<'t> Builder<'t> {
         Span { file: self.file, start: range.start as u32, end: range.end.max(range.start) as u32 }
     }
 
-    fn scalar(&mut self, text: String, style: ScalarStyle, span: Span) {
+    fn scalar(&mut self, text: String, style: ScalarStyle, span: Span, anchor: usize) {
         let style = match style {
             ScalarStyle::Plain => Style::Plain,
             ScalarStyle::SingleQuoted | ScalarStyle::DoubleQuoted => Style::Quoted,
@@ -109,7 +107,6 @@ impl<'t> Builder<'t> {
         // The parser says `~` where nothing is written.
         let text = if span.start == span.end && style == Style::Plain { String::new() } else { text };
         let span = if style == Style::Block { self.without_blank_end(span) } else { span };
-        let anchor = self.next_anchor.take();
         self.attach_value(Node { span, kind: NodeKind::Scalar { text, style } }, anchor);
     }
 
@@ -119,8 +116,7 @@ impl<'t> Builder<'t> {
         Span { end: span.start + content.trim_end().len() as u32, ..span }
     }
 
-    fn open(&mut self, start: Span, style: StructureStyle, content: Content) {
-        let anchor = self.next_anchor.take();
+    fn open(&mut self, start: Span, style: StructureStyle, anchor: usize, content: Content) {
         if self.skipped > 0 || self.stack.len() >= MAX_DEPTH {
             if self.skipped == 0 {
                 self.tree.too_deep.get_or_insert(start);
@@ -141,7 +137,7 @@ impl<'t> Builder<'t> {
         let unread = self.skipped == 1;
         self.skipped = 0;
         let span = closed_span(&open, end);
-        let anchor = open.anchor.filter(|_| end.is_some());
+        let anchor = open.anchor;
         let kind = match open.content {
             _ if unread => NodeKind::Unread,
             Content::Items(items) => NodeKind::Sequence { items },
@@ -157,10 +153,10 @@ impl<'t> Builder<'t> {
     }
 
     /// Attaches what is written in the text, and keeps it for the aliases of its anchor.
-    fn attach_value(&mut self, node: Node, anchor: Option<usize>) {
-        if let Some(id) = anchor.filter(|_| self.has_aliases && self.skipped == 0) {
+    fn attach_value(&mut self, node: Node, anchor: usize) {
+        if anchor != 0 && self.has_aliases && self.skipped == 0 {
             let (values, depth) = size(&node);
-            self.values.insert(id, (node.clone(), values, depth));
+            self.values.insert(anchor, (node.clone(), values, depth));
         }
         self.attach(node);
     }
@@ -181,7 +177,6 @@ impl<'t> Builder<'t> {
     }
 
     fn anchor(&mut self, id: usize, span: Span) {
-        self.next_anchor = Some(id);
         self.anchors.insert(id, self.tree.anchors.len());
         self.tree.anchors.push(Anchor { definition: Some(span), aliases: Vec::new() });
     }

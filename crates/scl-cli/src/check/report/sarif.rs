@@ -1,6 +1,6 @@
 //! Diagnostics as SARIF 2.1.0, the format that code hosts and review tools read.
 
-use scl_topology::catalogue::{explain, find};
+use crate::explain::{all_rules, explain_rule};
 use scl_topology::diagnostic::{Diagnostic, Fix, Label, Severity};
 use scl_topology::source::{Sources, Span};
 use serde_json::{Value, json};
@@ -47,12 +47,12 @@ pub(in crate::check) fn to_sarif(files: &[CheckedFile<'_>]) -> String {
 /// What the catalogue knows of a code.
 fn rule(diagnostic: &Diagnostic) -> Value {
     let mut rule = json!({ "id": diagnostic.code(), "defaultConfiguration": { "level": level(diagnostic.severity) } });
-    if let Some(known) = find(diagnostic.code()) {
+    if let Some(known) = all_rules().into_iter().find(|known| *known == diagnostic.rule) {
         rule["shortDescription"] = json!({ "text": known.title });
         rule["fullDescription"] = json!({ "text": known.explanation });
         rule["defaultConfiguration"]["level"] = json!(level(known.severity));
     }
-    if let Some(entry) = explain(diagnostic.code()) {
+    if let Some(entry) = explain_rule(diagnostic.code()) {
         rule["help"] = json!({ "text": entry, "markdown": entry });
     }
     rule

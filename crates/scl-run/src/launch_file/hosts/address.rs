@@ -1,41 +1,40 @@
 //! `address`: where the gateway of a host listens, and where the others find it.
 
-use super::super::keys;
-use super::super::reader::{KeyPath, Reader, joined, likely_key, scalar_text, shown};
-use scl_terminal::Problem;
-use serde_yaml::{Mapping, Value};
+use super::super::reader::{Keys, Reader, wrong};
+use super::super::rules::{HOSTS, MISSING, WRONG_VALUE};
+use super::super::value::{shown, text};
+use scl_topology::parse::Field;
+use scl_topology::source::Span;
 use std::net::{IpAddr, SocketAddr};
 
 /// The longest DNS name.
 const LONGEST: usize = 253;
 
 impl Reader<'_> {
-    pub(super) fn read_address(&mut self, host: &str, keys: &Mapping, at: KeyPath<'_>) -> Option<String> {
-        let Some(value) = keys.get("address") else {
-            let means_it = |key: &str| likely_key(key, keys::HOST) == Some("address");
-            if !keys.keys().filter_map(Value::as_str).any(means_it) {
-                let problem = Problem::new(format!("host `{host}` has no `address`")).at(self.text.place(at));
-                self.problems.push(problem.help("write `address: 192.0.2.10`, as the other hosts reach it"));
+    pub(super) fn read_address(&mut self, host: Field<'_>, keys: &Keys<'_, '_>) -> Option<(String, Span)> {
+        let Some(field) = keys.get("address") else {
+            if !keys.may_have("address") {
+                let problem = MISSING.at(format!("host `{}` has no `address`", host.key), host.key_span, "");
+                self.report(problem.help("write `address: 192.0.2.10`, as the other hosts reach it"));
             }
             return None;
         };
-        let at = joined(at, "address");
-        let text = scalar_text(value).unwrap_or_default();
-        if let Some(meant) = with_port(&text) {
-            let problem = Problem::new(format!("`address` is an address alone, not {}", shown(value)));
-            self.problems.push(problem.at(self.text.place(&at)).help(format!("write `{meant}`")));
+        let text = text(field.value).unwrap_or_default();
+        if let Some(meant) = with_port(text) {
+            let message = format!("`address` is an address alone, not {}", shown(field.value));
+            self.report(wrong(&WRONG_VALUE, message, field).help(format!("write `{meant}`")));
             return None;
         }
         if text.parse().is_ok_and(|address: IpAddr| address.is_unspecified()) {
-            let problem = Problem::new(format!("the other hosts cannot connect to `{text}`")).at(self.text.place(&at));
-            self.problems.push(problem.help("write the address of one of the host's network interfaces"));
+            let problem = wrong(&HOSTS, format!("the other hosts cannot connect to `{text}`"), field);
+            self.report(problem.help("write the address of one of the host's network interfaces"));
             return None;
         }
-        if !is_address(&text) {
-            self.wrong_value(&at, value);
+        if !is_address(text) {
+            self.wrong_value(field);
             return None;
         }
-        Some(text)
+        Some((text.to_owned(), field.value.span))
     }
 }
 

@@ -1,101 +1,87 @@
 //! What can be said of all hosts together: each component on one of them, each address once, nothing open to a network.
 
-use super::super::reader::{KeyPath, Reader};
-use super::{Gateway, Host, HostEntry};
-use scl_terminal::{Problem, quoted_list};
-use serde_yaml::Value;
+use super::super::reader::Reader;
+use super::super::rules::{HOSTS, MISSING};
+use super::{GATEWAY_EXAMPLE, Gateway, Host, HostEntry};
+use scl_terminal::quoted_list;
+use scl_topology::source::Span;
 
 impl Reader<'_> {
-    /// Reports a name that is neither in the topology nor, without one, in `components` of the file.
-    pub(super) fn check_is_component(&mut self, name: &str, at: KeyPath<'_>, components: Option<&Value>) {
-        let names = self.component_names(components);
+    /// Reports a name that is neither in the topology nor, without one, among those that the file starts.
+    pub(super) fn check_is_component(&mut self, name: &str, at: Span, started: &[String]) {
         let source = if self.known.is_some() { "the topology" } else { "the launch file" };
+        let names = self.component_names(started).to_vec();
         if !names.is_empty() {
             self.check_among(name, at, &names, source);
         }
     }
 
     /// Every component runs on exactly one host.
-    pub(super) fn check_placement(&mut self, hosts: &[HostEntry], components: Option<&Value>) {
-        let names = self.component_names(components);
-        let placed = || hosts.iter().flat_map(|host| host.components.iter().map(move |name| (name, host)));
-        for (index, (name, host)) in placed().enumerate() {
-            let Some((_, first)) = placed().take(index).find(|(earlier, _)| *earlier == name) else { continue };
-            let problem = Problem::new(if first.name == host.name {
+    pub(super) fn check_placement(&mut self, hosts: &[HostEntry], started: &[String], place: Span) {
+        let placed =
+            || hosts.iter().flat_map(|host| host.components.iter().map(move |(name, place)| (name, *place, host)));
+        for (index, (name, place, host)) in placed().enumerate() {
+            let Some((_, earlier, first)) = placed().take(index).find(|(earlier, ..)| *earlier == name) else {
+                continue;
+            };
+            let message = if first.name == host.name {
                 format!("component `{name}` is twice on host `{}`", host.name)
             } else {
                 format!("component `{name}` is on two hosts, `{}` and `{}`", first.name, host.name)
-            });
-            let place = self.text.place(&["hosts", &host.name, "components"]);
-            self.problems.push(problem.at(place).help("remove it from one of the lists"));
+            };
+            let problem = HOSTS.at(message, place, "").label(earlier, "first here");
+            self.report(problem.help("remove it from one of the lists"));
         }
+        let names = self.component_names(started);
         // A misspelt name, or an entry that could not be read, would be reported a second time here.
-        let is_known = |name: &String| names.contains(name);
+        let is_known = |(name, _): &(String, Span)| names.contains(name);
         if hosts.iter().any(|host| host.components.is_empty() || !host.components.iter().all(is_known)) {
             return;
         }
-        let missing: Vec<String> = names.into_iter().filter(|name| !placed().any(|(it, _)| it == name)).collect();
+        let missing: Vec<&String> = names.iter().filter(|name| !placed().any(|(it, ..)| it == *name)).collect();
         if !missing.is_empty() {
-            let problem = Problem::new(match missing.as_slice() {
+            let message = match missing.as_slice() {
                 [one] => format!("component `{one}` is on no host"),
-                several => format!("the components {} are on no host", list(several)),
-            });
-            let place = self.text.place(&["hosts"]);
-            self.problems.push(problem.at(place).help("add each to `components` of the host that runs it"));
+                several => format!("the components {} are on no host", quoted_list(several)),
+            };
+            let help = "add each to `components` of the host that runs it";
+            self.report(HOSTS.at(message, place, "").help(help));
         }
     }
 
     /// Every host can be reached, at an address of its own, by nobody but the others.
-    pub(super) fn check_addresses(&mut self, hosts: &[HostEntry], gateway: Option<&Gateway>) {
+    pub(super) fn check_addresses(&mut self, hosts: &[HostEntry], gateway: Option<&Gateway>, place: Span) {
         let Some(gateway) = gateway else {
-            let problem = Problem::new("`gateway` is missing, which the hosts need").at(self.text.place(&["hosts"]));
-            self.problems.push(problem.help("write `gateway: {port: 7447, certificates: ./keys}`"));
-            return;
+            let problem = MISSING.at("`gateway` is missing, which the hosts need", place, "");
+            return self.report(problem.help(GATEWAY_EXAMPLE));
         };
         if !gateway.has_port && hosts.iter().any(|host| !host.has_port) {
-            let problem = Problem::new("`gateway` has no `port`").at(self.text.place(&["gateway"]));
-            self.problems.push(problem.help("write `gateway: {port: 7447, certificates: ./keys}`"));
+            self.report(MISSING.at("`gateway` has no `port`", gateway.place, "").help(GATEWAY_EXAMPLE));
         }
-        let mut seen: Vec<Host> = Vec::new();
+        let mut seen: Vec<(Host, Span)> = Vec::new();
         for entry in hosts {
-            let Some(address) = entry.address.clone() else { continue };
+            let Some((address, place)) = entry.address.clone() else { continue };
             let port = entry.port.or(gateway.port.filter(|_| !entry.has_port)).unwrap_or_default();
             let host = Host { name: entry.name.clone(), address, port, components: Vec::new() };
-            let same = |known: &&Host| port != 0 && known.socket_address() == host.socket_address();
-            if let Some(known) = seen.iter().find(same) {
-                let message = format!(
-                    "the hosts `{}` and `{}` have the same address, `{}`",
-                    known.name,
-                    host.name,
-                    host.socket_address()
-                );
-                let place = self.text.place(&["hosts", &host.name, "address"]);
-                let help = "on one machine, give each a `port` of its own";
-                self.problems.push(Problem::new(message).at(place).help(help));
+            let same = |(known, _): &&(Host, Span)| port != 0 && known.socket_address() == host.socket_address();
+            if let Some((known, first)) = seen.iter().find(same) {
+                let address = host.socket_address();
+                let message =
+                    format!("the hosts `{}` and `{}` have the same address, `{address}`", known.name, host.name);
+                let problem = HOSTS.at(message, place, "").label(*first, "first here");
+                self.report(problem.help("on one machine, give each a `port` of its own"));
             }
-            seen.push(host);
+            seen.push((host, place));
         }
         let is_open = !gateway.has_certificates && !gateway.insecure;
-        if let Some(host) = seen.iter().find(|host| is_open && !host.is_loopback()) {
+        if let Some((host, place)) = seen.iter().find(|(host, _)| is_open && !host.is_loopback()) {
             let message = format!("host `{}` is not on loopback, and `gateway` has no `certificates`", host.name);
-            let problem = Problem::new(message).at(self.text.place(&["hosts", &host.name, "address"]));
-            let problem =
-                problem.help("write `gateway: {port: 7447, certificates: ./keys}`, and run `scl gateway keys`");
-            self.problems.push(problem.note("without certificates everybody on the network could listen and send"));
+            let problem = HOSTS.at(message, *place, "").help(format!("{GATEWAY_EXAMPLE}, and run `scl gateway keys`"));
+            self.report(problem.note("without certificates everybody on the network could listen and send"));
         }
     }
 
-    fn component_names(&self, components: Option<&Value>) -> Vec<String> {
-        match self.known {
-            Some(known) => known.components.clone(),
-            None => {
-                let entries = components.and_then(Value::as_mapping).into_iter().flatten();
-                entries.filter_map(|(name, _)| name.as_str()).map(str::to_owned).collect()
-            }
-        }
+    fn component_names<'n>(&'n self, started: &'n [String]) -> &'n [String] {
+        self.known.map_or(started, |known| &known.components)
     }
-}
-
-fn list(names: &[String]) -> String {
-    quoted_list(names)
 }

@@ -1,7 +1,7 @@
 //! SCL0201: the top level is not a mapping.
 
 use crate::diagnostic::{Diagnostic, Rule, Severity};
-use crate::parse::dialect::TOPOLOGY;
+use crate::parse::dialect::Dialect;
 use crate::parse::words::SECTIONS;
 use crate::parse::{pitfall, with_dash};
 use crate::source::{SourceFile, Span};
@@ -25,8 +25,8 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-pub(in crate::parse) fn diagnose(root: &Node, source: &SourceFile) -> Diagnostic {
-    if let Some(problem) = pitfall::missing_space::in_node(root, source, &TOPOLOGY) {
+pub(in crate::parse) fn diagnose(root: &Node, source: &SourceFile, dialect: &Dialect) -> Diagnostic {
+    if let Some(problem) = pitfall::missing_space::in_node(root, source, dialect) {
         return problem;
     }
     let start = with_dash(root.span, source);

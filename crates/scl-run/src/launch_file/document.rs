@@ -1,0 +1,134 @@
+//! A launch file as text with places: what is wrong with it, and where.
+
+use super::LaunchFile;
+use super::dialect::LAUNCH;
+use super::reader::Reader;
+use super::rules::WRONG_VALUE;
+use crate::system_names::SystemNames;
+use scl_terminal::Problem;
+use scl_topology::diagnostic::{Diagnostic, Diagnostics, render};
+use scl_topology::parse::{Document, read_document};
+use scl_topology::source::{FileId, SourceFile, Sources};
+use scl_topology::yaml::Node;
+
+/// The text of a launch file as values.
+pub(crate) struct LaunchDocument {
+    pub(super) sources: Sources,
+    file: FileId,
+    document: Document,
+    /// What is wrong with the text.
+    found: Vec<Diagnostic>,
+}
+
+impl LaunchDocument {
+    /// Reads the YAML; `path` is how messages name the file.
+    pub(crate) fn parse(path: &str, text: &str) -> Self {
+        let mut sources = Sources::new();
+        let file = sources.add(path, text);
+        Self::of(sources, file)
+    }
+
+    fn of(sources: Sources, file: FileId) -> Self {
+        let mut problems = Diagnostics::new();
+        let document = read_document(sources.file(file), &LAUNCH, &mut problems);
+        Self { sources, file, document, found: problems.into_sorted() }
+    }
+
+    /// The topology file that the launch file names. One that is not a path is reported by [`read`](Self::read).
+    fn topology(&self) -> Option<(&str, &Node)> {
+        let mut entries = self.document.root.as_ref()?.entries()?.iter();
+        let (_, value) = entries.find(|(key, _)| key.text() == Some("topology"))?;
+        let path = value.text().filter(|path| !path.is_empty())?;
+        Some((path, value))
+    }
+
+    /// The topology file that the launch file names, and where it does.
+    pub(crate) fn topology_with_place(&self) -> Option<(&str, String)> {
+        self.topology().map(|(path, value)| (path, self.source().place(value.span)))
+    }
+
+    /// Checks that the text can be read to its end.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with it.
+    pub(crate) fn check_text(&self) -> Result<(), Vec<Problem>> {
+        if self.document.is_partial { Err(self.problems(&self.found)) } else { Ok(()) }
+    }
+
+    /// Reads the keys; `known` are the names of the topology where there is one.
+    ///
+    /// # Errors
+    ///
+    /// Every mistake of the file, sorted by place. If a part of the text cannot be read, only what is wrong with the text:
+    /// the rest may be its consequence.
+    pub(crate) fn read(&self, known: Option<&SystemNames>) -> Result<LaunchFile, Vec<Diagnostic>> {
+        if self.document.is_partial {
+            return Err(self.found.clone());
+        }
+        let (file, mut problems) = Reader::new(self.source(), known, &LAUNCH).read(&self.document);
+        // What could not be read is no second mistake there.
+        let place = |problem: &Diagnostic| problem.primary.as_ref().map(|label| label.span);
+        problems.retain(|problem| !self.found.iter().any(|of_text| place(of_text) == place(problem)));
+        problems.extend(self.found.iter().cloned());
+        let mut found = problems.into_sorted();
+        // A value for which several aliases stand is read several times.
+        found.dedup();
+        if found.is_empty() { Ok(file) } else { Err(found) }
+    }
+
+    /// As [`read`](Self::read), with problems as commands show them.
+    pub(crate) fn read_shown(&self, known: Option<&SystemNames>) -> Result<LaunchFile, Vec<Problem>> {
+        self.read(known).map_err(|found| self.problems(&found))
+    }
+
+    fn problems(&self, found: &[Diagnostic]) -> Vec<Problem> {
+        found.iter().map(|problem| Problem::rendered(render(problem, &self.sources))).collect()
+    }
+
+    fn source(&self) -> &SourceFile {
+        self.sources.file(self.file)
+    }
+}
+
+/// What was found of the topology of a launch file.
+#[derive(Debug)]
+pub enum LaunchTopology {
+    /// There is none that could be read: names are not checked.
+    None,
+    /// The launch file names one that does not exist.
+    Missing,
+    /// These names are in it.
+    Names(SystemNames),
+}
+
+/// What is wrong with a launch file.
+#[derive(Debug)]
+pub struct CheckedLaunchFile {
+    /// Every mistake, sorted by place.
+    pub diagnostics: Vec<Diagnostic>,
+    /// A part of the text could not be read.
+    pub is_partial: bool,
+}
+
+/// Checks a launch file. `topology` finds the names of the topology; it gets the path of the file that the launch file
+/// names, if it names one.
+pub fn check_launch_file(
+    sources: &Sources,
+    file: FileId,
+    topology: impl FnOnce(Option<&str>) -> LaunchTopology,
+) -> CheckedLaunchFile {
+    let document = LaunchDocument::of(sources.clone(), file);
+    let found = topology(document.topology().map(|(path, _)| path));
+    let known = if let LaunchTopology::Names(names) = &found { Some(names) } else { None };
+    let mut diagnostics = document.read(known).err().unwrap_or_default();
+    if let (LaunchTopology::Missing, Some((path, field))) = (&found, document.topology()) {
+        let message = format!("the topology file does not exist: `{path}`");
+        let problem = WRONG_VALUE.at(message, field.span, "").note("paths are from the folder of the launch file");
+        diagnostics.insert(0, problem);
+    }
+    CheckedLaunchFile { diagnostics, is_partial: document.document.is_partial }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,44 @@
+//! Values as they are written: what programs get, commands and variables, is the text in the file. YAML would make `104` of
+//! `0x68`, and `1.1` of `1.10`.
+
+use scl_topology::yaml::{Node, NodeKind};
+
+/// The text of a scalar, if it can be passed to a program.
+pub(super) fn text(value: &Node) -> Option<&str> {
+    value.text().filter(|text| !text.contains('\0'))
+}
+
+/// `true` or `false`.
+pub(super) fn flag(value: &Node) -> Option<bool> {
+    match value.text().filter(|_| value.is_plain())? {
+        "true" | "True" | "TRUE" => Some(true),
+        "false" | "False" | "FALSE" => Some(false),
+        _ => None,
+    }
+}
+
+/// A whole number that is not negative, as YAML writes it.
+pub(super) fn number(value: &Node) -> Option<u64> {
+    let text = value.text().filter(|_| value.is_plain())?;
+    match (text.strip_prefix("0x"), text.strip_prefix("0o")) {
+        (Some(digits), _) => u64::from_str_radix(digits, 16).ok(),
+        (_, Some(digits)) => u64::from_str_radix(digits, 8).ok(),
+        _ => text.parse().ok(),
+    }
+}
+
+/// The texts of a list; none if it is no list, or has anything else in it.
+pub(super) fn texts(value: &Node) -> Option<Vec<String>> {
+    value.items()?.iter().map(|item| text(item).map(str::to_owned)).collect()
+}
+
+/// Describes an unexpected value in messages.
+pub(super) fn shown(value: &Node) -> String {
+    match &value.kind {
+        _ if value.is_null() => "nothing".to_owned(),
+        NodeKind::Sequence { .. } => "a list".to_owned(),
+        NodeKind::Mapping { .. } => "a mapping".to_owned(),
+        NodeKind::Scalar { text, .. } => format!("`{text}`"),
+        NodeKind::Unread => "what could not be read".to_owned(),
+    }
+}
