@@ -55,7 +55,7 @@ fn place(path: &str, offset: Option<usize>) -> String {
 
 /// A value cannot be written as a message of the type.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{}{reason}", field(path))]
+#[error("{}{reason}", place(path, None))]
 #[non_exhaustive]
 pub struct EncodeError {
     /// The field: `pose.joints[2]`; empty for the message itself.
@@ -66,10 +66,6 @@ pub struct EncodeError {
     pub help: Option<String>,
     /// What would be right.
     pub note: Option<String>,
-}
-
-fn field(path: &str) -> String {
-    if path.is_empty() { String::new() } else { format!("field `{path}`: ") }
 }
 
 impl EncodeError {
@@ -84,7 +80,10 @@ impl EncodeError {
 
     /// Suggests the one of `names` that `wrong` probably means, if one is near enough.
     pub(crate) fn did_you_mean<'n>(self, wrong: &str, names: impl IntoIterator<Item = &'n str>) -> Self {
-        Self { help: suggestion(wrong, names).or(self.help), ..self }
+        match closest_name(wrong, names) {
+            Some(name) => self.help(format!("did you mean `{name}`?")),
+            None => self,
+        }
     }
 
     pub(crate) fn note(mut self, text: impl Into<String>) -> Self {
@@ -98,11 +97,6 @@ impl EncodeError {
         self.path = format!("{segment}{rest}{}", self.path);
         self
     }
-}
-
-/// ``did you mean `name`?``
-pub(crate) fn suggestion<'n>(wrong: &str, names: impl IntoIterator<Item = &'n str>) -> Option<String> {
-    closest_name(wrong, names).map(|name| format!("did you mean `{name}`?"))
 }
 
 /// A problem with the help and the note that there may be.

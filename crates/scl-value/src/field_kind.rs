@@ -1,6 +1,7 @@
 //! What a field of a type holds, as far as the type says so.
 
 use crate::value::Value;
+use prost_reflect::MessageDescriptor;
 
 /// What values a field, or the value at a path, may have.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -12,9 +13,9 @@ pub(crate) enum FieldKind {
     Enum(Vec<String>),
     Bytes,
     List(Box<FieldKind>),
-    /// Its keys.
-    Map(Box<FieldKind>),
-    Message,
+    /// Its keys and values.
+    Map(Box<FieldKind>, Box<FieldKind>),
+    Message(MessageDescriptor),
     Null,
     /// Anything, because nothing describes it.
     Unknown,
@@ -30,7 +31,7 @@ impl FieldKind {
             Value::Text(_) => Self::Text,
             Value::Bytes(_) => Self::Bytes,
             Value::List(_) => Self::List(Box::new(Self::Unknown)),
-            Value::Map(_) => Self::Map(Box::new(Self::Unknown)),
+            Value::Map(_) => Self::Map(Box::new(Self::Unknown), Box::new(Self::Unknown)),
             Value::Opaque(_) | Value::Written(_) => Self::Unknown,
         }
     }
@@ -44,8 +45,8 @@ impl FieldKind {
             Self::Enum(_) => "the name of an enum value",
             Self::Bytes => "bytes",
             Self::List(_) => "a list",
-            Self::Map(_) => "a map",
-            Self::Message => "a message",
+            Self::Map(..) => "a map",
+            Self::Message(_) => "a message",
             Self::Null => "null",
             Self::Unknown => "of an unknown type",
         }
@@ -61,7 +62,7 @@ impl FieldKind {
         match self {
             Self::Unknown | Self::Null => None,
             Self::Enum(_) => Some(Self::Text.word()),
-            Self::Message => Some("a map"),
+            Self::Message(_) => Some("a map"),
             kind => Some(kind.word()),
         }
     }
@@ -69,5 +70,15 @@ impl FieldKind {
     /// Whether values have an order.
     pub(crate) fn is_ordered(&self) -> bool {
         matches!(self, Self::Number | Self::Text | Self::Enum(_) | Self::Unknown)
+    }
+}
+
+impl Value {
+    /// What this is, for messages: `a number`.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self.meaning() {
+            Value::Opaque(_) | Value::Written(_) => "an undecoded payload",
+            value => FieldKind::of(value).word(),
+        }
     }
 }

@@ -39,4 +39,4 @@ pub use error::{DecodeError, EncodeError, TypeError};
 pub use message_type::MessageType;
 pub use path::{FieldPath, PathError, UnknownField};
 pub use text::{Documents, ReadError, Table, read_yaml, to_yaml};
-pub use value::{Opaque, Value, Written, to_json};
+pub use value::{Opaque, Value, Written, key_text, to_json};

@@ -33,8 +33,3 @@ impl Budget {
         Ok(())
     }
 }
-
-/// The depth below `depth`.
-pub(crate) fn deeper(depth: usize) -> Result<usize, Exceeded> {
-    if depth < MAX_DEPTH { Ok(depth + 1) } else { Err(Exceeded::Depth) }
-}

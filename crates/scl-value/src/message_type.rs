@@ -7,9 +7,9 @@ use crate::error::{DecodeError, EncodeError, TypeError};
 use crate::field_kind::FieldKind;
 use crate::path::{FieldPath, UnknownField};
 use crate::protobuf::{self, Unknown};
-use crate::self_describing::{read_cbor, read_json, read_msgpack, write_cbor, write_json, write_msgpack};
+use crate::self_describing::{read_cbor, read_json, read_msgpack, write_cbor, write_msgpack};
 use crate::text;
-use crate::value::{Opaque, Value, canonical, key_text};
+use crate::value::{Opaque, Value, canonical, key_text, to_json};
 use bytes::Bytes;
 use prost_reflect::{DescriptorPool, MessageDescriptor, SerializeOptions};
 
@@ -153,7 +153,7 @@ impl MessageType {
                     .map_err(|error| EncodeError::new(error.to_string()))?;
                 Ok(json.into())
             }
-            Form::Json => exact(value).map(|()| write_json(value)),
+            Form::Json => exact(value).map(|()| to_json(value).into()),
             Form::Cbor => exact(value).and_then(|()| write_cbor(value)),
             Form::Msgpack => exact(value).and_then(|()| write_msgpack(value)),
             Form::Opaque { why } => text::opaque_bytes(value).map(Bytes::from).map_err(|error| error.note(why)),

@@ -2,21 +2,14 @@
 
 use crate::base64::from_base64;
 use crate::error::EncodeError;
-use crate::limits::{Budget, deeper};
-use crate::value::{Value, to_json, widen};
+use crate::limits::{Budget, Exceeded, MAX_DEPTH};
+use crate::value::{DATA, EXTENSION, Format, InFormat, Value, widen};
 use bytes::Bytes;
 use cbor4ii::core::dec::Read;
 use cbor4ii::core::utils::{BufWriter, SliceReader};
 use serde::de::{DeserializeSeed, EnumAccess, Error, MapAccess, SeqAccess, VariantAccess, Visitor};
-use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
+use serde::ser::Serialize;
 use std::fmt;
-
-/// The key of the number of a MessagePack extension.
-const EXTENSION: &str = "@extension";
-/// The key of its bytes.
-const DATA: &str = "data";
-/// The name by which `rmp_serde` knows extensions.
-const EXTENSION_STRUCT: &str = rmp_serde::MSGPACK_EXT_STRUCT_NAME;
 
 /// Reads one value from any deserializer, within the limits.
 pub(crate) struct AnyValue<'b> {
@@ -29,8 +22,8 @@ impl<'b> AnyValue<'b> {
         Self { budget, depth: 0 }
     }
 
-    fn below(&self) -> Result<Self, crate::limits::Exceeded> {
-        Ok(Self { budget: self.budget, depth: deeper(self.depth)? })
+    fn below(&self) -> Result<Self, Exceeded> {
+        if self.depth == MAX_DEPTH { Err(Exceeded::Depth) } else { Ok(Self { depth: self.depth + 1, ..*self }) }
     }
 }
 
@@ -93,16 +86,11 @@ pub(crate) fn read_msgpack(bytes: &[u8]) -> Result<Value, Wrong> {
     }
 }
 
-/// Writes JSON; bytes as base64, NaN and infinities as texts, as in protobuf's JSON.
-pub(crate) fn write_json(value: &Value) -> Bytes {
-    to_json(value).into_bytes().into()
-}
-
 /// Writes one CBOR item.
 pub(crate) fn write_cbor(value: &Value) -> Result<Bytes, EncodeError> {
     let mut writer = BufWriter::new(Vec::new());
     let wrong = |error: cbor4ii::serde::EncodeError<_>| EncodeError::new(error.to_string());
-    Wire(value).serialize(&mut cbor4ii::serde::Serializer::new(&mut writer)).map_err(wrong)?;
+    InFormat(value, Format::Binary).serialize(&mut cbor4ii::serde::Serializer::new(&mut writer)).map_err(wrong)?;
     Ok(writer.into_inner().into())
 }
 
@@ -110,7 +98,7 @@ pub(crate) fn write_cbor(value: &Value) -> Result<Bytes, EncodeError> {
 pub(crate) fn write_msgpack(value: &Value) -> Result<Bytes, EncodeError> {
     let mut bytes = Vec::new();
     let mut output = rmp_serde::Serializer::new(&mut bytes);
-    Wire(value).serialize(&mut output).map_err(|error| EncodeError::new(error.to_string()))?;
+    InFormat(value, Format::Binary).serialize(&mut output).map_err(|error| EncodeError::new(error.to_string()))?;
     Ok(bytes.into())
 }
 
@@ -218,51 +206,6 @@ impl<'de> Visitor<'de> for AnyValue<'_> {
             ("binary", Value::Text(text)) => from_base64(&text).map(Value::Bytes).map_err(A::Error::custom),
             (_, value) => Ok(value),
         }
-    }
-}
-
-/// A value for CBOR and MessagePack, which have bytes and keys of all sorts.
-struct Wire<'v>(&'v Value);
-
-impl Serialize for Wire<'_> {
-    fn serialize<S: Serializer>(&self, output: S) -> Result<S::Ok, S::Error> {
-        match self.0 {
-            // Not `serialize_unit`, which CBOR writes as an empty list.
-            Value::Null => output.serialize_none(),
-            Value::Bool(flag) => output.serialize_bool(*flag),
-            Value::Int(number) => output.serialize_i64(*number),
-            Value::Uint(number) => output.serialize_u64(*number),
-            Value::Float(number) => output.serialize_f64(*number),
-            Value::Text(text) => output.serialize_str(text),
-            Value::Bytes(bytes) => output.serialize_bytes(bytes),
-            Value::List(items) => {
-                let mut list = output.serialize_seq(Some(items.len()))?;
-                items.iter().try_for_each(|item| list.serialize_element(&Wire(item)))?;
-                list.end()
-            }
-            Value::Map(entries) => {
-                if let [(Value::Text(name), Value::Int(number)), (Value::Text(data), Value::Bytes(bytes))] =
-                    &entries[..]
-                    && (name.as_str(), data.as_str()) == (EXTENSION, DATA)
-                    && let Ok(number) = i8::try_from(*number)
-                {
-                    return output.serialize_newtype_struct(EXTENSION_STRUCT, &(number, ByteSlice(bytes)));
-                }
-                let mut map = output.serialize_map(Some(entries.len()))?;
-                entries.iter().try_for_each(|(key, value)| map.serialize_entry(&Wire(key), &Wire(value)))?;
-                map.end()
-            }
-            Value::Opaque(opaque) => Wire(&opaque.fields()).serialize(output),
-            Value::Written(written) => Wire(&written.meaning).serialize(output),
-        }
-    }
-}
-
-struct ByteSlice<'b>(&'b [u8]);
-
-impl Serialize for ByteSlice<'_> {
-    fn serialize<S: Serializer>(&self, output: S) -> Result<S::Ok, S::Error> {
-        output.serialize_bytes(self.0)
     }
 }
 

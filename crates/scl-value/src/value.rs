@@ -1,10 +1,11 @@
 //! A message as a value that has no type of its own.
 
 mod canonical;
-mod json;
+mod serialize;
 
 pub(crate) use canonical::canonical;
-pub use json::to_json;
+pub use serialize::to_json;
+pub(crate) use serialize::{DATA, EXTENSION, Format, InFormat};
 
 /// A decoded message or a part of it.
 ///
@@ -122,20 +123,6 @@ impl Value {
             other => other,
         }
     }
-
-    /// What this is, for messages: `a number`.
-    pub(crate) fn kind(&self) -> &'static str {
-        match self.meaning() {
-            Value::Null => "null",
-            Value::Bool(_) => "a boolean",
-            Value::Int(_) | Value::Uint(_) | Value::Float(_) => "a number",
-            Value::Text(_) => "a text",
-            Value::Bytes(_) => "bytes",
-            Value::List(_) => "a list",
-            Value::Map(_) => "a map",
-            Value::Opaque(_) | Value::Written(_) => "an undecoded payload",
-        }
-    }
 }
 
 impl PartialEq for Value {
@@ -160,7 +147,7 @@ impl PartialEq for Value {
 const EXACT: u64 = 1 << 53;
 
 /// A key of a map as the text that a field path and JSON use.
-pub(crate) fn key_text(key: &Value) -> String {
+pub fn key_text(key: &Value) -> String {
     match key {
         Value::Text(text) => text.clone(),
         Value::Written(written) => written.text.clone(),

@@ -87,7 +87,7 @@ pub(super) fn not_boolean(path: &FieldPath, kind: &FieldKind) -> ConditionMismat
         FieldKind::Number => format!("{path} > 0"),
         FieldKind::Text => format!("{path} == 'text'"),
         FieldKind::Enum(names) => format!("{path} == '{}'", names.first().map_or("", String::as_str)),
-        FieldKind::List(_) | FieldKind::Map(_) => format!("{path} contains 1"),
+        FieldKind::List(_) | FieldKind::Map(..) => format!("{path} contains 1"),
         _ => format!("{path} != null"),
     };
     ConditionMismatch::Kind {
@@ -111,22 +111,18 @@ fn check_comparison(
             (FieldKind::Unknown, _) | (_, FieldKind::Unknown) => Ok(()),
             (FieldKind::Text, FieldKind::Text | FieldKind::Enum(_)) => Ok(()),
             (FieldKind::Enum(_), FieldKind::Text | FieldKind::Enum(_)) => Ok(()),
-            (FieldKind::Bytes, FieldKind::Bytes) | (FieldKind::Message, FieldKind::Text) => Ok(()),
-            (FieldKind::List(item), part) | (FieldKind::Map(item), part) if item.compares_with(part) => {
+            (FieldKind::Bytes, FieldKind::Bytes) | (FieldKind::Message(_), FieldKind::Text) => Ok(()),
+            (FieldKind::List(item), part) | (FieldKind::Map(item, _), part) if item.compares_with(part) => {
                 check_names(item, right)
             }
-            (FieldKind::List(item), _) => mismatch(
-                format!(
-                    "{left} is a list in which each value is {}, and {right} is {}",
-                    item.word(),
-                    right_kind.word()
-                ),
-                None,
-            ),
-            (FieldKind::Map(key), _) => mismatch(
-                format!("{left} is a map in which each key is {}, and {right} is {}", key.word(), right_kind.word()),
-                None,
-            ),
+            (FieldKind::List(part) | FieldKind::Map(part, _), _) => {
+                let parts = if matches!(left_kind, FieldKind::List(_)) {
+                    "a list in which each value"
+                } else {
+                    "a map in which each key"
+                };
+                mismatch(format!("{left} is {parts} is {}, and {right} is {}", part.word(), right_kind.word()), None)
+            }
             (FieldKind::Boolean | FieldKind::Number | FieldKind::Null, _) => mismatch(
                 format!("{left} is {}, which contains nothing", left_kind.word()),
                 Some("compare it with `==`"),

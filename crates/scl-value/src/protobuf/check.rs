@@ -21,6 +21,7 @@ pub(crate) fn check(message: &MessageDescriptor, bytes: &[u8]) -> Result<(), Fau
 }
 
 /// The bytes that were not read yet.
+#[derive(Clone, Copy)]
 struct Rest<'b> {
     bytes: &'b [u8],
     /// The offset of their end in the payload.
@@ -46,12 +47,8 @@ impl<'b> Rest<'b> {
     }
 
     fn varint(&mut self) -> Result<u64, Fault> {
-        let at = self.offset();
-        decode_varint(&mut self.bytes).map_err(|_| Fault {
-            path: String::new(),
-            offset: at,
-            reason: "a varint is truncated or too long".to_owned(),
-        })
+        let start = *self;
+        decode_varint(&mut self.bytes).map_err(|_| start.fault("a varint is truncated or too long"))
     }
 
     fn length_delimited(&mut self) -> Result<Rest<'b>, Fault> {
@@ -72,7 +69,7 @@ fn fields(
         return Err(rest.fault(crate::limits::Exceeded::Depth.to_string()));
     }
     while !rest.bytes.is_empty() {
-        let key = Rest { bytes: rest.bytes, end: rest.end };
+        let key = *rest;
         let (number, wire) = decode_key(&mut rest.bytes).map_err(|_| key.fault("expected the start of a field"))?;
         if wire == WireType::EndGroup {
             return if group == Some(number) { Ok(()) } else { Err(key.fault("unexpected end of a group")) };

@@ -1,8 +1,7 @@
 //! The fields that a message of a type may have.
 
-use super::from_value::known_fields;
+use super::from_value::unknown_field;
 use super::well_known::{Short, short};
-use crate::error::suggestion;
 use crate::field_kind::FieldKind;
 use crate::path::{FieldPath, Segment, UnknownField};
 use prost_reflect::{FieldDescriptor, Kind, MessageDescriptor};
@@ -10,107 +9,74 @@ use prost_reflect::{FieldDescriptor, Kind, MessageDescriptor};
 /// Maximum number of columns of a table.
 const MAX_COLUMNS: usize = 1000;
 
-/// What a path has reached.
-enum Reached {
-    Message(MessageDescriptor),
-    List(Box<Reached>),
-    /// Its keys and values.
-    Map(FieldKind, Box<Reached>),
-    /// A number, a text, bytes.
-    Scalar(FieldKind),
-    /// Anything may be below.
-    Anything,
-}
-
 /// What the value at a path may be.
 ///
 /// # Errors
 /// The message has no such field.
 pub(crate) fn kind_of(message: &MessageDescriptor, path: &FieldPath) -> Result<FieldKind, UnknownField> {
-    reach(message, path).map(kind_of_reached)
-}
-
-fn kind_of_reached(reached: Reached) -> FieldKind {
-    match reached {
-        Reached::Message(_) => FieldKind::Message,
-        Reached::List(item) => FieldKind::List(Box::new(kind_of_reached(*item))),
-        Reached::Map(key, _) => FieldKind::Map(Box::new(key)),
-        Reached::Scalar(kind) => kind,
-        Reached::Anything => FieldKind::Unknown,
-    }
-}
-
-fn reach(message: &MessageDescriptor, path: &FieldPath) -> Result<Reached, UnknownField> {
     let mut reached = of_message(message);
     for (index, segment) in path.segments().iter().enumerate() {
         let wrong = |reason: String| UnknownField { path: path.up_to(index), reason, help: None, note: None };
         reached = match (reached, segment) {
-            (Reached::Anything, _) => return Ok(Reached::Anything),
-            (Reached::Message(message), Segment::Name(name)) => match message.get_field_by_name(name) {
+            (FieldKind::Unknown, _) => return Ok(FieldKind::Unknown),
+            (FieldKind::Message(message), Segment::Name(name)) => match message.get_field_by_name(name) {
                 Some(field) => of_field(&field),
-                None if name.starts_with('@') => return Ok(Reached::Anything),
+                None if name.starts_with('@') => return Ok(FieldKind::Unknown),
                 None => {
-                    let names: Vec<String> = message.fields().map(|field| field.name().to_owned()).collect();
-                    return Err(UnknownField {
-                        help: suggestion(name, names.iter().map(String::as_str)),
-                        note: Some(known_fields(&message)),
-                        ..wrong(format!("message `{}` has no field `{name}`", message.full_name()))
-                    });
+                    let error = unknown_field(&message, name);
+                    return Err(UnknownField { help: error.help, note: error.note, ..wrong(error.reason) });
                 }
             },
-            (Reached::List(item), Segment::Index(_)) => *item,
-            (Reached::Map(_, value), _) => *value,
-            (Reached::Message(message), Segment::Index(_)) => {
+            (FieldKind::List(item), Segment::Index(_)) => *item,
+            (FieldKind::Map(_, value), _) => *value,
+            (FieldKind::Message(message), Segment::Index(_)) => {
                 return Err(wrong(format!("`{}` is a message, not a list", message.full_name())));
             }
-            (Reached::List(_), Segment::Name(_)) => {
+            (FieldKind::List(_), Segment::Name(_)) => {
                 let help = Some(format!("name an element: `{}[0]`", path.up_to(index)));
                 return Err(UnknownField { help, ..wrong(format!("`{}` is a list", path.up_to(index))) });
             }
-            (Reached::Scalar(kind), _) => {
-                let word = kind.word();
-                return Err(wrong(format!("`{}` is {word} and has no fields", path.up_to(index))));
-            }
+            (kind, _) => return Err(wrong(format!("`{}` is {} and has no fields", path.up_to(index), kind.word()))),
         };
     }
     Ok(reached)
 }
 
-fn of_field(field: &FieldDescriptor) -> Reached {
+fn of_field(field: &FieldDescriptor) -> FieldKind {
     match field.kind() {
         Kind::Message(entry) if field.is_map() => {
-            let key = kind_of_reached(of_kind(&entry.map_entry_key_field().kind()));
-            Reached::Map(key, Box::new(of_kind(&entry.map_entry_value_field().kind())))
+            let (key, value) = (entry.map_entry_key_field(), entry.map_entry_value_field());
+            FieldKind::Map(Box::new(of_kind(&key.kind())), Box::new(of_kind(&value.kind())))
         }
-        kind if field.is_list() => Reached::List(Box::new(of_kind(&kind))),
+        kind if field.is_list() => FieldKind::List(Box::new(of_kind(&kind))),
         kind => of_kind(&kind),
     }
 }
 
-fn of_kind(kind: &Kind) -> Reached {
+fn of_kind(kind: &Kind) -> FieldKind {
     match kind {
         Kind::Message(message) => of_message(message),
-        Kind::Enum(names) => Reached::Scalar(FieldKind::Enum(names.values().map(|it| it.name().to_owned()).collect())),
-        Kind::String => Reached::Scalar(FieldKind::Text),
-        Kind::Bytes => Reached::Scalar(FieldKind::Bytes),
-        Kind::Bool => Reached::Scalar(FieldKind::Boolean),
-        _ => Reached::Scalar(FieldKind::Number),
+        Kind::Enum(names) => FieldKind::Enum(names.values().map(|it| it.name().to_owned()).collect()),
+        Kind::String => FieldKind::Text,
+        Kind::Bytes => FieldKind::Bytes,
+        Kind::Bool => FieldKind::Boolean,
+        _ => FieldKind::Number,
     }
 }
 
-fn of_message(message: &MessageDescriptor) -> Reached {
+fn of_message(message: &MessageDescriptor) -> FieldKind {
     match short(message) {
-        None => Reached::Message(message.clone()),
-        Some(Short::Text) => Reached::Scalar(FieldKind::Text),
-        Some(Short::Wrapper) => message.get_field(1).map_or(Reached::Anything, |field| of_field(&field)),
-        Some(Short::Struct | Short::Value | Short::List | Short::Any) => Reached::Anything,
+        None => FieldKind::Message(message.clone()),
+        Some(Short::Text) => FieldKind::Text,
+        Some(Short::Wrapper) => message.get_field(1).map_or(FieldKind::Unknown, |field| of_field(&field)),
+        Some(Short::Struct | Short::Value | Short::List | Short::Any) => FieldKind::Unknown,
     }
 }
 
 /// The columns of a table of messages: all fields that are no messages, those of messages within with their path.
 pub(crate) fn columns(message: &MessageDescriptor) -> Vec<FieldPath> {
     let mut columns = Vec::new();
-    if let Reached::Message(_) = of_message(message) {
+    if let FieldKind::Message(_) = of_message(message) {
         add_columns(message, &FieldPath::default(), &mut vec![message.clone()], &mut columns);
     }
     if columns.is_empty() {
@@ -129,7 +95,7 @@ fn add_columns(
         let path = above.clone().field(field.name());
         match of_field(&field) {
             // A type within itself has no end; its JSON stands in one column.
-            Reached::Message(inner) if inner.fields().len() > 0 && !around.contains(&inner) => {
+            FieldKind::Message(inner) if inner.fields().len() > 0 && !around.contains(&inner) => {
                 around.push(inner.clone());
                 add_columns(&inner, &path, around, columns);
                 around.pop();

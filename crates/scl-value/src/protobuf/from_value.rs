@@ -43,7 +43,9 @@ pub(crate) fn from_value(
         if name == UNKNOWN {
             continue;
         }
-        let Some(field) = find_field(message, &name) else {
+        // Its name in the `.proto` file, or in JSON.
+        let named = message.get_field_by_name(&name).or_else(|| message.get_field_by_json_name(&name));
+        let Some(field) = named else {
             match unknown {
                 Unknown::Refuse => return Err(unknown_field(message, &name)),
                 Unknown::Collect(names) => names.push(name),
@@ -65,13 +67,8 @@ pub(crate) fn from_value(
     }
 }
 
-/// A field by its name in the `.proto` file or in JSON.
-pub(super) fn find_field(message: &MessageDescriptor, name: &str) -> Option<FieldDescriptor> {
-    message.get_field_by_name(name).or_else(|| message.get_field_by_json_name(name))
-}
-
 /// `its fields: ...`
-pub(super) fn known_fields(message: &MessageDescriptor) -> String {
+fn known_fields(message: &MessageDescriptor) -> String {
     let names: Vec<String> = message.fields().map(|field| field.name().to_owned()).collect();
     match names.len() {
         0 => "it has no fields".to_owned(),
@@ -83,7 +80,7 @@ pub(super) fn known_fields(message: &MessageDescriptor) -> String {
     }
 }
 
-fn unknown_field(message: &MessageDescriptor, name: &str) -> EncodeError {
+pub(super) fn unknown_field(message: &MessageDescriptor, name: &str) -> EncodeError {
     let error = EncodeError::new(format!("message `{}` has no field `{name}`", message.full_name()));
     let names: Vec<String> = message.fields().map(|field| field.name().to_owned()).collect();
     error.did_you_mean(name, names.iter().map(String::as_str)).note(known_fields(message))

@@ -3,7 +3,6 @@
 use crate::value::{Value, Written, key_text};
 use serde::de::{Deserialize, DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use std::fmt;
-use std::vec::IntoIter;
 
 /// What the first reading made of the same place of the same text.
 pub(super) struct AsWritten(pub(super) Value);
@@ -13,8 +12,8 @@ impl<'de> DeserializeSeed<'de> for AsWritten {
 
     fn deserialize<D: Deserializer<'de>>(self, input: D) -> Result<Value, D::Error> {
         match self.0 {
-            Value::List(items) => input.deserialize_seq(Items(items.into_iter())),
-            Value::Map(entries) => input.deserialize_map(Entries(entries.into_iter())),
+            Value::List(_) => input.deserialize_seq(self),
+            Value::Map(_) => input.deserialize_map(self),
             meaning @ (Value::Null | Value::Bool(_) | Value::Int(_) | Value::Uint(_) | Value::Float(_)) => {
                 // As a text, a scalar is what was written.
                 let text = String::deserialize(input)?;
@@ -43,43 +42,33 @@ fn has_leading_zero(text: &str) -> bool {
         && digits.parse::<f64>().is_ok()
 }
 
-struct Items(IntoIter<Value>);
-
-impl<'de> Visitor<'de> for Items {
+impl<'de> Visitor<'de> for AsWritten {
     type Value = Value;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the list of the first reading")
+        f.write_str("the list or map of the first reading")
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut input: A) -> Result<Value, A::Error> {
-        let mut list = Vec::with_capacity(self.0.len());
-        for item in self.0 {
-            list.push(input.next_element_seed(AsWritten(item))?.ok_or_else(|| A::Error::custom("an item is missing"))?);
+        let Value::List(mut items) = self.0 else { return Err(A::Error::custom("it was no list")) };
+        for item in &mut items {
+            let read = AsWritten(std::mem::replace(item, Value::Null));
+            *item = input.next_element_seed(read)?.ok_or_else(|| A::Error::custom("an item is missing"))?;
         }
         // A list of YAML ends only when it is asked for more.
         input.next_element::<IgnoredAny>()?;
-        Ok(Value::List(list))
-    }
-}
-
-struct Entries(IntoIter<(Value, Value)>);
-
-impl<'de> Visitor<'de> for Entries {
-    type Value = Value;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the map of the first reading")
+        Ok(Value::List(items))
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut input: A) -> Result<Value, A::Error> {
-        let mut map = Vec::with_capacity(self.0.len());
-        for (key, value) in self.0 {
-            let key = input.next_key_seed(AsWritten(key))?.ok_or_else(|| A::Error::custom("a key is missing"))?;
-            map.push((key, input.next_value_seed(AsWritten(value))?));
+        let Value::Map(mut entries) = self.0 else { return Err(A::Error::custom("it was no map")) };
+        for (key, value) in &mut entries {
+            let read = AsWritten(std::mem::replace(key, Value::Null));
+            *key = input.next_key_seed(read)?.ok_or_else(|| A::Error::custom("a key is missing"))?;
+            *value = input.next_value_seed(AsWritten(std::mem::replace(value, Value::Null)))?;
         }
         input.next_key::<IgnoredAny>()?;
-        Ok(Value::Map(map))
+        Ok(Value::Map(entries))
     }
 }
 

@@ -1,14 +1,11 @@
 //! Values as YAML, and from YAML or JSON, as users write them.
 
 use super::as_written::AsWritten;
-use crate::base64::to_base64;
 use crate::limits::Budget;
 use crate::self_describing::{AnyValue, read_json};
-use crate::value::{Value, to_json};
+use crate::value::{Format, InFormat, Value, to_json};
 use scl_terminal::Problem;
 use serde::de::DeserializeSeed;
-use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
-use serde_yaml::value::{Tag, TaggedValue};
 use thiserror::Error;
 
 /// What may stand before a text in UTF-8.
@@ -47,37 +44,7 @@ pub fn read_yaml(text: &str) -> Result<Value, ReadError> {
 
 /// A value as YAML, as a user would write it; it ends with a line end. `read_yaml` reads it back.
 pub fn to_yaml(value: &Value) -> String {
-    serde_yaml::to_string(&Yaml(value)).unwrap_or_else(|_| format!("{}\n", to_json(value)))
-}
-
-struct Yaml<'v>(&'v Value);
-
-impl Serialize for Yaml<'_> {
-    fn serialize<S: Serializer>(&self, output: S) -> Result<S::Ok, S::Error> {
-        match self.0 {
-            Value::Null => output.serialize_unit(),
-            Value::Bool(flag) => output.serialize_bool(*flag),
-            Value::Int(number) => output.serialize_i64(*number),
-            Value::Uint(number) => output.serialize_u64(*number),
-            Value::Float(number) => output.serialize_f64(*number),
-            Value::Text(text) => output.serialize_str(text),
-            Value::Bytes(bytes) => {
-                TaggedValue { tag: Tag::new("binary"), value: to_base64(bytes).into() }.serialize(output)
-            }
-            Value::List(items) => {
-                let mut list = output.serialize_seq(Some(items.len()))?;
-                items.iter().try_for_each(|item| list.serialize_element(&Yaml(item)))?;
-                list.end()
-            }
-            Value::Map(entries) => {
-                let mut map = output.serialize_map(Some(entries.len()))?;
-                entries.iter().try_for_each(|(key, value)| map.serialize_entry(&Yaml(key), &Yaml(value)))?;
-                map.end()
-            }
-            Value::Opaque(opaque) => Yaml(&opaque.fields()).serialize(output),
-            Value::Written(written) => Yaml(&written.meaning).serialize(output),
-        }
-    }
+    serde_yaml::to_string(&InFormat(value, Format::Yaml)).unwrap_or_else(|_| format!("{}\n", to_json(value)))
 }
 
 #[cfg(test)]
