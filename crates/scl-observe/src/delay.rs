@@ -45,10 +45,7 @@ impl Meter for DelayMeter {
     }
 
     fn take_interval(&mut self) -> DelayFigures {
-        let figures = self.interval.figures();
-        (self.interval.messages, self.interval.negative) = (0, 0);
-        self.interval.distribution.clear();
-        figures
+        std::mem::take(&mut self.interval).figures()
     }
 
     fn total(&self) -> DelayFigures {

@@ -7,7 +7,7 @@ const DIGITS: u8 = 3;
 
 /// Collects values. Minimum, maximum, mean and standard deviation are exact, percentiles to 0.1 %.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Distribution {
+pub struct Distribution {
     /// Values from 0 on.
     positive: Option<Histogram<u64>>,
     /// Values below 0, without their sign.
@@ -39,7 +39,8 @@ pub struct Spread {
 }
 
 impl Distribution {
-    pub(crate) fn add(&mut self, value: i64) {
+    /// Adds a value.
+    pub fn add(&mut self, value: i64) {
         let half = if value < 0 { &mut self.negative } else { &mut self.positive };
         if half.is_none() {
             // Fails only for more than 5 digits.
@@ -57,8 +58,8 @@ impl Distribution {
         self.squares += difference * (value as f64 - self.mean);
     }
 
-    /// `None` if nothing was added.
-    pub(crate) fn spread(&self) -> Option<Spread> {
+    /// What is shown of the values; `None` if nothing was added.
+    pub fn spread(&self) -> Option<Spread> {
         (self.count > 0).then(|| Spread {
             min: self.min,
             p50: self.percentile(50),
@@ -67,14 +68,6 @@ impl Distribution {
             mean: self.mean,
             deviation: (self.squares / self.count as f64).sqrt(),
         })
-    }
-
-    /// Forgets all values and keeps the memory.
-    pub(crate) fn clear(&mut self) {
-        for half in [&mut self.positive, &mut self.negative].into_iter().flatten() {
-            half.reset();
-        }
-        (self.count, self.mean, self.squares) = (0, 0.0, 0.0);
     }
 
     /// The smallest value that `percent` of all values do not exceed.
@@ -144,15 +137,5 @@ mod tests {
         assert_eq!((spread.min, spread.p50, spread.max), (i64::MIN, 0, i64::MAX));
         let one = spread_of([7]).unwrap();
         assert_eq!((one.min, one.p50, one.p99, one.max, one.deviation), (7, 7, 7, 7, 0.0));
-    }
-
-    #[test]
-    fn clearing_forgets_everything() {
-        let mut distribution = Distribution::default();
-        [-5, 1_000_000_000].into_iter().for_each(|value| distribution.add(value));
-        distribution.clear();
-        assert_eq!(distribution.spread(), None);
-        distribution.add(3);
-        assert_eq!(distribution.spread(), spread_of([3]));
     }
 }

@@ -2,73 +2,91 @@
 //! folder.
 
 use crate::scl_error::problem_of;
-use scl::runtime_dir::{RuntimeDir, SystemDir};
+use crate::system::System;
+use scl::runtime_dir::RuntimeDir;
 use scl_loader::{Request, load};
 use scl_terminal::{Problem, choose_system, closest_name, named_system, quoted_list};
 use std::ffi::OsString;
 use std::path::Path;
 
-/// The value of an environment variable.
-pub(crate) type Variables<'a> = &'a dyn Fn(&str) -> Option<OsString>;
-
 const TOPOLOGY_FILE: &str = "topology.yaml";
 
-/// Finds the folder of a system. `folder` is the working folder.
-pub(crate) fn find_system(
-    name: Option<&str>,
-    variables: Variables<'_>,
-    folder: &Path,
-) -> Result<(String, SystemDir), Problem> {
-    let existing = RuntimeDir::existing(variables).map_err(|error| problem_of(&error))?;
-    let Some(runtime_dir) = existing else { return Err(no_runtime_folder()) };
-    let is_named = named_system(name, variables)?.is_some();
-    let running = running_systems(&runtime_dir)?;
-    let Some(name) = choose_system(name, variables, &running, &|| system_of_folder(folder))? else {
-        return Err(no_system(&runtime_dir));
-    };
-    match runtime_dir.existing_system(&name).map_err(|error| problem_of(&error))? {
-        Some(dir) => Ok((name, dir)),
-        None if is_named => Err(unknown_system(&runtime_dir, &name)),
-        None => Err(no_system(&runtime_dir)),
+impl System {
+    /// Finds a system: the one with this name, else `$SCL_SYSTEM`, else the only one that runs, else that of
+    /// `topology.yaml` in the working folder.
+    ///
+    /// # Errors
+    /// The system does not exist, none or several run, or the runtime folder cannot be used. The text lists the running
+    /// systems.
+    pub fn find(name: Option<&str>) -> Result<Self, Problem> {
+        Self::find_with(name, &environment, Path::new("."))
     }
-}
 
-/// The system of [`find_system`], or the folder of a named one that has never run here.
-pub(crate) fn find_or_create_system(
-    name: Option<&str>,
-    variables: Variables<'_>,
-    folder: &Path,
-) -> Result<(String, SystemDir), Problem> {
-    let problem = match find_system(name, variables, folder) {
-        Ok(found) => return Ok(found),
-        Err(problem) => problem,
-    };
-    let Some(name) = named_system(name, variables)? else { return Err(problem) };
-    let existing = RuntimeDir::existing(variables).map_err(|error| problem_of(&error))?;
-    let known = existing.map(|runtime_dir| all_systems(&runtime_dir)).transpose()?.unwrap_or_default();
-    if closest_name(&name, known.iter().map(String::as_str)).is_some() {
-        return Err(problem);
-    }
-    let created = RuntimeDir::locate(variables).and_then(|runtime_dir| runtime_dir.system(&name));
-    created.map(|dir| (name, dir)).map_err(|error| problem_of(&error))
-}
-
-/// The named system, or all that run, or that of [`find_system`].
-pub(crate) fn find_systems(
-    name: Option<&str>,
-    variables: Variables<'_>,
-    folder: &Path,
-) -> Result<Vec<(String, SystemDir)>, Problem> {
-    let existing = RuntimeDir::existing(variables).map_err(|error| problem_of(&error))?;
-    if let (None, Some(runtime_dir)) = (named_system(name, variables)?, existing) {
-        let running = running_systems(&runtime_dir)?.into_iter();
-        let found = running.filter_map(|name| runtime_dir.existing_system(&name).ok().flatten().map(|dir| (name, dir)));
-        let found: Vec<_> = found.collect();
-        if !found.is_empty() {
-            return Ok(found);
+    /// [`find`](Self::find) with another environment and working folder.
+    ///
+    /// # Errors
+    /// Those of `find`.
+    pub fn find_with(name: Option<&str>, variables: Variables<'_>, folder: &Path) -> Result<Self, Problem> {
+        let Some(runtime_dir) = existing(variables)? else { return Err(no_runtime_folder()) };
+        let is_named = named_system(name, variables)?.is_some();
+        let running = running_systems(&runtime_dir)?;
+        let Some(name) = choose_system(name, variables, &running, &|| system_of_folder(folder))? else {
+            return Err(no_system(&runtime_dir));
+        };
+        match runtime_dir.existing_system(&name).map_err(|error| problem_of(&error))? {
+            Some(dir) => Ok(Self::new(name, dir)),
+            None if is_named => Err(unknown_system(&runtime_dir, &name)),
+            None => Err(no_system(&runtime_dir)),
         }
     }
-    Ok(vec![find_system(name, variables, folder)?])
+
+    /// [`find`](Self::find), but a named system need not have run here: its components are noticed when they start.
+    ///
+    /// # Errors
+    /// The name is probably misspelled, because a system with a similar name exists; otherwise those of `find`.
+    pub fn find_or_await(name: Option<&str>) -> Result<Self, Problem> {
+        let problem = match Self::find(name) {
+            Ok(found) => return Ok(found),
+            Err(problem) => problem,
+        };
+        let Some(name) = named_system(name, &environment)? else { return Err(problem) };
+        let known =
+            existing(&environment)?.map(|runtime_dir| all_systems(&runtime_dir)).transpose()?.unwrap_or_default();
+        if closest_name(&name, known.iter().map(String::as_str)).is_some() {
+            return Err(problem);
+        }
+        let created = RuntimeDir::locate(&environment).and_then(|runtime_dir| runtime_dir.system(&name));
+        created.map(|dir| Self::new(name, dir)).map_err(|error| problem_of(&error))
+    }
+
+    /// The systems of which a query without a name shows all: the one with this name, else `$SCL_SYSTEM`, else all that
+    /// run, else what [`find`](Self::find) finds.
+    ///
+    /// # Errors
+    /// Those of `find`, but for several that run.
+    pub fn find_all(name: Option<&str>) -> Result<Vec<Self>, Problem> {
+        if let (None, Some(runtime_dir)) = (named_system(name, &environment)?, existing(&environment)?) {
+            let running = running_systems(&runtime_dir)?.into_iter();
+            let found =
+                running.filter_map(|name| Some(Self::new(name.clone(), runtime_dir.existing_system(&name).ok()??)));
+            let found: Vec<_> = found.collect();
+            if !found.is_empty() {
+                return Ok(found);
+            }
+        }
+        Ok(vec![Self::find(name)?])
+    }
+}
+
+/// The value of an environment variable.
+type Variables<'a> = &'a dyn Fn(&str) -> Option<OsString>;
+
+fn environment(name: &str) -> Option<OsString> {
+    std::env::var_os(name)
+}
+
+fn existing(variables: Variables<'_>) -> Result<Option<RuntimeDir>, Problem> {
+    RuntimeDir::existing(variables).map_err(|error| problem_of(&error))
 }
 
 fn running_systems(runtime_dir: &RuntimeDir) -> Result<Vec<String>, Problem> {

@@ -1,7 +1,6 @@
 //! Measuring gates: what passes their taps goes to a meter for each gate.
 
-use crate::silence::describe_state;
-use crate::{ObservedGate, System, Tap, Taps, TapsEvent};
+use crate::{Activity, Component, ObservedGate, System, Tap, Taps, TapsEvent};
 use scl::tap::{Observation, TapEvent};
 use std::time::SystemTime;
 
@@ -118,6 +117,17 @@ impl<M: Meter> Measurement<M> {
             self.gates.len() - 1
         });
         self.index_of.push(index);
+    }
+}
+
+/// Whether a component runs, hangs or waits for peers, in some words: `not running`.
+fn describe_state(component: Option<&Component>, now: SystemTime) -> String {
+    match component.map_or(Activity::Stopped, |component| component.activity(now)) {
+        Activity::Hangs(silence) => format!("hangs since {} s", silence.as_secs()),
+        Activity::Stopped => "not running".to_owned(),
+        Activity::Dead => "killed or crashed".to_owned(),
+        Activity::Running | Activity::Ready => "running".to_owned(),
+        Activity::Waiting => "waiting for its peers".to_owned(),
     }
 }
 

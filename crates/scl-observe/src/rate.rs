@@ -112,9 +112,7 @@ impl Meter for RateMeter {
         if let Some(window) = &self.window {
             return window.figures();
         }
-        let figures = self.interval.figures();
-        self.interval.clear();
-        figures
+        std::mem::take(&mut self.interval).figures()
     }
 
     fn total(&self) -> RateFigures {
@@ -191,12 +189,6 @@ impl Totals {
             period: self.periods.spread(),
             lost: self.lost.max(0).unsigned_abs(),
         }
-    }
-
-    fn clear(&mut self) {
-        self.periods.clear();
-        let periods = std::mem::take(&mut self.periods);
-        *self = Self { periods, ..Self::default() };
     }
 }
 
