@@ -1,11 +1,10 @@
 //! Which system is meant: the named one, that of the environment, the only one that runs, or that of the working
 //! folder.
 
-use crate::scl_error::problem_of;
 use crate::system::System;
 use scl::runtime_dir::RuntimeDir;
 use scl_loader::{Request, load};
-use scl_terminal::{Problem, choose_system, closest_name, named_system, quoted_list};
+use scl_terminal::{Problem, choose_system, closest_name, named_system, problem_of, quoted_list};
 use std::ffi::OsString;
 use std::path::Path;
 

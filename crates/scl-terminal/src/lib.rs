@@ -2,6 +2,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod amount;
+mod error;
 mod escape;
 mod print;
 mod problem;
@@ -10,6 +11,7 @@ mod table;
 mod timestamp;
 
 pub use amount::{age_text, bytes_text, three_digits};
+pub use error::{message_and_help, problem_of};
 pub use escape::{escape, escape_bytes, escape_json};
 pub use print::{
     finish_output, note_failure, output_is_closed, output_is_terminal, print_err, print_out, print_out_bytes,

@@ -1,10 +1,9 @@
 //! The runtime folder: whether it can be used, how long the names of sockets may be, and the room on its disk.
 
 use super::{Examined, Finding};
-use crate::scl_error::message_and_help;
 use rustix::fs::statvfs;
 use scl::runtime_dir::RuntimeDir;
-use scl_terminal::{bytes_text, escape};
+use scl_terminal::{bytes_text, escape, message_and_help};
 use std::fs;
 use std::os::unix::ffi::OsStrExt;
 use std::os::unix::fs::MetadataExt;

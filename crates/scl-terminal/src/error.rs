@@ -1,6 +1,6 @@
-//! Errors of the crate `scl` as problems.
+//! Errors of other crates as problems.
 
-use scl_terminal::Problem;
+use crate::Problem;
 use std::error::Error;
 
 /// An error with its causes.
@@ -10,7 +10,7 @@ pub fn problem_of(error: &dyn Error) -> Problem {
 }
 
 /// What is wrong, with all causes, and what to do, which is in the second line of the error's text or of a cause's.
-pub(crate) fn message_and_help(error: &dyn Error) -> (String, Option<String>) {
+pub fn message_and_help(error: &dyn Error) -> (String, Option<String>) {
     let (mut messages, mut help) = (Vec::new(), None);
     let mut next = Some(error);
     while let Some(error) = next {
