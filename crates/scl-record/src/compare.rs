@@ -61,11 +61,12 @@ pub fn compare(
         alignment.advance(&mut sides, index, &mut rules);
     }
     // The side that has less in memory is read, so that both stay side by side.
-    while let Some(side) = sides.iter_mut().filter(|side| !side.is_at_end()).min_by_key(|side| side.queued_bytes()) {
+    let queued = |side: &&mut Side| side.topics.iter().map(|topic| topic.bytes).sum::<usize>();
+    while let Some(side) = sides.iter_mut().filter(|side| !side.is_at_end).min_by_key(queued) {
         if let Some(index) = side.read()? {
             alignments[index].advance(&mut sides, index, &mut rules);
         }
-        progress(sides[0].position());
+        progress(sides[0].position);
     }
     rules.check_fields()?;
     let notes = |(name, survey): (&String, &Survey)| {

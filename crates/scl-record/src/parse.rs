@@ -3,6 +3,7 @@
 //! The library reserves as much memory as a length says. So a record's lengths are compared with its content first, and
 //! a chunk may become no longer than its compression allows.
 
+use bytes::Buf;
 use mcap::parse_record;
 use mcap::records::{Record, op};
 use mcap::sans_io::linear_reader::LinearReaderOptions;
@@ -15,7 +16,7 @@ const MOST_ZSTD: usize = 32 << 10;
 
 /// Bytes of a chunk's content up to the name of its compression, with the name's length and the longest name known
 /// here.
-pub(crate) const CHUNK_HEAD: usize = 36;
+const CHUNK_HEAD: usize = 36;
 
 /// What can be decompressed, for messages.
 pub(crate) const COMPRESSIONS: &str = "lz4 and zstd";
@@ -80,21 +81,16 @@ fn fits(fields: &[Field], content: &[u8]) -> bool {
 fn skip<'c>(field: Field, rest: &mut &'c [u8]) -> Option<&'c [u8]> {
     let length = match field {
         Field::Fixed(length) => length,
-        Field::LongSized => usize::try_from(u64::from_le_bytes(take(8, rest)?.try_into().ok()?)).ok()?,
-        Field::Sized | Field::TextMap => usize::try_from(u32::from_le_bytes(take(4, rest)?.try_into().ok()?)).ok()?,
+        Field::LongSized => usize::try_from(rest.try_get_u64_le().ok()?).ok()?,
+        Field::Sized | Field::TextMap => usize::try_from(rest.try_get_u32_le().ok()?).ok()?,
     };
-    let content = take(length, rest)?;
+    let (content, left) = rest.split_at_checked(length)?;
+    *rest = left;
     let mut texts = if matches!(field, Field::TextMap) { content } else { &[] };
     while !texts.is_empty() {
         skip(Field::Sized, &mut texts)?;
     }
     Some(content)
-}
-
-fn take<'c>(length: usize, rest: &mut &'c [u8]) -> Option<&'c [u8]> {
-    let (taken, left) = rest.split_at_checked(length)?;
-    *rest = left;
-    Some(taken)
 }
 
 #[cfg(test)]

@@ -28,6 +28,7 @@ pub(crate) use file::options;
 pub use options::{Options, RingOptions};
 pub use report::Report;
 pub use trigger::trigger;
+pub(crate) use write_error::text_of;
 
 use collector::Collector;
 use contents::Contents;
@@ -70,7 +71,7 @@ async fn record_async(system: &System, options: &Options) -> Result<Report, Prob
         .for_each(|name| notes.say(&format!("`{name}` is not running; recording it once it has started")));
 
     let taps = Taps::follow_all(system, move |gate| selection.includes(gate));
-    let (sender, receiver) = queue(options.memory);
+    let (queue, receiver) = queue(options.memory);
     let progress = Arc::new(Progress::default());
     let (stopped_sender, stopped) = oneshot::channel();
     let storage = thread::Builder::new().name("storage".to_owned()).spawn({
@@ -79,7 +80,9 @@ async fn record_async(system: &System, options: &Options) -> Result<Report, Prob
     });
     let storage = storage.map_err(|error| Problem::new(format!("cannot start a thread: {error}")))?;
     let started = Instant::now();
-    Collector::new(system, taps, plans, sender, trigger, notes).run(signals, options.run_for, &progress, stopped).await;
+    let (losses, initial) = (Vec::new(), taps.gates().len());
+    let collector = Collector { system, taps, queue, trigger, notes, losses, plans, initial, unconnected: initial };
+    collector.run(signals, options.run_for, &progress, stopped).await;
     let duration = started.elapsed();
     let Outcome { files, deleted, totals, problem } =
         storage.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));

@@ -5,7 +5,7 @@
 //! beforehand: the plan, the duration, the totals.
 
 mod channel;
-mod chunk;
+pub(crate) mod chunk;
 mod clock;
 mod files;
 mod messages;
@@ -19,6 +19,7 @@ pub(crate) use clock::Clock;
 pub use files::find_files;
 pub use messages::{Messages, RecordedMessage};
 pub use overview::Attachment;
+pub(crate) use records::Records;
 pub use survey::{Survey, SurveyedTopic};
 
 use crate::format::{GateTotals, PLAN, Totals};
@@ -93,7 +94,11 @@ impl Recording {
     /// Messages recorded and lost per gate, as far as the files say so: one that was cut off does not.
     pub fn totals(&self) -> BTreeMap<String, GateTotals> {
         let mut sum = BTreeMap::<String, GateTotals>::new();
-        for (gate, totals) in self.files.iter().filter_map(|(_, overview)| overview.totals()).flat_map(|one| one.gates)
+        for (gate, totals) in self
+            .files
+            .iter()
+            .filter_map(|(_, overview)| Totals::from_map(overview.metadata.get(Totals::NAME)?))
+            .flat_map(|one| one.gates)
         {
             let gate = sum.entry(gate).or_default();
             gate.recorded += totals.recorded;
@@ -135,12 +140,6 @@ impl Recording {
             overview.attachments.iter().rev().map(move |attachment| (path.as_path(), attachment))
         });
         found.find(|(_, attachment)| attachment.name == name)
-    }
-}
-
-impl Overview {
-    fn totals(&self) -> Option<Totals> {
-        Totals::from_map(self.metadata.get(Totals::NAME)?)
     }
 }
 

@@ -6,16 +6,17 @@
 //! In place, only a file without its end is replaced, and stays beside the new one: what looks damaged here may be
 //! sound to another program.
 
-mod records;
 mod target;
 
-use crate::parse::COMPRESSIONS;
+use crate::parse::{COMPRESSIONS, LONGEST};
+use crate::record::text_of;
+use crate::recording::{Records, chunk};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mcap::records::op;
 use mcap::{MAGIC, McapError};
-use records::{ChunkEnd, FileRecord, FileRecords};
 use scl_terminal::{Problem, bytes_text, closest_name, escape};
 use std::fs::{self, File};
-use std::io::{self, BufReader};
+use std::io::{self, Read};
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 use target::Target;
@@ -65,15 +66,15 @@ pub fn recover(input: &Path, output: Option<&Path>) -> Result<Recovered, Problem
 
     let size = metadata.len();
     let progress = progress_bar(size);
-    let records = FileRecords::open(BufReader::with_capacity(1 << 20, &file), size)
-        .map_err(|error| no_recording(input, size, &error))?;
+    check_magic(input, &file, size)?;
+    let shared = file.try_clone().map_err(|error| unreadable(&error))?;
+    let mut records = Records::new(input, shared, MAGIC.len() as u64, size);
     let mut copy = Target::create(target, &metadata)?;
-    let copied = copy_records(records, &mut copy, &progress);
+    let unwritable =
+        |error: McapError| Problem::new(format!("cannot write `{}`: {}", target.display(), text_of(&error)));
+    let copied = copy_records((&file, size), &mut records, &mut copy, &progress, &unwritable);
     progress.finish_and_clear();
-    let Copied { messages, dropped, unsupported, is_complete } = copied.map_err(|error| match error {
-        CopyError::Read(error) => unreadable(&error),
-        CopyError::Write(error) => Problem::new(format!("cannot write `{}`: {}", target.display(), text_of(&error))),
-    })?;
+    let Copied { messages, dropped, unsupported, is_complete } = copied?;
     let path = output.unwrap_or(input).to_owned();
     let mut recovered = Recovered { path, messages, dropped, was_complete: is_complete && dropped == 0, kept: None };
     if recovered.was_complete && output.is_none() {
@@ -109,6 +110,7 @@ fn was_closed(file: &File, size: u64) -> bool {
     at > 0 && file.read_exact_at(&mut end, at).is_ok() && end == MAGIC
 }
 
+#[derive(Default)]
 struct Copied {
     messages: u64,
     dropped: u64,
@@ -117,61 +119,64 @@ struct Copied {
     is_complete: bool,
 }
 
-#[derive(Debug)]
-enum CopyError {
-    Read(io::Error),
-    Write(McapError),
-}
-
-impl From<io::Error> for CopyError {
-    fn from(error: io::Error) -> Self {
-        Self::Read(error)
-    }
-}
-
-impl From<McapError> for CopyError {
-    fn from(error: McapError) -> Self {
-        Self::Write(error)
-    }
-}
-
+/// Copies the data section of a file of this size, up to its end or to where the file is cut off. `unwritable` makes a
+/// problem of an error of the target.
 fn copy_records(
-    mut records: FileRecords<BufReader<&File>>,
+    (file, size): (&File, u64),
+    records: &mut Records,
     target: &mut Target,
     progress: &ProgressBar,
-) -> Result<Copied, CopyError> {
-    let mut unusable = 0;
-    let mut unsupported = None;
-    loop {
-        progress.set_position(records.position());
-        let Some(record) = records.next()? else { break };
-        match record {
-            FileRecord::Record(opcode, body) => {
-                if !target.add_record(opcode, &body)? {
-                    unusable += body.len() as u64;
+    unwritable: &dyn Fn(McapError) -> Problem,
+) -> Result<Copied, Problem> {
+    let mut copied = Copied::default();
+    while let Some(header) = records.next()? {
+        progress.set_position(header.offset);
+        if header.opcode == op::CHUNK {
+            let content = records.content(LONGEST as u64)?;
+            let mut added = Ok(());
+            let read = chunk::read_unparsed(&content, header.length, |opcode, body| {
+                if added.is_ok() {
+                    added = target.add_record(opcode, body).map(drop);
+                }
+                Ok(())
+            });
+            added.map_err(unwritable)?;
+            if let Err(error) = read {
+                copied.dropped += records.position() - header.offset;
+                if let McapError::UnsupportedCompression(name) = error {
+                    copied.unsupported = Some(name);
                 }
             }
-            FileRecord::Chunk(chunk) => {
-                let end =
-                    chunk.read(|opcode, body| target.add_record(opcode, body).map(|_| ()).map_err(CopyError::from))?;
-                match end {
-                    ChunkEnd::Sound => {}
-                    ChunkEnd::Damaged(size) => unusable += size,
-                    ChunkEnd::Unsupported(size, name) => {
-                        unusable += size;
-                        unsupported = Some(name);
-                    }
-                }
+        } else if header.is_cut || header.opcode == 0 || header.length > LONGEST as u64 {
+            copied.dropped += size - header.offset;
+            break;
+        } else if header.opcode == op::DATA_END {
+            let rest = size - records.position();
+            copied.is_complete = ends_well(file, size, records)?;
+            copied.dropped += if copied.is_complete { 0 } else { rest };
+            break;
+        } else {
+            let body = records.content(u64::MAX)?;
+            if !target.add_record(header.opcode, &body).map_err(unwritable)? {
+                copied.dropped += body.len() as u64;
             }
         }
     }
-    target.finish()?;
-    Ok(Copied {
-        messages: target.messages(),
-        dropped: unusable + records.rest(),
-        unsupported,
-        is_complete: records.is_complete(),
-    })
+    target.finish().map_err(unwritable)?;
+    copied.messages = target.messages();
+    Ok(copied)
+}
+
+/// Whether summary, footer and magic follow, and nothing else.
+fn ends_well(file: &File, size: u64, records: &mut Records) -> Result<bool, Problem> {
+    let mut last = 0;
+    while let Some(header) = records.next()? {
+        if header.is_cut {
+            return Ok(last == op::FOOTER && size - header.offset == MAGIC.len() as u64 && was_closed(file, size));
+        }
+        last = header.opcode;
+    }
+    Ok(false)
 }
 
 fn cannot_open(path: &Path, error: &io::Error) -> Problem {
@@ -193,18 +198,15 @@ fn cannot_open(path: &Path, error: &io::Error) -> Problem {
     }
 }
 
-fn no_recording(path: &Path, size: u64, error: &io::Error) -> Problem {
-    if size == 0 {
-        return Problem::new(format!("`{}` is empty", path.display()));
-    }
-    Problem::new(format!("`{}` is not an MCAP file: {error}", path.display()))
-}
-
-fn text_of(error: &McapError) -> String {
-    match error {
-        McapError::Io(error) => error.to_string(),
-        other => other.to_string(),
-    }
+fn check_magic(path: &Path, mut file: &File, size: u64) -> Result<(), Problem> {
+    let mut magic = [0; MAGIC.len()];
+    let reason = match file.read_exact(&mut magic) {
+        Ok(()) if magic == MAGIC => return Ok(()),
+        _ if size == 0 => return Err(Problem::new(format!("`{}` is empty", path.display()))),
+        Ok(()) => "it does not begin with MCAP's magic bytes",
+        Err(_) => "it is too short",
+    };
+    Err(Problem::new(format!("`{}` is not an MCAP file: {reason}", path.display())))
 }
 
 fn progress_bar(size: u64) -> ProgressBar {

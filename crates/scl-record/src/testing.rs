@@ -4,7 +4,7 @@
 use crate::format::{ChannelMetadata, Encoding, PLAN, PROFILE, Part, Topic, Totals};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{Attachment, Compression, WriteOptions, Writer};
-use scl_plan::{GateKind, Payload, SystemPlan};
+use scl_plan::{GateKind, SystemPlan};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -155,12 +155,7 @@ impl Recorder {
 
     fn planned(&self, topic: &Topic) -> Option<ChannelMetadata> {
         let gate = self.plan.as_ref()?.component(&topic.component).ok()?.gate(&topic.gate)?;
-        let type_name = match (&gate.payload, topic.part) {
-            (Payload::Bytes, _) => None,
-            (Payload::Message(name), _) => Some(name.clone()),
-            (Payload::Exchange { request, .. }, Part::Request) => Some(request.clone()),
-            (Payload::Exchange { reply, .. }, _) => Some(reply.clone()),
-        };
+        let type_name = topic.part.type_name(&gate.payload).map(str::to_owned);
         let (codec, contract) = (gate.codec.clone(), gate.contract.clone());
         Some(ChannelMetadata { kind: gate.kind, type_name, codec, contract, peers: Vec::new() })
     }

@@ -54,7 +54,7 @@ impl Alignment {
     }
 
     /// Compares what has been read.
-    pub(super) fn advance(&mut self, sides: &mut [Side; 2], topic: usize, rules: &mut Rules) {
+    pub(super) fn advance(&mut self, sides: &mut [Side; 2], topic: usize, rules: &mut Rules<'_>) {
         loop {
             match self.next_step(sides, topic, rules) {
                 Step::Equal => self.pair(sides, topic, rules),
@@ -75,9 +75,10 @@ impl Alignment {
         self.gate
     }
 
-    fn next_step(&self, sides: &[Side; 2], topic: usize, rules: &mut Rules) -> Step {
-        let queues = [sides[0].queue(topic), sides[1].queue(topic)];
-        let is_complete = [sides[0].is_complete(topic), sides[1].is_complete(topic)];
+    fn next_step(&self, sides: &[Side; 2], topic: usize, rules: &mut Rules<'_>) -> Step {
+        let topics = sides.each_ref().map(|side| &side.topics[topic]);
+        let queues = topics.map(|topic| &topic.waiting);
+        let is_complete = topics.map(|topic| topic.left == 0);
         let (one, other) = match (queues[0].front(), queues[1].front()) {
             (Some(one), Some(other)) => (one, other),
             (Some(_), None) if is_complete[1] => return Step::Rest(DifferenceKind::Missing),
@@ -89,7 +90,7 @@ impl Alignment {
         }
         let has_enough = |side: usize| {
             let length = queues[side].len();
-            is_complete[side] || length > WINDOW || length > BOTH && sides[side].bytes(topic) > WINDOW_BYTES
+            is_complete[side] || length > WINDOW || length > BOTH && topics[side].bytes > WINDOW_BYTES
         };
         if !has_enough(0) || !has_enough(1) {
             return Step::Wait;
@@ -137,7 +138,7 @@ impl Alignment {
         }
     }
 
-    fn pair(&mut self, sides: &mut [Side; 2], topic: usize, rules: &mut Rules) {
+    fn pair(&mut self, sides: &mut [Side; 2], topic: usize, rules: &mut Rules<'_>) {
         let (Some(one), Some(other)) = (sides[0].pop(topic), sides[1].pop(topic)) else { return };
         self.gate.paired += 1;
         self.gap = None;
@@ -166,7 +167,7 @@ impl Alignment {
             }
             (Some((open, false)), _) if open == kind => {}
             _ => {
-                let value = shown_message(sides[side].message_type(message.channel), &message.payload);
+                let value = shown_message(&sides[side].types[message.channel], &message.payload);
                 let values = if side == 0 { [Some(value), None] } else { [None, Some(value)] };
                 let is_kept = self.keep(sides, &message, kind, String::new(), values);
                 self.gap = Some((kind, is_kept));

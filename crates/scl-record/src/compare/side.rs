@@ -44,7 +44,7 @@ pub(super) struct Waiting {
 impl Waiting {
     /// The decoded message, by the type of its channel; `None` if it cannot be decoded.
     pub(super) fn value(&self, side: &Side) -> Option<&Value> {
-        let decode = || side.message_type(self.channel).decode(&self.payload).ok();
+        let decode = || side.types[self.channel].decode(&self.payload).ok();
         let value = self.value.get_or_init(decode).as_ref();
         value.filter(|value| !matches!(value, Value::Opaque(_)))
     }
@@ -53,33 +53,37 @@ impl Waiting {
 /// The messages of one recording, by compared topic.
 pub(super) struct Side {
     messages: Messages,
-    topics: Vec<Topic>,
-    queues: Vec<VecDeque<Waiting>>,
-    /// Of each topic, bytes in its queue.
-    bytes: Vec<usize>,
-    /// Of each topic, messages not read yet, and read.
-    left: Vec<u64>,
-    read: Vec<u64>,
+    pub(super) topics: Vec<TopicQueue>,
     /// By channel, the index of its topic if that is compared, and how its messages are read.
     by_channel: Vec<Option<usize>>,
-    types: Vec<MessageType>,
-    is_at_end: bool,
+    pub(super) types: Vec<MessageType>,
+    pub(super) is_at_end: bool,
     start_ns: u64,
-    position: Duration,
+    pub(super) position: Duration,
+}
+
+/// The messages of a topic that wait for their counterparts.
+pub(super) struct TopicQueue {
+    topic: Topic,
+    pub(super) waiting: VecDeque<Waiting>,
+    /// Bytes of those that wait.
+    pub(super) bytes: usize,
+    /// Number of messages that were read, and that were not read yet.
+    read: u64,
+    pub(super) left: u64,
 }
 
 impl Side {
     pub(super) fn new(recording: &Recording, survey: &Survey, topics: &[Topic]) -> Self {
-        let left = topics.iter().map(|topic| survey.topics.get(topic).map_or(0, |topic| topic.messages));
-        let left: Vec<u64> = left.collect();
+        let queue = |topic: &Topic| {
+            let left = survey.topics.get(topic).map_or(0, |topic| topic.messages);
+            TopicQueue { topic: topic.clone(), waiting: VecDeque::new(), bytes: 0, read: 0, left }
+        };
+        let topics: Vec<_> = topics.iter().map(queue).collect();
         Self {
             messages: recording.messages(),
-            topics: topics.to_vec(),
-            queues: topics.iter().map(|_| VecDeque::new()).collect(),
-            bytes: vec![0; topics.len()],
-            is_at_end: left.iter().all(|left| *left == 0),
-            read: vec![0; left.len()],
-            left,
+            is_at_end: topics.iter().all(|topic| topic.left == 0),
+            topics,
             by_channel: Vec::new(),
             types: Vec::new(),
             start_ns: survey.first_ns.unwrap_or_default(),
@@ -95,60 +99,29 @@ impl Side {
         };
         self.position = self.since_start(message.sent_ns);
         for channel in &self.messages.channels()[self.types.len()..] {
-            self.by_channel.push(self.topics.iter().position(|topic| *topic == channel.topic));
+            self.by_channel.push(self.topics.iter().position(|queue| queue.topic == channel.topic));
             self.types.push(channel.message_type());
         }
         let RecordedMessage { channel, sent_ns, sequence, payload, .. } = message;
-        let Some(topic) = self.by_channel[channel] else { return Ok(None) };
-        let index = self.read[topic];
-        self.read[topic] += 1;
-        self.left[topic] -= 1;
-        self.is_at_end = self.left.iter().all(|left| *left == 0);
-        self.bytes[topic] += payload.len();
+        let Some(index) = self.by_channel[channel] else { return Ok(None) };
+        let queue = &mut self.topics[index];
+        queue.bytes += payload.len();
         let value = OnceCell::new();
-        self.queues[topic].push_back(Waiting { payload, channel, index, sent_ns, sequence, value });
-        Ok(Some(topic))
-    }
-
-    /// The messages of a topic that wait for their counterparts.
-    pub(super) fn queue(&self, topic: usize) -> &VecDeque<Waiting> {
-        &self.queues[topic]
+        queue.waiting.push_back(Waiting { payload, channel, index: queue.read, sent_ns, sequence, value });
+        queue.read += 1;
+        queue.left -= 1;
+        self.is_at_end = self.topics.iter().all(|topic| topic.left == 0);
+        Ok(Some(index))
     }
 
     pub(super) fn pop(&mut self, topic: usize) -> Option<Waiting> {
-        let message = self.queues[topic].pop_front()?;
-        self.bytes[topic] -= message.payload.len();
+        let queue = &mut self.topics[topic];
+        let message = queue.waiting.pop_front()?;
+        queue.bytes -= message.payload.len();
         Some(message)
-    }
-
-    /// Whether no more messages of a topic will be read.
-    pub(super) fn is_complete(&self, topic: usize) -> bool {
-        self.left[topic] == 0
-    }
-
-    pub(super) fn is_at_end(&self) -> bool {
-        self.is_at_end
-    }
-
-    /// Bytes of the messages of a topic that wait for their counterparts.
-    pub(super) fn bytes(&self, topic: usize) -> usize {
-        self.bytes[topic]
-    }
-
-    pub(super) fn queued_bytes(&self) -> usize {
-        self.bytes.iter().sum()
-    }
-
-    /// How the messages of a channel are read.
-    pub(super) fn message_type(&self, channel: usize) -> &MessageType {
-        &self.types[channel]
     }
 
     pub(super) fn since_start(&self, sent_ns: u64) -> Duration {
         Duration::from_nanos(sent_ns.saturating_sub(self.start_ns))
-    }
-
-    pub(super) fn position(&self) -> Duration {
-        self.position
     }
 }

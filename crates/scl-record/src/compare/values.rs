@@ -3,18 +3,16 @@
 use super::CompareOptions;
 use super::side::{Side, Waiting};
 use scl_terminal::{Problem, escape};
-use scl_value::{FieldPath, MessageType, Opaque, Value, to_json};
+use scl_value::{FieldPath, MessageType, Opaque, Value, key_text, to_json};
 
 /// How much of a value is shown.
 const SHOWN: usize = 60;
 
 /// Which fields are compared, and how exactly.
-pub(super) struct Rules {
-    fields: Vec<FieldPath>,
-    /// Whether any message had the field.
+pub(super) struct Rules<'o> {
+    options: &'o CompareOptions,
+    /// Of each named field, whether any message had it.
     found: Vec<bool>,
-    within: f64,
-    relative: f64,
 }
 
 /// The first field in which two messages differ.
@@ -26,14 +24,9 @@ pub(super) struct FieldDifference {
     pub(super) values: [Option<String>; 2],
 }
 
-impl Rules {
-    pub(super) fn new(options: &CompareOptions) -> Self {
-        Self {
-            fields: options.fields.clone(),
-            found: vec![false; options.fields.len()],
-            within: options.within,
-            relative: options.relative,
-        }
+impl<'o> Rules<'o> {
+    pub(super) fn new(options: &'o CompareOptions) -> Self {
+        Self { options, found: vec![false; options.fields.len()] }
     }
 
     /// Compares two messages; `None` if they are equal.
@@ -44,16 +37,15 @@ impl Rules {
         }
         let values = [first.value(&sides[0]), second.value(&sides[1])];
         let [Some(one), Some(other)] = values else { return bytes_difference(messages) };
-        if self.fields.is_empty() {
+        if self.found.is_empty() {
             return self.value_difference(FieldPath::default(), Some(one), Some(other));
         }
         let mut difference = None;
-        for index in 0..self.fields.len() {
-            let field = self.fields[index].clone();
+        for (index, field) in self.options.fields.iter().enumerate() {
             let values = [field.find(one), field.find(other)];
             self.found[index] |= values.iter().any(Option::is_some);
             if difference.is_none() {
-                difference = self.value_difference(field, values[0], values[1]);
+                difference = self.value_difference(field.clone(), values[0], values[1]);
             }
         }
         difference
@@ -61,7 +53,7 @@ impl Rules {
 
     /// Checks that each of the named fields was in a message: a misspelt one would never differ.
     pub(super) fn check_fields(&self) -> Result<(), Problem> {
-        match self.fields.iter().zip(&self.found).find(|(_, found)| !**found) {
+        match self.options.fields.iter().zip(&self.found).find(|(_, found)| !**found) {
             Some((field, _)) => Err(Problem::new(format!("no compared message has a field `{field}`"))
                 .help("`scl compare` without `--field` names the fields that differ")),
             None => Ok(()),
@@ -101,10 +93,11 @@ impl Rules {
         let are_same = one == other;
         let (Some(one), Some(other)) = (one.as_number(), other.as_number()) else { return are_same };
         let larger = one.abs().max(other.abs());
-        let tolerance = self.within.max(self.relative * larger);
+        let CompareOptions { within, relative, .. } = *self.options;
+        let tolerance = within.max(relative * larger);
         // -0.0 equals 0.0, and the programs that divide by it differ.
         if larger == 0.0 && one.is_sign_negative() != other.is_sign_negative() {
-            return self.within > 0.0 || self.relative > 0.0;
+            return within > 0.0 || relative > 0.0;
         }
         if are_same {
             return true;
@@ -127,13 +120,6 @@ fn bytes_difference(messages: [&Waiting; 2]) -> Option<FieldDifference> {
 /// Whether whole numbers of this size are still apart as floating point numbers.
 fn is_exact(number: f64) -> bool {
     number.abs() < (1_u64 << 53) as f64
-}
-
-fn key_text(key: &Value) -> String {
-    match key {
-        Value::Text(text) => text.clone(),
-        key => to_json(key),
-    }
 }
 
 /// A message as JSON, or its bytes if it cannot be decoded.
@@ -166,18 +152,18 @@ fn cut(text: &str) -> String {
 mod tests {
     use super::*;
 
-    fn differs(rules: &Rules, one: Value, other: Value) -> Option<String> {
+    fn differs(options: &CompareOptions, one: Value, other: Value) -> Option<String> {
         let FieldDifference { field, values } =
-            rules.value_difference(FieldPath::default(), Some(&one), Some(&other))?;
+            Rules::new(options).value_difference(FieldPath::default(), Some(&one), Some(&other))?;
         let [one, other] = values.map(|value| value.unwrap_or_else(|| "nothing".to_owned()));
         Some(format!("{field}: {one} {other}"))
     }
 
     #[test]
     fn numbers_are_equal_within_the_tolerances_and_all_else_exactly() {
-        let exact = Rules::new(&CompareOptions::default());
-        let near = Rules::new(&CompareOptions { within: 0.1, ..CompareOptions::default() });
-        let relative = Rules::new(&CompareOptions { relative: 0.01, ..CompareOptions::default() });
+        let exact = CompareOptions::default();
+        let near = CompareOptions { within: 0.1, ..CompareOptions::default() };
+        let relative = CompareOptions { relative: 0.01, ..CompareOptions::default() };
         let pose = |x: f64| Value::fields([("pose", Value::List(vec![x.into(), 2.0.into()]))]);
         let big = 1_u64 << 60;
         let cases = [

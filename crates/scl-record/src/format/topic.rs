@@ -2,6 +2,7 @@
 //!
 //! Slashes, because a dot starts a path of fields in Foxglove.
 
+use scl_plan::Payload;
 use std::fmt;
 
 /// Which of a gate's messages a channel contains.
@@ -13,6 +14,18 @@ pub enum Part {
     Request,
     /// The replies of a `rep` gate.
     Reply,
+}
+
+impl Part {
+    /// The type of these messages; `None` for bytes.
+    pub fn type_name(self, payload: &Payload) -> Option<&str> {
+        match (payload, self) {
+            (Payload::Bytes, _) => None,
+            (Payload::Message(name), _) => Some(name),
+            (Payload::Exchange { request, .. }, Part::Request) => Some(request),
+            (Payload::Exchange { reply, .. }, _) => Some(reply),
+        }
+    }
 }
 
 /// A channel's topic.

@@ -35,26 +35,14 @@ pub(crate) struct Collector<'a> {
     /// Only with a ring.
     pub(crate) trigger: Option<TriggerListener>,
     pub(crate) notes: Notes,
-    losses: Vec<Losses>,
-    plans: Plans,
-    /// Gates that were running at the beginning and are not connected yet.
-    unconnected: usize,
-    initial: usize,
+    pub(crate) losses: Vec<Losses>,
+    pub(crate) plans: Plans,
+    /// Gates that were running at the beginning, and those of them that are not connected yet.
+    pub(crate) initial: usize,
+    pub(crate) unconnected: usize,
 }
 
-impl<'a> Collector<'a> {
-    pub(crate) fn new(
-        system: &'a System,
-        taps: Taps,
-        plans: Plans,
-        queue: QueueSender<Command>,
-        trigger: Option<TriggerListener>,
-        notes: Notes,
-    ) -> Self {
-        let initial = taps.gates().len();
-        Self { system, taps, queue, trigger, notes, losses: Vec::new(), plans, unconnected: initial, initial }
-    }
-
+impl Collector<'_> {
     /// Collects until a signal of `stop`, until `run_for` has passed, or until the storage stops. The queue ends with
     /// that.
     pub(crate) async fn run(

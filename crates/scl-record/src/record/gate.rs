@@ -3,7 +3,7 @@
 use crate::format::{ChannelMetadata, Encoding, Part, Topic};
 use bytes::Bytes;
 use scl_observe::ObservedGate;
-use scl_plan::{GateKind, Payload};
+use scl_plan::GateKind;
 use std::collections::BTreeMap;
 
 /// One message, request or reply.
@@ -32,15 +32,8 @@ impl Message {
 
 /// The channels of a gate: one, or two for requests and replies.
 pub(crate) fn channels(gate: &ObservedGate) -> Vec<NewChannel<'_>> {
-    let parts = match (&gate.payload, gate.kind) {
-        (Payload::Exchange { request, reply }, _) => {
-            vec![(Part::Request, Some(request)), (Part::Reply, Some(reply))]
-        }
-        (Payload::Bytes, GateKind::Rep) => vec![(Part::Request, None), (Part::Reply, None)],
-        (Payload::Bytes, _) => vec![(Part::Message, None)],
-        (Payload::Message(name), _) => vec![(Part::Message, Some(name))],
-    };
-    parts.into_iter().map(|(part, type_name)| channel(gate, part, type_name.map(String::as_str))).collect()
+    let parts: &[Part] = if gate.kind == GateKind::Rep { &[Part::Request, Part::Reply] } else { &[Part::Message] };
+    parts.iter().map(|part| channel(gate, *part)).collect()
 }
 
 /// A channel as the file describes it.
@@ -51,7 +44,8 @@ pub(crate) struct NewChannel<'a> {
     pub(crate) metadata: BTreeMap<String, String>,
 }
 
-fn channel<'a>(gate: &'a ObservedGate, part: Part, type_name: Option<&'a str>) -> NewChannel<'a> {
+fn channel(gate: &ObservedGate, part: Part) -> NewChannel<'_> {
+    let type_name = part.type_name(&gate.payload);
     let metadata = ChannelMetadata {
         kind: gate.kind,
         type_name: type_name.map(str::to_owned),

@@ -32,15 +32,9 @@ impl WriteError {
                 Problem::new(format!("{what}: {reason}")).at(path.to_string())
             }
             Self::Moved(fault) => Problem::new(format!("{what}: {fault} while it was written")).at(path.to_string()),
-            Self::Failed(error) => {
-                let text = match error {
-                    McapError::Io(error) => error.to_string(),
-                    other => other.to_string(),
-                };
-                Problem::new(format!("{what}: cannot write: {text}"))
-                    .at(path.to_string())
-                    .help(format!("`scl recover {path}` rebuilds the index of what was written"))
-            }
+            Self::Failed(error) => Problem::new(format!("{what}: cannot write: {}", text_of(error)))
+                .at(path.to_string())
+                .help(format!("`scl recover {path}` rebuilds the index of what was written")),
         }
     }
 }
@@ -48,5 +42,13 @@ impl WriteError {
 impl From<McapError> for WriteError {
     fn from(error: McapError) -> Self {
         Self::Failed(error)
+    }
+}
+
+/// The text of an error, of one of the operating system that system's own.
+pub(crate) fn text_of(error: &McapError) -> String {
+    match error {
+        McapError::Io(error) => error.to_string(),
+        other => other.to_string(),
     }
 }

@@ -2,29 +2,31 @@
 
 use crate::parse::{chunk_options, parse};
 use mcap::records::{Record, op};
-use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader};
 use mcap::{McapError, McapResult};
 
-/// Calls `each` for all records of a complete chunk, after its checksum was found right.
+/// Calls `each` for all records of a chunk of this length, after its checksum was found right. Of a chunk that was cut
+/// off, which cannot be checked, for those at its beginning.
 ///
 /// # Errors
-/// The chunk is damaged, or compressed with an unknown method.
-pub(super) fn read(content: &[u8], each: impl FnMut(Record<'_>)) -> McapResult<()> {
-    let checked = chunk_options(content, content.len()).with_prevalidate_chunk_crcs(true);
-    read_with(checked, content, each)
+/// The chunk is damaged, cut off, or compressed with an unknown method.
+pub(super) fn read(content: &[u8], length: u64, mut each: impl FnMut(Record<'_>)) -> McapResult<()> {
+    read_unparsed(content, length, |opcode, data| {
+        each(parse(opcode, data).ok_or(McapError::UnexpectedEoc)?);
+        Ok(())
+    })
 }
 
-/// Returns the records at the beginning of a chunk that was cut off, which has no checksum.
-pub(super) fn read_cut(content: &[u8]) -> Vec<Record<'static>> {
-    let mut records = Vec::new();
-    let _ends_with_an_error =
-        read_with(chunk_options(content, content.len()), content, |record| records.push(record.into_owned()));
-    records
-}
-
-fn read_with(options: LinearReaderOptions, content: &[u8], mut each: impl FnMut(Record<'_>)) -> McapResult<()> {
+/// [`read`] with the opcode and the content of each record.
+pub(crate) fn read_unparsed(
+    content: &[u8],
+    length: u64,
+    mut each: impl FnMut(u8, &[u8]) -> McapResult<()>,
+) -> McapResult<()> {
+    let is_whole = content.len() as u64 == length;
+    let options = chunk_options(content, content.len()).with_prevalidate_chunk_crcs(is_whole);
     let mut reader = LinearReader::new_with_options(options);
-    let header = [&[op::CHUNK][..], &(content.len() as u64).to_le_bytes()].concat();
+    let header = [&[op::CHUNK][..], &length.to_le_bytes()].concat();
     let mut left = [&header[..], content];
     while let Some(event) = reader.next_event() {
         match event? {
@@ -39,7 +41,7 @@ fn read_with(options: LinearReaderOptions, content: &[u8], mut each: impl FnMut(
                 reader.notify_read(given.len());
                 *part = rest;
             }
-            LinearReadEvent::Record { data, opcode } => each(parse(opcode, data).ok_or(McapError::UnexpectedEoc)?),
+            LinearReadEvent::Record { data, opcode } => each(opcode, data)?,
         }
     }
     Ok(())

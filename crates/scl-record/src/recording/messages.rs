@@ -26,7 +26,7 @@ pub struct RecordedMessage {
 }
 
 /// Reads the messages of a recording in the order of its files. Keeps no more than one chunk in memory.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Messages {
     files: VecDeque<PathBuf>,
     records: Option<Records>,
@@ -55,9 +55,7 @@ enum Fault {
 
 impl Messages {
     pub(super) fn new(files: VecDeque<PathBuf>) -> Self {
-        let (schemas, channel_ids) = Default::default();
-        let (channels, others) = Default::default();
-        Self { files, records: None, schemas, channel_ids, channels, others, ready: VecDeque::new() }
+        Self { files, ..Self::default() }
     }
 
     /// The next message; `None` at the end.
@@ -96,30 +94,21 @@ impl Messages {
     }
 
     fn read_record(&mut self, records: &mut Records, header: RecordHeader) -> Result<(), Problem> {
-        if !matches!(header.opcode, op::CHUNK | op::SCHEMA | op::CHANNEL | op::MESSAGE) {
-            return Ok(());
-        }
         let mut taken = Ok(());
-        if header.opcode != op::CHUNK {
-            if header.is_cut {
-                return Ok(());
-            }
+        if header.opcode == op::CHUNK {
             let content = records.content(u64::MAX)?;
-            taken = parse(header.opcode, &content)
-                .ok_or_else(|| Fault::damaged("unreadable record"))
-                .and_then(|record| self.take(record));
-        } else if header.is_cut {
-            for record in chunk::read_cut(&records.content(u64::MAX)?) {
-                taken = taken.and_then(|()| self.take(record));
-            }
-        } else {
-            let content = records.content(u64::MAX)?;
-            let read = chunk::read(&content, |record| {
+            let read = chunk::read(&content, header.length, |record| {
                 if taken.is_ok() {
                     taken = self.take(record);
                 }
             });
-            taken = taken.and_then(|()| read.map_err(Fault::from));
+            if !header.is_cut {
+                taken = taken.and_then(|()| read.map_err(Fault::from));
+            }
+        } else if !header.is_cut && matches!(header.opcode, op::SCHEMA | op::CHANNEL | op::MESSAGE) {
+            let content = records.content(u64::MAX)?;
+            let record = parse(header.opcode, &content).ok_or_else(|| Fault::damaged("unreadable record"));
+            taken = record.and_then(|record| self.take(record));
         }
         taken.map_err(|fault| fault.at(records, header))
     }

@@ -3,7 +3,7 @@
 use super::chunk;
 use super::records::Records;
 use crate::parse::parse;
-use bytes::Bytes;
+use bytes::{Buf, Bytes};
 use mcap::records::{Record, op};
 use scl_terminal::Problem;
 use std::collections::BTreeMap;
@@ -43,7 +43,9 @@ impl Overview {
         while let Some(header) = records.next()? {
             if header.is_cut {
                 if header.opcode == op::CHUNK {
-                    overview.add_cut_chunk(&mut records)?;
+                    // What can be read of it counts.
+                    let content = records.content(u64::MAX)?;
+                    let _ends_with_an_error = chunk::read(&content, header.length, |record| overview.add(record));
                 }
                 overview.ending = Some(format!("ends in the middle of a record, at byte {}", header.offset));
                 return Ok(overview);
@@ -81,25 +83,12 @@ impl Overview {
         }
     }
 
-    fn add_times(&mut self, content: &[u8]) {
-        let times = content.first_chunk::<8>().zip(content.get(8..).and_then(<[u8]>::first_chunk::<8>));
+    fn add_times(&mut self, mut content: &[u8]) {
         // A chunk without messages has zeros.
-        if let Some((first, last)) = times.map(|(first, last)| (u64::from_le_bytes(*first), u64::from_le_bytes(*last)))
-            && last > 0
-        {
+        if let (Ok(first), Ok(last @ 1..)) = (content.try_get_u64_le(), content.try_get_u64_le()) {
             self.add_time(first);
             self.add_time(last);
         }
-    }
-
-    /// Of a chunk that is not complete, what can be read of it counts.
-    fn add_cut_chunk(&mut self, records: &mut Records) -> Result<(), Problem> {
-        for record in chunk::read_cut(&records.content(u64::MAX)?) {
-            if let Record::Message { header, .. } = record {
-                self.add_time(header.log_time);
-            }
-        }
-        Ok(())
     }
 
     fn add_time(&mut self, time: u64) {

@@ -13,7 +13,7 @@ const NEAR: u64 = 64 << 10;
 
 /// Goes over the records of a file without knowing what they mean.
 #[derive(Debug)]
-pub(super) struct Records {
+pub(crate) struct Records {
     path: PathBuf,
     file: BufReader<File>,
     /// Where the next record begins.
@@ -25,14 +25,14 @@ pub(super) struct Records {
 
 /// The beginning of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct RecordHeader {
-    pub(super) opcode: u8,
+pub(crate) struct RecordHeader {
+    pub(crate) opcode: u8,
     /// Where the record begins in the file.
-    pub(super) offset: u64,
-    /// Length of its content that the file has.
-    pub(super) length: u64,
+    pub(crate) offset: u64,
+    /// Length of its content, also where the file has less of it.
+    pub(crate) length: u64,
     /// Whether the file ends before the record does.
-    pub(super) is_cut: bool,
+    pub(crate) is_cut: bool,
 }
 
 impl Records {
@@ -42,7 +42,7 @@ impl Records {
     /// It cannot be read, is empty, or is not an MCAP file.
     pub(super) fn open(path: &Path) -> Result<Self, Problem> {
         let unreadable = |error| unreadable(path, &error);
-        let file = File::open(path).map_err(unreadable)?;
+        let mut file = File::open(path).map_err(unreadable)?;
         let metadata = file.metadata().map_err(unreadable)?;
         let place = path.display().to_string();
         if !metadata.is_file() {
@@ -52,20 +52,22 @@ impl Records {
             let help = "the recorder was stopped before it wrote anything, or the disk was full";
             return Err(Problem::new(format!("the recording `{place}` is empty")).help(help));
         }
-        let mut records =
-            Self { path: path.to_owned(), file: BufReader::new(file), offset: 0, unread: 0, size: metadata.len() };
         let mut magic = Vec::new();
-        records.file.by_ref().take(MAGIC.len() as u64).read_to_end(&mut magic).map_err(unreadable)?;
+        file.by_ref().take(MAGIC.len() as u64).read_to_end(&mut magic).map_err(unreadable)?;
         if !MAGIC.starts_with(&magic) {
             let help = "recordings are MCAP files, written by `scl record`";
             return Err(Problem::new(format!("`{place}` is not a recording")).help(help));
         }
-        records.offset = magic.len() as u64;
-        Ok(records)
+        Ok(Self::new(path, file, magic.len() as u64, metadata.len()))
+    }
+
+    /// The records of a file of this size, whose first bytes were read.
+    pub(crate) fn new(path: &Path, file: File, offset: u64, size: u64) -> Self {
+        Self { path: path.to_owned(), file: BufReader::new(file), offset, unread: 0, size }
     }
 
     /// The next record; `None` at the end of the file.
-    pub(super) fn next(&mut self) -> Result<Option<RecordHeader>, Problem> {
+    pub(crate) fn next(&mut self) -> Result<Option<RecordHeader>, Problem> {
         self.skip()?;
         let left = self.size.saturating_sub(self.offset);
         let mut header = [0; HEADER as usize];
@@ -75,16 +77,15 @@ impl Records {
             return Ok(cut);
         }
         let [opcode, length @ ..] = header;
-        let (announced, available) = (u64::from_le_bytes(length), left - HEADER);
-        let length = announced.min(available);
-        let record = RecordHeader { opcode, offset: self.offset, length, is_cut: announced > available };
-        self.offset += HEADER + length;
-        self.unread = length;
+        let (length, available) = (u64::from_le_bytes(length), left - HEADER);
+        let record = RecordHeader { opcode, offset: self.offset, length, is_cut: length > available };
+        self.unread = length.min(available);
+        self.offset += HEADER + self.unread;
         Ok(Some(record))
     }
 
     /// Reads the content of the current record, or its first `limit` bytes.
-    pub(super) fn content(&mut self, limit: u64) -> Result<Vec<u8>, Problem> {
+    pub(crate) fn content(&mut self, limit: u64) -> Result<Vec<u8>, Problem> {
         let mut content = Vec::new();
         let read = self.file.by_ref().take(self.unread.min(limit)).read_to_end(&mut content);
         self.unread -= read.map_err(|error| unreadable(&self.path, &error))? as u64;
@@ -93,6 +94,11 @@ impl Records {
 
     pub(super) fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Where the next record begins.
+    pub(crate) fn position(&self) -> u64 {
+        self.offset
     }
 
     /// A problem in this file at this byte.

@@ -79,6 +79,15 @@ fn a_file_cut_at_any_byte_gives_what_is_there() {
 }
 
 #[test]
+fn a_chunk_that_was_cut_off_gives_the_messages_before_the_cut() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = Recorder::with_compression(None).messages(&SAMPLES[..2]).end_chunk().finish();
+    let second = whole.windows(6).position(|window| window == b"second").unwrap();
+    let path = write_file(folder.path(), "cut.mcap", &whole[..second]);
+    assert_eq!(read_file(&path).unwrap().1, expected()[..1]);
+}
+
+#[test]
 fn a_damaged_byte_is_an_error_or_changes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, all) = (small_recording(), expected());

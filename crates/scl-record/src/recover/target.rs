@@ -23,16 +23,11 @@ pub(super) struct Target {
     path: PathBuf,
     /// Beside `path`; removed unless it is published.
     file: NamedTempFile,
-    output: Output,
+    /// `None` before the header of the old file is known.
+    output: Option<Writer<NoSeek<BufWriter<File>>>>,
     messages: u64,
     /// Bytes in the open chunk.
     pending: u64,
-}
-
-enum Output {
-    /// Before the header of the old file is known.
-    Empty,
-    Open(Box<Writer<NoSeek<BufWriter<File>>>>),
 }
 
 impl Target {
@@ -43,7 +38,7 @@ impl Target {
             .map_err(|error| Problem::new(format!("cannot create a file in `{}`: {error}", folder.display())))?;
         // The content is what matters; a file system may know no permissions.
         let _copied = file.as_file().set_permissions(old.permissions());
-        Ok(Self { path: path.to_owned(), file, output: Output::Empty, messages: 0, pending: 0 })
+        Ok(Self { path: path.to_owned(), file, output: None, messages: 0, pending: 0 })
     }
 
     /// Number of messages so far.
@@ -59,7 +54,7 @@ impl Target {
             return Ok(true);
         }
         self.open(None)?;
-        let Output::Open(writer) = &mut self.output else { return Ok(false) };
+        let Some(writer) = &mut self.output else { return Ok(false) };
         let added = match record {
             Record::Schema { header, data } => {
                 writer.add_schema_with_id(header.id, &header.name, &header.encoding, &data).map(drop)
@@ -105,7 +100,7 @@ impl Target {
     /// Writes the index.
     pub(super) fn finish(&mut self) -> McapResult<()> {
         self.open(None)?;
-        if let Output::Open(writer) = &mut self.output {
+        if let Some(writer) = &mut self.output {
             writer.finish()?;
         }
         Ok(())
@@ -128,22 +123,21 @@ impl Target {
     /// Gives the file its name, with its content safely on the disk.
     pub(super) fn publish(self) -> Result<(), Problem> {
         let Self { path, file, output, .. } = self;
-        let written = match output {
-            Output::Open(writer) => writer.into_inner().into_inner().flush(),
-            Output::Empty => Ok(()),
-        };
+        let written = output.map_or(Ok(()), |writer| writer.into_inner().into_inner().flush());
         let published = written.and_then(|()| file.as_file().sync_all()).and_then(|()| Ok(file.persist(&path)?));
         published.map(drop).map_err(|error| Problem::new(format!("cannot write `{}`: {error}", path.display())))
     }
 
     fn open(&mut self, header: Option<Header>) -> McapResult<()> {
-        let Output::Empty = self.output else { return Ok(()) };
+        if self.output.is_some() {
+            return Ok(());
+        }
         let mut options = options();
         if let Some(header) = header {
             options = options.profile(header.profile).library(header.library);
         }
         let file = self.file.as_file().try_clone()?;
-        self.output = Output::Open(Box::new(options.create(NoSeek::new(BufWriter::new(file)))?));
+        self.output = Some(options.create(NoSeek::new(BufWriter::new(file)))?);
         Ok(())
     }
 }
