@@ -6,12 +6,13 @@ mod timer;
 mod watchdog;
 
 pub(crate) use rounded::Rounded;
+#[doc(hidden)]
+pub use timer::Timer;
 pub(crate) use watchdog::Watchdog;
 
 use std::future::poll_fn;
 use std::io;
 use std::time::Duration;
-use timer::Timer;
 use tokio::time::Instant;
 
 /// A periodic timer. The runtime's own timers round to milliseconds; this one uses the operating system's (timerfd).

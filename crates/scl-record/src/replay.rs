@@ -4,9 +4,7 @@
 //! program that was recorded. Its `pub`, `push` and `req` gates send what was recorded, at the same distances in time.
 //! Its `rep` gates answer with the recorded replies, and what its other gates receive is taken and discarded.
 
-mod alarm;
 mod answers;
-mod lateness;
 mod pace;
 mod participants;
 mod players;
@@ -193,14 +191,17 @@ impl Run<'_> {
                 if self.players.answers() {
                     self.pace.wait_for(time).await?;
                 }
-                self.stage.skip(reported);
+                self.stage.count(reported, |gate| gate.skipped += 1);
                 continue;
             };
             self.pace.wait_for(time).await?;
             (self.progress)(Duration::from_nanos(time.saturating_sub(self.origin)));
             match self.players.send(&sender, &message.payload).await? {
-                None => self.stage.count(reported),
-                Some(reason) => self.stage.refuse(reported, reason),
+                None => self.stage.count(reported, |gate| gate.sent += 1),
+                Some(reason) => self.stage.count(reported, |gate| {
+                    gate.reason = reason;
+                    gate.skipped += 1;
+                }),
             }
         }
         Ok(())
@@ -243,22 +244,9 @@ impl Stage<'_> {
         only.is_empty() || only.iter().any(|name| name == recorded || name == sender)
     }
 
-    fn count(&mut self, reported: Option<usize>) {
+    fn count(&mut self, reported: Option<usize>, change: impl FnOnce(&mut GateReport)) {
         if let Some(gate) = reported.and_then(|index| self.report.gates.get_mut(index)) {
-            gate.sent += 1;
-        }
-    }
-
-    fn refuse(&mut self, reported: Option<usize>, reason: String) {
-        if let Some(gate) = reported.and_then(|index| self.report.gates.get_mut(index)) {
-            gate.reason = reason;
-        }
-        self.skip(reported);
-    }
-
-    fn skip(&mut self, reported: Option<usize>) {
-        if let Some(gate) = reported.and_then(|index| self.report.gates.get_mut(index)) {
-            gate.skipped += 1;
+            change(gate);
         }
     }
 }

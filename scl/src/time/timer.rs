@@ -11,13 +11,13 @@ use tokio::io::unix::AsyncFd;
 
 /// A timer that keeps running while it is not polled, and costs the runtime nothing until it expires.
 #[derive(Debug)]
-pub(super) struct Timer {
+pub struct Timer {
     descriptor: AsyncFd<OwnedFd>,
 }
 
 impl Timer {
     /// A timer that is not set. Needs a tokio runtime.
-    pub(super) fn new() -> io::Result<Self> {
+    pub fn new() -> io::Result<Self> {
         let timer = timerfd_create(TimerfdClockId::Monotonic, TimerfdFlags::NONBLOCK | TimerfdFlags::CLOEXEC)?;
         #[expect(deprecated, reason = "unsound only for types whose descriptor changes; that of an `OwnedFd` does not")]
         let descriptor = AsyncFd::new(timer)?;
@@ -25,14 +25,14 @@ impl Timer {
     }
 
     /// Expires after `first`, which must not be zero, and then every `period` unless that is zero.
-    pub(super) fn set(&self, first: Duration, period: Duration) -> io::Result<()> {
+    pub fn set(&self, first: Duration, period: Duration) -> io::Result<()> {
         let times = Itimerspec { it_value: timespec(first), it_interval: timespec(period) };
         timerfd_settime(self.descriptor.get_ref(), TimerfdTimerFlags::empty(), &times)?;
         Ok(())
     }
 
     /// Ready when the timer has expired; returns how often it did since the last read.
-    pub(super) fn poll_expired(&mut self, cx: &mut Context<'_>) -> Poll<io::Result<u64>> {
+    pub fn poll_expired(&mut self, cx: &mut Context<'_>) -> Poll<io::Result<u64>> {
         loop {
             let mut readable = ready!(self.descriptor.poll_read_ready(cx))?;
             let mut count = [0; 8];

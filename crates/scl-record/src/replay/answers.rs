@@ -22,8 +22,8 @@ const LIMIT: usize = 256 << 20;
 pub(super) struct Answers {
     /// Requests are compared by what they mean: another program may write maps in another order.
     requests: MessageType,
-    replies: Vec<Bytes>,
-    given: Vec<bool>,
+    /// Whether each was given.
+    replies: Vec<(Bytes, bool)>,
     /// By request in its canonical form, indices of its replies.
     by_request: HashMap<Bytes, Vec<usize>>,
     /// All replies before this one were given.
@@ -43,23 +43,21 @@ pub(super) enum Answer {
 
 impl Answers {
     fn new(requests: MessageType) -> Self {
-        let (replies, given, by_request) = Default::default();
-        Self { requests, replies, given, by_request, first: 0 }
+        Self { requests, replies: Vec::new(), by_request: HashMap::new(), first: 0 }
     }
 
     fn add(&mut self, request: Bytes, reply: Bytes) {
         self.by_request.entry(request).or_default().push(self.replies.len());
-        self.replies.push(reply);
-        self.given.push(false);
+        self.replies.push((reply, false));
     }
 
     /// The reply to a request.
     pub(super) fn answer(&mut self, request: &[u8]) -> Answer {
         if let Some(own) = self.by_request.get(&self.requests.canonical(request)) {
-            let chosen = own.iter().find(|&&index| !self.given[index]).or(own.last()).copied();
+            let chosen = own.iter().find(|&&index| !self.replies[index].1).or(own.last()).copied();
             return chosen.and_then(|index| self.give(index)).map_or(Answer::Missing, Answer::Recorded);
         }
-        while self.given.get(self.first) == Some(&true) {
+        while self.replies.get(self.first).is_some_and(|(_, given)| *given) {
             self.first += 1;
         }
         self.give(self.first).map_or(Answer::Missing, Answer::NextInOrder)
@@ -71,8 +69,9 @@ impl Answers {
     }
 
     fn give(&mut self, index: usize) -> Option<Bytes> {
-        *self.given.get_mut(index)? = true;
-        self.replies.get(index).cloned()
+        let (reply, given) = self.replies.get_mut(index)?;
+        *given = true;
+        Some(reply.clone())
     }
 }
 

@@ -30,24 +30,32 @@ impl Participants {
             _ => None,
         };
         let running: Vec<_> = plan.components.iter().filter_map(state).collect();
+        let recorded = || {
+            let names = plan.components.iter().map(|plan| plan.component.as_str());
+            format!("the recording has {}", quoted_list(names))
+        };
         let is_running = |name: &str| running.iter().find(|(running, _)| running == name);
         let played: Vec<Plan> = if options.components.is_empty() {
             plan.components.iter().filter(|plan| is_running(&plan.component).is_none()).cloned().collect()
         } else {
             let named = options.components.iter().map(|name| match is_running(name) {
-                Some((_, holder)) => Err(already_running(name, *holder)),
-                None => plan.component(name).cloned().map_err(|error| unknown(plan, &error.to_string())),
+                Some((_, holder)) => Err(Problem::new(format!("component `{name}` is already running as {holder}"))
+                    .help("stop it first, or replay into another system with `--system`")),
+                None => plan.component(name).cloned().map_err(|error| Problem::new(error.to_string()).note(recorded())),
             });
             named.collect::<Result<_, _>>()?
         };
         if played.is_empty() {
-            let names = quoted_list(plan.components.iter().map(|plan| plan.component.as_str()));
             return Err(Problem::new("nothing can be replayed: all recorded components are running")
                 .help("stop those that the replay is to replace, or replay into another system with `--system`")
-                .note(format!("the recording has {names}")));
+                .note(recorded()));
         }
         let cast = Self { system, played, running };
-        cast.check_contracts(&dir)?;
+        for plan in &cast.played {
+            for gate in &plan.gates {
+                gate.connections.iter().try_for_each(|connection| check_contract(&dir, plan, gate, connection))?;
+            }
+        }
         Ok(cast)
     }
 
@@ -62,17 +70,6 @@ impl Participants {
             Some((name, holder)) => format!("`{name}` is running as {holder}"),
             None => format!("`{component}` is not played"),
         }
-    }
-
-    fn check_contracts(&self, dir: &SystemDir) -> Result<(), Problem> {
-        for plan in &self.played {
-            for gate in &plan.gates {
-                for connection in &gate.connections {
-                    check_contract(dir, plan, gate, connection)?;
-                }
-            }
-        }
-        Ok(())
     }
 }
 
@@ -116,14 +113,4 @@ fn check_contract(dir: &SystemDir, plan: &Plan, gate: &GatePlan, connection: &Co
         announcement.pid,
         announcement.program.display()
     )))
-}
-
-fn already_running(component: &str, holder: ComponentProcess) -> Problem {
-    Problem::new(format!("component `{component}` is already running as {holder}"))
-        .help("stop it first, or replay into another system with `--system`")
-}
-
-fn unknown(plan: &SystemPlan, error: &str) -> Problem {
-    let names = plan.components.iter().map(|plan| plan.component.as_str());
-    Problem::new(error).note(format!("the recording has {}", quoted_list(names)))
 }

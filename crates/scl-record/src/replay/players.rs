@@ -29,6 +29,7 @@ const SHOWN: usize = 60;
 const NO_LIMIT: Duration = Duration::from_secs(30 * 86_400);
 
 /// The played components and their gates.
+#[derive(Default)]
 pub(super) struct Players {
     components: Vec<Component>,
     senders: HashMap<GateId, SendingGate>,
@@ -72,14 +73,7 @@ impl Players {
         mut answers: HashMap<GateId, Answers>,
     ) -> Result<Self, Problem> {
         let is_lossless = options.rate.is_max();
-        let mut players = Self {
-            components: Vec::new(),
-            senders: HashMap::new(),
-            answering: Vec::new(),
-            calling: Vec::new(),
-            receiving: Vec::new(),
-            is_lossless,
-        };
+        let mut players = Self { is_lossless, ..Self::default() };
         for plan in &cast.played {
             let mut plan = plan.clone();
             if is_lossless {

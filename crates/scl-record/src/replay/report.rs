@@ -1,5 +1,6 @@
 //! What a replay has done.
 
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::time::Duration;
@@ -22,7 +23,7 @@ pub struct ReplayReport {
 }
 
 /// What became of the messages of one recorded gate.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub struct GateReport {
     /// The gate in the recording: `controller.commands`.
     pub recorded: String,
@@ -35,23 +36,25 @@ pub struct GateReport {
     /// Messages that were not sent.
     pub skipped: u64,
     /// Why they were not.
+    #[serde(serialize_with = "unless_empty")]
     pub reason: String,
 }
 
 /// Messages that were sent, but that a peer has not taken.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 pub struct NotTaken {
     pub gate: String,
     pub peer: String,
     pub messages: u64,
     /// Whether the peer was not there at the end.
+    #[serde(skip)]
     pub was_absent: bool,
     /// Why: `its queue was full`.
     pub reason: &'static str,
 }
 
 /// Requests to a played replier.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub struct AnswerReport {
     pub gate: String,
     pub answered: u64,
@@ -116,41 +119,24 @@ impl ReplayReport {
 
     /// One JSON object.
     pub fn to_json(&self) -> Value {
-        let gates = self.gates.iter().map(|gate| {
-            let reason = Some(&gate.reason).filter(|reason| !reason.is_empty());
-            json!({
-                "recorded": gate.recorded,
-                "sender": gate.sender,
-                "sent": gate.sent,
-                "replies": gate.replies,
-                "skipped": gate.skipped,
-                "reason": reason,
-            })
-        });
-        let answers = self.answers.iter().map(|gate| {
-            json!({
-                "gate": gate.gate,
-                "answered": gate.answered,
-                "in_order": gate.in_order,
-                "unanswered": gate.unanswered,
-            })
-        });
-        let not_taken = self.not_taken.iter().map(
-            |left| json!({"gate": left.gate, "peer": left.peer, "messages": left.messages, "reason": left.reason}),
-        );
         let micros = |time: Duration| time.as_secs_f64() * 1e6;
         json!({
             "seconds": self.took.as_secs_f64(),
             "stopped": self.was_stopped,
             "sent": self.sent(),
-            "gates": gates.collect::<Vec<_>>(),
-            "answers": answers.collect::<Vec<_>>(),
-            "not_taken": not_taken.collect::<Vec<_>>(),
+            "gates": self.gates,
+            "answers": self.answers,
+            "not_taken": self.not_taken,
             "late_us": self.late.map(
                 |late| json!({"p50": micros(late.p50), "p99": micros(late.p99), "max": micros(late.max)})
             ),
         })
     }
+}
+
+/// In JSON, an empty text is `null`.
+fn unless_empty<S: Serializer>(text: &str, output: S) -> Result<S::Ok, S::Error> {
+    Some(text).filter(|text| !text.is_empty()).serialize(output)
 }
 
 fn count(number: u64, what: &str) -> String {

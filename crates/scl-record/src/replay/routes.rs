@@ -3,7 +3,7 @@
 use super::participants::Participants;
 use crate::format::Part;
 use crate::recording::{RecordedChannel, type_and_codec};
-use scl_plan::{GatePlan, Payload, SystemPlan};
+use scl_plan::{GatePlan, SystemPlan};
 use scl_terminal::{Problem, closest_name};
 
 /// What becomes of the messages of a channel.
@@ -63,13 +63,7 @@ fn check_contract(channel: &RecordedChannel, gate: &GatePlan) -> Result<(), Prob
     if channel.metadata.contract == gate.contract {
         return Ok(());
     }
-    let type_name = match (&gate.payload, channel.topic.part) {
-        (Payload::Bytes, _) => None,
-        (Payload::Message(name), _) => Some(name.as_str()),
-        (Payload::Exchange { request, .. }, Part::Request) => Some(request.as_str()),
-        (Payload::Exchange { reply, .. }, _) => Some(reply.as_str()),
-    };
-    let planned = type_and_codec(type_name, &gate.codec);
+    let planned = type_and_codec(channel.topic.part.type_name(&gate.payload), &gate.codec);
     let recorded = channel.type_and_codec();
     let name = channel.topic.gate_name();
     let problem = Problem::new(format!("`{name}` was recorded as {recorded}, but the topology declares {planned}"));

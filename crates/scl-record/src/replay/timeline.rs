@@ -1,9 +1,8 @@
 //! The messages of a recording in the order in which they were sent, read ahead by a thread.
 
-use crate::recording::{Clock, RecordedChannel, RecordedMessage, Recording};
+use crate::recording::{Clock, Messages, RecordedChannel, RecordedMessage, Recording};
 use scl_terminal::Problem;
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::BTreeMap;
 use std::ops::Range;
 use tokio::sync::mpsc;
 
@@ -56,11 +55,13 @@ pub(super) fn read(recording: &Recording, span: Range<u64>) -> Batches {
     receiver
 }
 
+#[derive(Default)]
 struct Timeline {
-    messages: crate::recording::Messages,
+    messages: Messages,
     clock: Clock,
     span: Range<u64>,
-    held: BinaryHeap<Reverse<Held>>,
+    /// By time, then by place in the file.
+    held: BTreeMap<(u64, u64), RecordedMessage>,
     held_bytes: usize,
     /// Number of messages read, and the latest time at which the recorder received one.
     read: u64,
@@ -71,31 +72,9 @@ struct Timeline {
     is_at_end: bool,
 }
 
-/// Ordered by time, then by place in the file.
-#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Held {
-    time: u64,
-    number: u64,
-    message: Unordered,
-}
-
-#[derive(Debug)]
-struct Unordered(RecordedMessage);
-
 impl Timeline {
     fn new(recording: &Recording, span: Range<u64>) -> Self {
-        Self {
-            messages: recording.messages(),
-            clock: Clock::default(),
-            span,
-            held: BinaryHeap::new(),
-            held_bytes: 0,
-            read: 0,
-            received: 0,
-            latest: Vec::new(),
-            channels_given: 0,
-            is_at_end: false,
-        }
+        Self { messages: recording.messages(), span, ..Self::default() }
     }
 
     /// Empty at the end.
@@ -127,8 +106,7 @@ impl Timeline {
                 None => self.is_at_end = true,
             }
         }
-        let first =
-            self.held.pop().map(|Reverse(Held { time, message: Unordered(message), .. })| Timed { time, message });
+        let first = self.held.pop_first().map(|((time, _), message)| Timed { time, message });
         self.held_bytes -= first.as_ref().map_or(0, |first| first.message.payload.len());
         Ok(first)
     }
@@ -145,35 +123,14 @@ impl Timeline {
         self.received = self.received.max(times.received);
         self.held_bytes += message.payload.len();
         self.read += 1;
-        self.held.push(Reverse(Held { time, number: self.read, message: Unordered(message) }));
+        self.held.insert((time, self.read), message);
     }
 
     /// Returns true if no message with an earlier time is expected.
     fn is_first_in_place(&self) -> bool {
         let is_full = self.held.len() >= MOST_MESSAGES || self.held_bytes >= MOST_BYTES;
-        let is_old = |Reverse(first): &Reverse<Held>| first.time.saturating_add(WINDOW) < self.received;
-        self.held.peek().is_some_and(|first| is_full || is_old(first))
-    }
-}
-
-/// The messages themselves have no order.
-impl PartialEq for Unordered {
-    fn eq(&self, _other: &Self) -> bool {
-        true
-    }
-}
-
-impl Eq for Unordered {}
-
-impl PartialOrd for Unordered {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Unordered {
-    fn cmp(&self, _other: &Self) -> std::cmp::Ordering {
-        std::cmp::Ordering::Equal
+        let is_old = |time: &u64| time.saturating_add(WINDOW) < self.received;
+        self.held.first_key_value().is_some_and(|((time, _), _)| is_full || is_old(time))
     }
 }
 
