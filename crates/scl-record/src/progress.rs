@@ -6,6 +6,16 @@ use std::time::Duration;
 /// How often a terminal is redrawn per second.
 const REDRAWS: u8 = 10;
 
+/// A bar or a line on standard error; invisible unless that is a terminal.
+pub(crate) fn bar(length: Option<u64>, template: &str) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(length, ProgressDrawTarget::stderr());
+    // The templates are constants.
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar
+}
+
 /// A bar on standard error that shows a position in a recording.
 pub struct Progress {
     bar: ProgressBar,

@@ -9,9 +9,10 @@
 mod target;
 
 use crate::parse::{COMPRESSIONS, LONGEST};
+use crate::progress::bar;
 use crate::record::text_of;
 use crate::recording::{Records, chunk};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 use mcap::records::op;
 use mcap::{MAGIC, McapError};
 use scl_terminal::{Problem, bytes_text, closest_name, escape};
@@ -65,7 +66,7 @@ pub fn recover(input: &Path, output: Option<&Path>) -> Result<Recovered, Problem
     }
 
     let size = metadata.len();
-    let progress = progress_bar(size);
+    let progress = bar(Some(size), "{bar:40} {bytes} of {total_bytes}, {eta} left");
     check_magic(input, &file, size)?;
     let shared = file.try_clone().map_err(|error| unreadable(&error))?;
     let mut records = Records::new(input, shared, MAGIC.len() as u64, size);
@@ -207,15 +208,6 @@ fn check_magic(path: &Path, mut file: &File, size: u64) -> Result<(), Problem> {
         Err(_) => "it is too short",
     };
     Err(Problem::new(format!("`{}` is not an MCAP file: {reason}", path.display())))
-}
-
-fn progress_bar(size: u64) -> ProgressBar {
-    // Invisible unless standard error is a terminal.
-    let bar = ProgressBar::with_draw_target(Some(size), ProgressDrawTarget::stderr());
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {bytes} of {total_bytes}, {eta} left") {
-        bar.set_style(style);
-    }
-    bar
 }
 
 #[cfg(test)]

@@ -65,12 +65,8 @@ impl Recorder {
     }
 
     /// Messages of JSON, unless the plan says otherwise.
-    pub fn messages(mut self, samples: &[Sample<'_>]) -> Self {
-        for &(topic, at, payload) in samples {
-            let channel_id = self.channel(topic, "json", "rover.Measurement");
-            self.write(channel_id, at, payload.as_bytes());
-        }
-        self
+    pub fn messages(self, samples: &[Sample<'_>]) -> Self {
+        samples.iter().fold(self, |recorder, sample| recorder.message_of_type(*sample, "json", "rover.Measurement"))
     }
 
     /// Messages of JSON that the recorder received at this time, in milliseconds since the beginning.

@@ -52,12 +52,7 @@ impl Collector<'_> {
         progress: &Progress,
         mut stopped: oneshot::Receiver<()>,
     ) {
-        let end = async {
-            match run_for {
-                Some(time) => sleep(time).await,
-                None => std::future::pending().await,
-            }
-        };
+        let end = sleep(run_for.unwrap_or(Duration::MAX));
         tokio::pin!(end);
         let mut show = interval(SHOW);
         show.set_missed_tick_behavior(MissedTickBehavior::Skip);
@@ -185,7 +180,7 @@ impl Collector<'_> {
 
 async fn accept(trigger: &Option<TriggerListener>) -> std::io::Result<tokio::net::UnixStream> {
     match trigger {
-        Some(trigger) => trigger.accept().await,
+        Some(trigger) => Ok(trigger.listener.accept().await?.0),
         None => std::future::pending().await,
     }
 }

@@ -3,7 +3,8 @@
 use super::contents::AttachedFile;
 use super::continuous::Split;
 use super::storage::Progress;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use crate::progress::bar;
+use indicatif::ProgressBar;
 use scl_terminal::{bytes_text, print_err};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
@@ -53,12 +54,7 @@ pub(crate) struct Notes {
 
 impl Notes {
     pub(crate) fn new() -> Self {
-        // Invisible unless standard error is a terminal.
-        let line = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-        if let Ok(style) = ProgressStyle::with_template("{elapsed:>4}  {msg}") {
-            line.set_style(style);
-        }
-        Self { line }
+        Self { line: bar(None, "{elapsed:>4}  {msg}") }
     }
 
     pub(crate) fn say(&self, text: &str) {

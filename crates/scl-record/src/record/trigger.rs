@@ -6,7 +6,7 @@
 use scl_observe::System;
 use scl_terminal::Problem;
 use std::fs;
-use std::io::{self, Read};
+use std::io::Read;
 use std::os::unix::net::UnixStream as BlockingStream;
 use std::path::{Path, PathBuf};
 use std::process;
@@ -21,7 +21,8 @@ const PATIENCE: Duration = Duration::from_secs(120);
 
 /// The recorder's end; the socket is removed when it is dropped.
 pub(crate) struct TriggerListener {
-    listener: UnixListener,
+    /// Who connects wants the ring written.
+    pub(crate) listener: UnixListener,
     path: PathBuf,
 }
 
@@ -35,11 +36,6 @@ impl TriggerListener {
             Ok(listener) => Ok(Self { listener, path }),
             Err(error) => Err(Problem::new(format!("cannot listen at `{}`: {error}", path.display()))),
         }
-    }
-
-    /// Waits for somebody who wants the ring written. Cancel safe.
-    pub(crate) async fn accept(&self) -> io::Result<UnixStream> {
-        Ok(self.listener.accept().await?.0)
     }
 }
 

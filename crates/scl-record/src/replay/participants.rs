@@ -5,7 +5,7 @@ use crate::recording::type_and_codec;
 use scl::runtime_dir::{AnnouncedEndpoint, Announcement, ComponentProcess, ComponentState, RuntimeDir, SystemDir};
 use scl_observe::problem_of;
 use scl_plan::{ConnectionPlan, GatePlan, Plan, SystemPlan};
-use scl_terminal::{Problem, quoted_list};
+use scl_terminal::{Problem, named_system, quoted_list};
 
 /// Who takes part in a replay.
 #[derive(Debug)]
@@ -22,8 +22,11 @@ impl Participants {
     /// # Errors
     /// A component is unknown or runs, all of them run, or a running one has another contract.
     pub(super) fn choose(plan: &SystemPlan, options: &ReplayOptions) -> Result<Self, Problem> {
-        let system = system_name(plan, options)?;
-        let dir = RuntimeDir::locate(&|name| std::env::var_os(name)).and_then(|dir| dir.system(&system));
+        let variables = |name: &str| std::env::var_os(name);
+        // The name as the runtime chooses it.
+        let named = named_system(options.system.as_deref(), &variables)?;
+        let system = named.unwrap_or_else(|| plan.system.clone());
+        let dir = RuntimeDir::locate(&variables).and_then(|dir| dir.system(&system));
         let dir = dir.map_err(|error| problem_of(&error))?;
         let state = |plan: &Plan| match dir.state(&plan.component) {
             ComponentState::Running(holder) => Some((plan.component.clone(), holder)),
@@ -70,20 +73,6 @@ impl Participants {
             Some((name, holder)) => format!("`{name}` is running as {holder}"),
             None => format!("`{component}` is not played"),
         }
-    }
-}
-
-/// The name as the runtime chooses it.
-fn system_name(plan: &SystemPlan, options: &ReplayOptions) -> Result<String, Problem> {
-    if let Some(name) = &options.system {
-        return Ok(name.clone());
-    }
-    match std::env::var_os("SCL_SYSTEM").filter(|name| !name.is_empty()) {
-        None => Ok(plan.system.clone()),
-        Some(name) => name.into_string().map_err(|name| {
-            Problem::new(format!("`SCL_SYSTEM` is `{}`, which is not a name in UTF-8", name.to_string_lossy()))
-                .help("name the system with `--system`")
-        }),
     }
 }
 
