@@ -17,7 +17,6 @@
 //! ```
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
-mod activity;
 mod bandwidth;
 mod component;
 mod delay;
@@ -41,9 +40,8 @@ mod taps;
 mod throughput;
 mod woken;
 
-pub use activity::Activity;
 pub use bandwidth::{BandwidthFigures, BandwidthMeter};
-pub use component::Component;
+pub use component::{Activity, Component};
 pub use delay::{DelayFigures, DelayMeter};
 pub use distribution::{Distribution, Spread};
 pub use doctor::{Finding, Severity, examine};

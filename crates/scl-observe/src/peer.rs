@@ -27,7 +27,11 @@ pub fn peers<'a>(plan: &'a GatePlan, figures: Option<&'a GateFigures>) -> Vec<Pe
     let peer = |(index, connection): (usize, &'a ConnectionPlan)| {
         let own: Option<&ConnectionFigures> = figures.and_then(|figures| figures.connections.get(index));
         let connected = match figures {
-            Some(figures) if plan.kind.shares_endpoint() => shared(figures.peers, plan.connections.len()),
+            // Only the number of connected peers is known.
+            Some(figures) if plan.kind.shares_endpoint() => match figures.peers {
+                0 => Some(false),
+                some => (some >= plan.connections.len() as u64).then_some(true),
+            },
             _ => own.map(|own| own.connected),
         };
         Peer { plan: connection, figures: own, connected }
@@ -42,12 +46,4 @@ pub fn connected_peers(plan: &GatePlan, figures: Option<&GateFigures>) -> Option
         return Some(usize::try_from(figures.peers).unwrap_or(usize::MAX));
     }
     Some(figures.connections.iter().filter(|connection| connection.connected).count())
-}
-
-fn shared(connected: u64, all: usize) -> Option<bool> {
-    match connected {
-        0 => Some(false),
-        some if some >= all as u64 => Some(true),
-        _ => None,
-    }
 }

@@ -1,9 +1,8 @@
 //! A system at one moment: its components and gates, with rates since the moment before. Only files are read, so it
 //! costs the components nothing.
 
-use crate::activity::Activity;
 use crate::process::ProcessFigures;
-use crate::{Component, System, throughput};
+use crate::{Activity, Component, System, throughput};
 use scl::runtime_dir::{ComponentStats, GateFigures};
 use scl_plan::{GateKind, GatePlan};
 use std::collections::HashMap;

@@ -37,13 +37,8 @@ pub enum TapsEvent {
     /// A gate that starts again with another type, codec or schema is added once more, and the one before becomes
     /// silent.
     Started(ObservedGate),
-    /// An event at a tap of a gate.
-    Event {
-        /// The gate's number.
-        gate: usize,
-        /// What happened.
-        event: TapEvent,
-    },
+    /// An event at a tap of the gate with this number.
+    Event { gate: usize, event: TapEvent },
 }
 
 /// One observer, and the gate for which it is.

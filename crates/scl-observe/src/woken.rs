@@ -7,12 +7,7 @@ use std::task::{Wake, Waker};
 /// The futures that were woken and not polled since, each once, in the order of their wake-ups.
 #[derive(Debug, Default)]
 pub(crate) struct Woken {
-    shared: Arc<Shared>,
-}
-
-#[derive(Debug, Default)]
-struct Shared {
-    state: Mutex<State>,
+    state: Arc<Mutex<State>>,
 }
 
 #[derive(Debug, Default)]
@@ -24,19 +19,19 @@ struct State {
 
 struct Member {
     index: usize,
-    shared: Arc<Shared>,
+    state: Arc<Mutex<State>>,
 }
 
 impl Woken {
     /// The waker of the future with this number, which counts as woken now.
     pub(crate) fn add(&self, index: usize) -> Waker {
-        self.shared.push(index);
-        Arc::new(Member { index, shared: Arc::clone(&self.shared) }).into()
+        push(&self.state, index);
+        Arc::new(Member { index, state: Arc::clone(&self.state) }).into()
     }
 
     /// Takes the next woken future.
     pub(crate) fn take(&self) -> Option<usize> {
-        let mut state = self.shared.lock();
+        let mut state = lock(&self.state);
         let next = state.queue.pop_front()?;
         state.queued[next] = false;
         Some(next)
@@ -44,7 +39,7 @@ impl Woken {
 
     /// Wakes `task` when a future is woken, or now if one is.
     pub(crate) fn wake_when_any(&self, task: &Waker) {
-        let mut state = self.shared.lock();
+        let mut state = lock(&self.state);
         if !state.queue.is_empty() {
             task.wake_by_ref();
         } else if !state.task.as_ref().is_some_and(|known| known.will_wake(task)) {
@@ -54,44 +49,42 @@ impl Woken {
 
     /// Number of woken futures now.
     pub(crate) fn len(&self) -> usize {
-        self.shared.lock().queue.len()
+        lock(&self.state).queue.len()
     }
 
     /// Puts a future that is not done yet at the end of the queue.
     pub(crate) fn put_back(&self, index: usize) {
-        self.shared.push(index);
+        push(&self.state, index);
     }
 }
 
-impl Shared {
-    fn push(&self, index: usize) {
-        let mut state = self.lock();
-        if state.queued.len() <= index {
-            state.queued.resize(index + 1, false);
-        }
-        if std::mem::replace(&mut state.queued[index], true) {
-            return;
-        }
-        state.queue.push_back(index);
-        let task = state.task.take();
-        drop(state);
-        if let Some(task) = task {
-            task.wake();
-        }
+fn push(state: &Mutex<State>, index: usize) {
+    let mut state = lock(state);
+    if state.queued.len() <= index {
+        state.queued.resize(index + 1, false);
     }
+    if std::mem::replace(&mut state.queued[index], true) {
+        return;
+    }
+    state.queue.push_back(index);
+    let task = state.task.take();
+    drop(state);
+    if let Some(task) = task {
+        task.wake();
+    }
+}
 
-    fn lock(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+fn lock(state: &Mutex<State>) -> MutexGuard<'_, State> {
+    state.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Wake for Member {
     fn wake(self: Arc<Self>) {
-        self.shared.push(self.index);
+        push(&self.state, self.index);
     }
 
     fn wake_by_ref(self: &Arc<Self>) {
-        self.shared.push(self.index);
+        push(&self.state, self.index);
     }
 }
 

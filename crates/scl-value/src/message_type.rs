@@ -22,14 +22,12 @@ pub struct MessageType {
 #[derive(Debug, Clone)]
 enum Form {
     Protobuf(MessageDescriptor),
-    /// Canonical protobuf JSON.
+    // Canonical protobuf JSON.
     ProtobufJson(MessageDescriptor),
     Json,
     Cbor,
     Msgpack,
-    Opaque {
-        why: String,
-    },
+    Opaque { why: String },
 }
 
 impl MessageType {

@@ -1,8 +1,7 @@
 //! Components that were killed, hang, or were built with another release.
 
 use super::{Examined, Finding};
-use crate::activity::Activity;
-use crate::{Component, System};
+use crate::{Activity, Component, System};
 use scl::runtime_dir::ComponentState;
 use std::time::SystemTime;
 
