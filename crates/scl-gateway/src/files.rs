@@ -4,6 +4,7 @@ use clap::Args;
 use scl_gateway::deployment::{Host, System};
 use scl_gateway::keys::{self, HostFiles, KeyProblem};
 use scl_terminal::{Problem, print_err, timestamp};
+use std::error::Error;
 use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
 
@@ -85,10 +86,11 @@ fn explained(problem: &KeyProblem, host: &str) -> Problem {
         }
         _ => renew,
     };
-    let cause = std::error::Error::source(problem).map(ToString::to_string);
-    let shown = Problem::new(problem.to_string()).help(help);
-    match cause {
-        Some(cause) => shown.note(cause),
-        None => shown,
-    }
+    with_cause(problem).help(help)
+}
+
+/// An error, with its cause as a note.
+pub(crate) fn with_cause(error: &dyn Error) -> Problem {
+    let problem = Problem::new(error.to_string());
+    error.source().into_iter().fold(problem, |problem, cause| problem.note(cause.to_string()))
 }

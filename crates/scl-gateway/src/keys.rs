@@ -9,13 +9,11 @@
 
 mod certificate;
 mod check;
-mod folder;
 mod issue;
 
 pub use check::{KeyProblem, check};
 pub use issue::{Issued, KeysError, Wanted, issue};
 
-use crate::deployment::Deployment;
 use std::path::{Path, PathBuf};
 
 /// The PEM files of one host.
@@ -39,19 +37,11 @@ impl HostFiles {
             key: folder.join(KEY),
         }
     }
-
-    fn all(&self) -> [&Path; 3] {
-        [&self.authority, &self.certificate, &self.key]
-    }
 }
 
 const AUTHORITY_CERTIFICATE: &str = "authority.pem";
 const CERTIFICATE: &str = "certificate.pem";
 const KEY: &str = "key.pem";
-
-fn authority_folder(certificates: &Path) -> PathBuf {
-    certificates.join(Deployment::AUTHORITY)
-}
 
 #[cfg(test)]
 mod tests;

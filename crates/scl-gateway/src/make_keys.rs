@@ -1,6 +1,6 @@
 //! `scl gateway keys`: certificates for the hosts of a launch file.
 
-use crate::files::{FileArguments, find_host, show};
+use crate::files::{FileArguments, find_host, show, with_cause};
 use clap::Args;
 use scl_gateway::deployment::{Host, System};
 use scl_gateway::keys::{Issued, KeysError, Wanted, issue};
@@ -98,12 +98,7 @@ fn date(time: SystemTime) -> String {
 }
 
 fn explained(error: &KeysError) -> Problem {
-    let problem = Problem::new(error.to_string());
-    let cause = std::error::Error::source(error).map(ToString::to_string);
-    let problem = match cause {
-        Some(cause) => problem.note(cause),
-        None => problem,
-    };
+    let problem = with_cause(error);
     match error {
         KeysError::NoAuthorityKey { .. } => problem
             .help("run this where the authority was made")

@@ -6,7 +6,6 @@
 //! alone, which a running program cannot set safely. So this program starts itself again, as the same process.
 
 use scl_terminal::Problem;
-use std::convert::Infallible;
 use std::os::unix::process::CommandExt;
 use std::process::Command;
 
@@ -22,10 +21,6 @@ pub(crate) fn ensure() -> Result<(), Problem> {
     if std::env::var_os(VARIABLE).is_some_and(|value| value == VALUE) {
         return Ok(());
     }
-    start_again().map(|never| match never {})
-}
-
-fn start_again() -> Result<Infallible, Problem> {
     // Not a path: the file may have been replaced by a newer one meanwhile.
     let mut command = Command::new("/proc/self/exe");
     command.args(std::env::args_os().skip(1)).env(VARIABLE, VALUE);

@@ -19,104 +19,40 @@ use webpki::{ALL_VERIFICATION_ALGS, EndEntityCert, KeyUsage, anchor_from_trusted
 pub enum KeyProblem {
     /// There is no folder for the host.
     #[error("host `{host}` has no certificate: there is no folder `{}`", folder.display())]
-    NoFolder {
-        /// The host.
-        host: String,
-        /// Where it should be.
-        folder: PathBuf,
-    },
+    NoFolder { host: String, folder: PathBuf },
     /// A file is missing.
     #[error("a file of host `{host}` is missing: `{}`", path.display())]
-    Missing {
-        /// The host.
-        host: String,
-        /// Where it should be.
-        path: PathBuf,
-    },
+    Missing { host: String, path: PathBuf },
     /// A file cannot be read.
     #[error("cannot read `{}`", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
+    Unreadable { path: PathBuf, source: io::Error },
     /// A file does not contain what its name says.
     #[error("`{}` is not a {expected} in PEM", path.display())]
-    Malformed {
-        /// The file.
-        path: PathBuf,
-        /// `certificate` or `private key`.
-        expected: &'static str,
-    },
+    Malformed { path: PathBuf, expected: &'static str },
     /// Others than its user can read the private key.
     #[error("the private key `{}` can be read by others, its mode is {mode:04o}", path.display())]
-    Exposed {
-        /// The file.
-        path: PathBuf,
-        /// Its mode.
-        mode: u32,
-    },
+    Exposed { path: PathBuf, mode: u32 },
     /// The key is not that of the certificate.
     #[error("the private key `{}` does not belong to the certificate beside it", path.display())]
-    OtherKey {
-        /// The file of the key.
-        path: PathBuf,
-    },
+    OtherKey { path: PathBuf },
     /// The certificate has expired.
     #[error("the certificate of host `{host}` expired on {}", scl_terminal::timestamp(*at))]
-    Expired {
-        /// The host.
-        host: String,
-        /// When.
-        at: SystemTime,
-    },
+    Expired { host: String, at: SystemTime },
     /// The certificate is not valid yet.
     #[error("the certificate of host `{host}` is valid from {} on, and the clock says {}", scl_terminal::timestamp(*from), scl_terminal::timestamp(*now))]
-    NotYetValid {
-        /// The host.
-        host: String,
-        /// When it becomes valid.
-        from: SystemTime,
-        /// The time of this machine.
-        now: SystemTime,
-    },
+    NotYetValid { host: String, from: SystemTime, now: SystemTime },
     /// Another authority signed the certificate.
     #[error("the certificate of host `{host}` was not signed by the authority `{}`", authority.display())]
-    Foreign {
-        /// The host.
-        host: String,
-        /// The certificate of the authority.
-        authority: PathBuf,
-    },
+    Foreign { host: String, authority: PathBuf },
     /// The certificate cannot be used, for a reason of the library.
     #[error("the certificate of host `{host}` cannot be used: {reason}")]
-    Unusable {
-        /// The host.
-        host: String,
-        /// Why.
-        reason: webpki::Error,
-    },
+    Unusable { host: String, reason: webpki::Error },
     /// The certificate is that of another host.
     #[error("the certificate in `{}` is for host `{found}`, not for `{host}`", path.display())]
-    OtherHost {
-        /// The host.
-        host: String,
-        /// The host of the certificate.
-        found: String,
-        /// The file.
-        path: PathBuf,
-    },
-    /// The certificate is for another address.
+    OtherHost { host: String, found: String, path: PathBuf },
+    /// The certificate is for other addresses than that in the launch file.
     #[error("the certificate of host `{host}` is for the address {}, not for `{address}`", quoted(found))]
-    OtherAddress {
-        /// The host.
-        host: String,
-        /// The address in the launch file.
-        address: String,
-        /// The addresses of the certificate.
-        found: Vec<String>,
-    },
+    OtherAddress { host: String, address: String, found: Vec<String> },
 }
 
 /// Checks the files of a host, and returns when its certificate expires.
@@ -130,13 +66,8 @@ pub fn check(files: &HostFiles, host: &Host, now: SystemTime) -> Result<SystemTi
         return Err(vec![KeyProblem::NoFolder { host: name, folder: folder.to_owned() }]);
     }
     let mut problems = Vec::new();
-    let [authority, certificate, key] = files.all().map(|path| match read(path, &name) {
-        Ok(text) => Some(text),
-        Err(problem) => {
-            problems.push(problem);
-            None
-        }
-    });
+    let [authority, certificate, key] = [&files.authority, &files.certificate, &files.key]
+        .map(|path| read(path, &name).map_err(|problem| problems.push(problem)).ok());
     let mut parsed = |text: Option<String>, path: &Path| {
         let read = text.as_deref().map(Certificate::read)?;
         if read.is_none() {
@@ -146,14 +77,13 @@ pub fn check(files: &HostFiles, host: &Host, now: SystemTime) -> Result<SystemTi
     };
     let authority = parsed(authority, &files.authority);
     let certificate = parsed(certificate, &files.certificate);
-    let public_key = key.and_then(|text| {
+    let key = key.and_then(|text| {
         problems.extend(check_mode(&files.key));
-        let pair = KeyPair::from_pem(&text)
-            .map_err(|_| KeyProblem::Malformed { path: files.key.clone(), expected: "private key" });
-        pair.map_err(|problem| problems.push(problem)).ok().map(|pair| pair.public_key_raw().to_vec())
+        let malformed = |_| KeyProblem::Malformed { path: files.key.clone(), expected: "private key" };
+        KeyPair::from_pem(&text).map_err(malformed).map_err(|problem| problems.push(problem)).ok()
     });
     let Some(certificate) = certificate else { return Err(problems) };
-    if public_key.is_some_and(|key| key != certificate.public_key) {
+    if key.is_some_and(|key| key.public_key_raw() != certificate.public_key) {
         problems.push(KeyProblem::OtherKey { path: files.key.clone() });
     }
     problems.extend(check_times(&certificate, &name, now));

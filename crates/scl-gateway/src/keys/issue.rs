@@ -1,14 +1,15 @@
 //! Makes the authority of a system and the certificates of its hosts.
 
 use super::certificate::Certificate;
-use super::{AUTHORITY_CERTIFICATE, CERTIFICATE, KEY, authority_folder, folder};
-use crate::deployment::Host;
+use super::{AUTHORITY_CERTIFICATE, CERTIFICATE, KEY};
+use crate::deployment::{Deployment, Host};
 use rcgen::{
     BasicConstraints, CertificateParams, DistinguishedName, DnType, ExtendedKeyUsagePurpose, IsCa, Issuer, KeyPair,
     KeyUsagePurpose,
 };
-use std::fs;
-use std::io;
+use std::fs::{self, DirBuilder, OpenOptions};
+use std::io::{self, Write};
+use std::os::unix::fs::{DirBuilderExt, OpenOptionsExt};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
@@ -54,42 +55,19 @@ pub struct Issued {
 pub enum KeysError {
     /// A file or folder cannot be written or read.
     #[error("cannot write `{}`", path.display())]
-    Write {
-        /// The folder.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
+    Write { path: PathBuf, source: io::Error },
     /// Only the certificate of the authority is here.
     #[error("the key of the authority is not here: `{}`", path.display())]
-    NoAuthorityKey {
-        /// Where it should be.
-        path: PathBuf,
-    },
+    NoAuthorityKey { path: PathBuf },
     /// A certificate would not be valid for a moment.
     #[error("the authority in `{}` expired on {}", folder.display(), scl_terminal::timestamp(*at))]
-    AuthorityExpired {
-        /// Its folder.
-        folder: PathBuf,
-        /// When.
-        at: SystemTime,
-    },
+    AuthorityExpired { folder: PathBuf, at: SystemTime },
     /// The files of the authority are damaged.
     #[error("cannot use the authority in `{}`: {reason}", folder.display())]
-    Authority {
-        /// Their folder.
-        folder: PathBuf,
-        /// Why.
-        reason: String,
-    },
+    Authority { folder: PathBuf, reason: String },
     /// The library refused.
     #[error("cannot make a certificate for `{host}`")]
-    Certificate {
-        /// The host, or `authority`.
-        host: String,
-        /// Why.
-        source: rcgen::Error,
-    },
+    Certificate { host: String, source: rcgen::Error },
 }
 
 /// Makes what is wanted and not there.
@@ -102,12 +80,12 @@ pub fn issue(certificates: &Path, wanted: &Wanted<'_>) -> Result<Vec<Issued>, Ke
         let path = path.to_owned();
         move |source| KeysError::Write { path, source }
     };
-    folder::create(certificates).map_err(write(certificates))?;
-    let own = authority_folder(certificates);
+    create_folder(certificates).map_err(write(certificates))?;
+    let own = certificates.join(Deployment::AUTHORITY);
     let is_new = wanted.replace_authority || !own.exists();
     if is_new {
         let (certificate, key) = new_authority(wanted)?;
-        folder::replace(&own, &[(CERTIFICATE, &certificate), (KEY, &key)]).map_err(write(&own))?;
+        replace_folder(&own, &[(CERTIFICATE, &certificate), (KEY, &key)]).map_err(write(&own))?;
     }
     let authority = Authority::read(&own)?;
     let mut issued = vec![Issued { host: None, expires: Some(authority.expires), folder: own, is_new }];
@@ -120,7 +98,7 @@ pub fn issue(certificates: &Path, wanted: &Wanted<'_>) -> Result<Vec<Issued>, Ke
             }
             let (certificate, key) = authority.certify(host, wanted)?;
             let files = [(AUTHORITY_CERTIFICATE, authority.pem.as_str()), (CERTIFICATE, &certificate), (KEY, &key)];
-            folder::replace(&folder, &files).map_err(write(&folder))?;
+            replace_folder(&folder, &files).map_err(write(&folder))?;
         }
         let text = fs::read_to_string(folder.join(CERTIFICATE)).unwrap_or_default();
         let expires = Certificate::read(&text).map(|it| it.not_after);
@@ -210,4 +188,29 @@ fn set_validity(params: &mut CertificateParams, now: SystemTime, expires: System
 
 fn days(days: u32) -> Duration {
     Duration::from_secs(u64::from(days) * 24 * 3600)
+}
+
+/// Creates a folder with mode 0700, and those above it that are missing.
+fn create_folder(folder: &Path) -> io::Result<()> {
+    DirBuilder::new().recursive(true).mode(0o700).create(folder)
+}
+
+/// Writes a folder of files with mode 0600, in place of one that is there.
+///
+/// It is written under another name and then renamed: a full disk leaves no half of a key, and what is to be replaced
+/// stays until then.
+fn replace_folder(folder: &Path, files: &[(&str, &str)]) -> io::Result<()> {
+    // Removed at the end, with what was replaced.
+    let beside = tempfile::Builder::new().prefix(".").tempdir_in(folder.parent().unwrap_or(folder))?;
+    let (new, old) = (beside.path().join("new"), beside.path().join("old"));
+    create_folder(&new)?;
+    for (name, text) in files {
+        let mut file = OpenOptions::new().write(true).create_new(true).mode(0o600).open(new.join(name))?;
+        file.write_all(text.as_bytes())?;
+        file.sync_all()?;
+    }
+    match fs::rename(folder, &old) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => fs::rename(&new, folder).inspect_err(|_| _ = fs::rename(&old, folder)),
+    }
 }
