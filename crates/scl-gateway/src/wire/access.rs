@@ -37,13 +37,10 @@ pub(super) fn access_control(options: &WireOptions) -> Value {
         subjects.push(json!({ "id": peer.host, "cert_common_names": [peer.host], "link_protocols": ["tls"] }));
         policies.push(json!({ "id": peer.host, "rules": names, "subjects": [peer.host] }));
     }
-    match options.peers.is_empty() {
-        true => json!({ "enabled": true, "default_permission": "deny", "rules": [], "subjects": [], "policies": [] }),
-        false => json!({
-            "enabled": true, "default_permission": "deny",
-            "rules": rules, "subjects": subjects, "policies": policies,
-        }),
-    }
+    json!({
+        "enabled": true, "default_permission": "deny",
+        "rules": rules, "subjects": subjects, "policies": policies,
+    })
 }
 
 /// What `from` may do at `to`: kind of message, keys.

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc;
 
 use bytes::Bytes;
+use tokio::sync::oneshot;
 use zenoh::query::Query;
 
 use super::header::{Ack, Header};
@@ -53,79 +54,38 @@ impl Drop for Declared {
 }
 
 pub(super) enum Command {
-    AddSending {
-        id: EndId,
-        host: String,
-        key: String,
-        mail: Arc<Mailbox<SendingMail>>,
-    },
-    AddReceiving {
-        id: EndId,
-        host: String,
-        key: String,
-        mail: Arc<Mailbox<ReceivingMail>>,
-    },
+    /// Begins to send to a host; what it answers goes into `mail`.
+    AddSending { id: EndId, host: String, key: String, mail: Arc<Mailbox<SendingMail>> },
+    /// Begins to receive from a host; what arrives goes into `mail`.
+    AddReceiving { id: EndId, host: String, key: String, mail: Arc<Mailbox<ReceivingMail>> },
     /// Ends an end, a token or an announcement.
-    Remove {
-        id: EndId,
-    },
+    Remove { id: EndId },
     /// Queues a message or, if empty, a probe behind what this end has queued.
-    Emit {
-        id: EndId,
-        header: Header,
-        message: Bytes,
-    },
+    Emit { id: EndId, header: Header, message: Bytes },
     /// Forgets what this end has queued.
-    Clear {
-        id: EndId,
-    },
-    Acknowledge {
-        id: EndId,
-        ack: Ack,
-    },
-    Token {
-        id: EndId,
-        key: String,
-    },
-    Announce {
-        id: EndId,
-        key: String,
-        content: Bytes,
-    },
+    Clear { id: EndId },
+    /// Sends an acknowledgement from a receiving end.
+    Acknowledge { id: EndId, ack: Ack },
+    /// Declares a token.
+    Token { id: EndId, key: String },
+    /// Announces a component of this host.
+    Announce { id: EndId, key: String, content: Bytes },
     /// A neighbour wants a part of an announcement.
-    Asked {
-        id: EndId,
-        query: Query,
-    },
-    /// A neighbour's announcement appeared or disappeared.
-    Fetch {
-        key: String,
-    },
-    Forget {
-        key: String,
-    },
+    Asked { id: EndId, query: Query },
+    /// A neighbour's announcement appeared.
+    Fetch { key: String },
+    /// A neighbour's announcement disappeared.
+    Forget { key: String },
     /// A part of a neighbour's announcement arrived, or did not.
-    Part {
-        key: String,
-        part: Option<Part>,
-    },
+    Part { key: String, part: Option<Part> },
     /// The gateway of a host appeared, was replaced or disappeared.
-    Host {
-        host: String,
-        is_present: bool,
-    },
-    /// A neighbour wants to know when this arrived, or tells that it did.
-    Mark {
-        host: String,
-        number: u64,
-    },
-    Echo {
-        host: String,
-        number: u64,
-    },
-    Close {
-        done: Option<tokio::sync::oneshot::Sender<()>>,
-    },
+    Host { host: String, is_present: bool },
+    /// A neighbour wants to know when this arrived.
+    Mark { host: String, number: u64 },
+    /// A neighbour tells that this mark arrived.
+    Echo { host: String, number: u64 },
+    /// Ends the thread, which then tells `done`.
+    Close { done: Option<oneshot::Sender<()>> },
 }
 
 /// A part of an announcement.

@@ -2,6 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use bytes::Buf;
+
 /// In the first byte: an age follows.
 const LATCHED: u8 = 0x80;
 
@@ -24,16 +26,12 @@ pub(super) struct Header {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
+    /// A whole message.
     Whole,
     /// A part of a message of `total` bytes.
-    Chunk {
-        offset: u64,
-        total: u64,
-    },
+    Chunk { offset: u64, total: u64 },
     /// Asks for an acknowledgement of what has arrived; with `flush` also for what it takes to empty the queue.
-    Probe {
-        flush: bool,
-    },
+    Probe { flush: bool },
 }
 
 impl Header {
@@ -64,28 +62,19 @@ impl Header {
     pub(super) fn decode(bytes: &[u8]) -> Option<Header> {
         let (kind, mut rest) = bytes.split_first()?;
         let (kind, has_age) = (kind & !LATCHED, kind & LATCHED != 0);
-        let (stream, epoch) = (take_u64(&mut rest)?, take_u64(&mut rest)?);
-        let (attempt, after) = rest.split_first_chunk()?;
-        rest = after;
-        let sequence = take_u64(&mut rest)?;
+        let (stream, epoch) = (rest.try_get_u64().ok()?, rest.try_get_u64().ok()?);
+        let (attempt, sequence) = (rest.try_get_u32().ok()?, rest.try_get_u64().ok()?);
         let kind = match kind {
             0 => Kind::Whole,
-            1 => Kind::Chunk { offset: take_u64(&mut rest)?, total: take_u64(&mut rest)? },
+            1 => Kind::Chunk { offset: rest.try_get_u64().ok()?, total: rest.try_get_u64().ok()? },
             2 => Kind::Probe { flush: false },
             3 => Kind::Probe { flush: true },
             _ => return None,
         };
-        let age = if has_age { Some(Duration::from_nanos(take_u64(&mut rest)?)) } else { None };
+        let age = if has_age { Some(Duration::from_nanos(rest.try_get_u64().ok()?)) } else { None };
         let latched = age.and_then(|age| Instant::now().checked_sub(age));
-        let attempt = u32::from_be_bytes(*attempt);
-        (rest.is_empty() && sequence > 0 || matches!(kind, Kind::Probe { .. })).then_some(Header {
-            kind,
-            stream,
-            epoch,
-            attempt,
-            sequence,
-            latched,
-        })
+        let is_sound = rest.is_empty() && sequence > 0 || matches!(kind, Kind::Probe { .. });
+        is_sound.then_some(Header { kind, stream, epoch, attempt, sequence, latched })
     }
 }
 
@@ -114,19 +103,12 @@ impl Ack {
         bytes
     }
 
-    pub(super) fn decode(bytes: &[u8]) -> Option<Ack> {
-        let (attempt, mut rest) = bytes.split_first_chunk()?;
-        let mut next = || take_u64(&mut rest);
+    pub(super) fn decode(mut rest: &[u8]) -> Option<Ack> {
+        let attempt = rest.try_get_u32().ok()?;
+        let mut next = || rest.try_get_u64().ok();
         let (stream, epoch, received, taken, seen) = (next()?, next()?, next()?, next()?, next()?);
-        let attempt = u32::from_be_bytes(*attempt);
         (rest.is_empty() && taken <= received).then_some(Ack { stream, epoch, attempt, received, taken, seen })
     }
-}
-
-fn take_u64(bytes: &mut &[u8]) -> Option<u64> {
-    let (number, rest) = bytes.split_first_chunk()?;
-    *bytes = rest;
-    Some(u64::from_be_bytes(*number))
 }
 
 #[cfg(test)]

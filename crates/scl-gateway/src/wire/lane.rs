@@ -26,7 +26,7 @@ const OVERHEAD: usize = 100;
 const LONGEST_WAIT: Duration = Duration::from_millis(100);
 const REPEAT_MARK: Duration = Duration::from_secs(1);
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Lane {
     turns: VecDeque<EndId>,
     queues: HashMap<EndId, VecDeque<(Header, Bytes, usize)>>,
@@ -56,18 +56,7 @@ pub(super) enum Emission {
 
 impl Lane {
     pub(super) fn new() -> Self {
-        Lane {
-            turns: VecDeque::new(),
-            queues: HashMap::new(),
-            is_open: false,
-            window: LARGEST_WINDOW,
-            unmarked: 0,
-            marks: VecDeque::new(),
-            last_mark: 0,
-            round_trip: None,
-            repeat_at: None,
-            pause: REPEAT_MARK,
-        }
+        Lane { window: LARGEST_WINDOW, pause: REPEAT_MARK, ..Lane::default() }
     }
 
     /// The host is there, or is not. What was on its way is forgotten.

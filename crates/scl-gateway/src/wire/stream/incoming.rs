@@ -7,7 +7,7 @@ use bytes::{Bytes, BytesMut};
 use crate::wire::header::{Ack, Header, Kind};
 
 /// The state of one epoch.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Incoming {
     epoch: u64,
     max_size: u64,
@@ -45,17 +45,7 @@ pub(super) struct Outcome {
 
 impl Incoming {
     pub(super) fn new(epoch: u64, max_size: u64) -> Self {
-        Incoming {
-            epoch,
-            max_size,
-            stream: None,
-            attempt: 0,
-            received: 0,
-            base: 0,
-            taken: 0,
-            partial: None,
-            reported: None,
-        }
+        Incoming { epoch, max_size, ..Incoming::default() }
     }
 
     pub(super) fn accept(&mut self, header: Header, payload: Bytes) -> Outcome {
@@ -67,10 +57,8 @@ impl Incoming {
                 return Outcome { answer: Some(self.nothing_of(&header)), ..Outcome::default() };
             }
             if header.sequence != 1 {
-                return Outcome {
-                    answer: self.report(&header).then(|| self.nothing_of(&header)),
-                    ..Outcome::default()
-                };
+                let answer = self.report(&header).then(|| self.nothing_of(&header));
+                return Outcome { answer, ..Outcome::default() };
             }
             self.base += self.received;
             (self.stream, self.received, self.partial, self.reported) = (Some(header.stream), 0, None, None);

@@ -21,7 +21,7 @@ use crate::wire::header::{Ack, Header, Kind};
 use crate::wire::{WINDOW_BYTES, WINDOW_MESSAGES};
 
 /// Messages that are sent and not acknowledged, and how far they are.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Outgoing {
     window: usize,
     stream: u64,
@@ -57,22 +57,8 @@ struct Waiting {
 
 impl Outgoing {
     pub(super) fn new(queue: u32, latches: bool, stream: u64) -> Self {
-        Outgoing {
-            window: queue.clamp(1, WINDOW_MESSAGES) as usize,
-            stream,
-            epoch: None,
-            matched: false,
-            waiting: VecDeque::new(),
-            waiting_bytes: 0,
-            latches,
-            emitted: 0,
-            tried: 0,
-            attempt: 0,
-            settled: 0,
-            base: 0,
-            flush: false,
-            flushed: 0,
-        }
+        let window = queue.clamp(1, WINDOW_MESSAGES) as usize;
+        Outgoing { window, stream, latches, ..Outgoing::default() }
     }
 
     /// Whether this receiving end has got nothing yet.
