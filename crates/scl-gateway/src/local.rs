@@ -10,14 +10,14 @@ mod routes;
 
 pub use crate::pump::Counts;
 
-use crate::route::Route;
 use crate::slot::Slot;
 use crate::wire::{Announced, Wire};
 use mirroring::{Remote, mirror};
 use scl::TransportKind;
 use scl::bridge::{Change, Mirror, Presence};
 use scl::runtime_dir::SystemDir;
-use std::collections::{BTreeMap, HashMap};
+use scl::transport::zeromq::ZeroMq;
+use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::signal::unix::{SignalKind, signal};
@@ -27,21 +27,6 @@ use tokio::task::JoinSet;
 
 /// How long messages may take that are on their way when the gateway ends.
 const STOP_LIMIT: Duration = Duration::from_millis(1500);
-
-/// What a gateway serves.
-#[derive(Debug, Clone)]
-pub struct GatewayOptions {
-    /// The folder of the system on this host.
-    pub dir: SystemDir,
-    /// What the ends listen on that stand in for components of other hosts.
-    pub kind: TransportKind,
-    /// This host.
-    pub host: String,
-    /// The host of each component of the system.
-    pub components: BTreeMap<String, String>,
-    /// The routes that begin or end here.
-    pub routes: Vec<Route>,
-}
 
 /// A gateway at work. At SIGUSR1 it logs what each route has carried so far.
 #[derive(Debug)]
@@ -55,14 +40,16 @@ pub struct Gateway {
 }
 
 impl Gateway {
-    /// Starts the gateway. Called inside a tokio runtime. Returns at once; other hosts and components may come later.
-    pub fn start(options: GatewayOptions, wire: Wire) -> Self {
+    /// Starts the gateway: `dir` is the folder of the system on this host, and `kind` what the ends listen on that
+    /// stand in for components of other hosts. Called inside a tokio runtime. Returns at once; other hosts and
+    /// components may come later.
+    pub fn start(dir: SystemDir, kind: TransportKind, wire: Wire) -> Self {
         let wire = Arc::new(wire);
         let mut tasks = JoinSet::new();
         let (mut runs, mut mirrors) = (HashMap::new(), HashMap::new());
         let (mut changes, mut remotes) = (HashMap::new(), HashMap::new());
-        for (component, host) in &options.components {
-            if *host == options.host {
+        for (component, host) in &wire.options().components {
+            if *host == wire.options().host {
                 let (slot, (sender, receiver)) = (Slot::<Announced>::new(), mpsc::unbounded_channel());
                 runs.insert(component.clone(), slot.view());
                 changes.insert(component.clone(), sender);
@@ -71,20 +58,20 @@ impl Gateway {
                 let (slot, (sender, receiver)) = (Slot::<Mirror>::new(), mpsc::unbounded_channel());
                 mirrors.insert(component.clone(), slot.view());
                 remotes.insert(component.clone(), sender);
-                tasks.spawn(mirror(options.dir.clone(), component.clone(), receiver, slot));
+                tasks.spawn(mirror(dir.clone(), component.clone(), receiver, slot));
             }
         }
         let stop = watch::Sender::new(false);
-        let (pumps, routes) = routes::start(&options, &wire, &runs, &mirrors, &stop.subscribe());
+        let (pumps, routes) = routes::start(ZeroMq::new(dir.clone(), kind), &wire, &runs, &mirrors, &stop.subscribe());
         let routes = Arc::new(routes);
         tasks.spawn(log_figures_on_signal(Arc::clone(&routes)));
-        let presence = Presence::new(options.dir.clone(), runs.into_keys());
+        let presence = Presence::new(dir, runs.into_keys());
         tasks.spawn(follow_components(presence, changes, remotes.clone()));
         tasks.spawn(neighbours::follow(Arc::clone(&wire), remotes));
         Self { wire, routes, stop, pumps, tasks }
     }
 
-    /// The keys of the routes, and what they have carried so far, in the order of the options.
+    /// The keys of the routes, and what they have carried so far, in the order of the options of the wire.
     pub fn figures(&self) -> &[(String, Arc<Counts>)] {
         &self.routes
     }

@@ -59,13 +59,22 @@ use std::sync::Arc;
 use std::task::{Context, Poll};
 use tokio::sync::watch;
 
+/// What a route joins.
+pub(crate) struct Ends {
+    pub(crate) route: Route,
+    /// The far component, in whose place the local end is opened; `None` where any component may connect.
+    pub(crate) mirror: Option<View<Mirror>>,
+    /// The component here; `None` where any component may connect.
+    pub(crate) component: Option<View<Announced>>,
+    pub(crate) transport: Arc<ZeroMq>,
+    pub(crate) counts: Arc<Counts>,
+}
+
 /// A route at work: its end of the wire, and its end in the runtime folder, which `S` has.
 pub(crate) struct Pump<W, S> {
     route: Route,
     wire: W,
-    /// The far component, in whose place the local end is opened; `None` where any component may connect.
     mirror: Option<View<Mirror>>,
-    /// The component here; `None` where any component may connect.
     component: Option<View<Announced>>,
     transport: Arc<ZeroMq>,
     counts: Arc<Counts>,
@@ -90,14 +99,8 @@ impl<W, S: Default> Pump<W, S>
 where
     Self: Carry,
 {
-    pub(crate) fn new(
-        route: Route,
-        wire: W,
-        mirror: Option<View<Mirror>>,
-        component: Option<View<Announced>>,
-        transport: Arc<ZeroMq>,
-        counts: Arc<Counts>,
-    ) -> Self {
+    pub(crate) fn new(ends: Ends, wire: W) -> Self {
+        let Ends { route, mirror, component, transport, counts } = ends;
         let (matched, attempts, stopping, state) = (false, Attempts::default(), false, S::default());
         Self { route, wire, mirror, component, transport, counts, matched, attempts, stopping, state }
     }

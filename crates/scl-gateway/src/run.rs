@@ -10,10 +10,10 @@ use scl::runtime_dir::{RuntimeDir, SystemDir};
 use scl::{TransportChoice, TransportKind};
 use scl_gateway::deployment::{Host, System};
 use scl_gateway::keys::HostFiles;
-use scl_gateway::local::{Gateway, GatewayOptions};
-use scl_gateway::route::{Route, routes};
+use scl_gateway::local::Gateway;
+use scl_gateway::route::routes;
 use scl_gateway::wire::{Peer, Wire, WireOptions};
-use scl_terminal::Problem;
+use scl_terminal::{Problem, problem_of};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use tokio::signal::unix::{SignalKind, signal};
@@ -51,16 +51,13 @@ fn try_run(arguments: &RunArguments) -> Option<()> {
     let certificates = check_certificates(&system, host).ok()?;
     let dir = shown(system_dir(arguments, &system))?;
     let kind = shown(transport_kind())?;
-    let routes = routes(&system.plan, &system.deployment, &host.name);
-    let wire = wire_options(&system, host, certificates, &routes);
-    let options =
-        GatewayOptions { dir, kind, host: host.name.clone(), components: system.hosts_of_components(), routes };
+    let wire = wire_options(&system, host, certificates);
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
     let runtime = shown(runtime.map_err(|error| Problem::new(format!("cannot start the runtime: {error}"))))?;
-    shown(runtime.block_on(serve(wire, options)))
+    shown(runtime.block_on(serve(dir, kind, wire)))
 }
 
-async fn serve(wire: WireOptions, options: GatewayOptions) -> Result<(), Problem> {
+async fn serve(dir: SystemDir, kind: TransportKind, wire: WireOptions) -> Result<(), Problem> {
     let signals = |error| Problem::new(format!("cannot handle signals: {error}"));
     let mut terminate = signal(SignalKind::terminate()).map_err(signals)?;
     let mut interrupt = signal(SignalKind::interrupt()).map_err(signals)?;
@@ -69,7 +66,7 @@ async fn serve(wire: WireOptions, options: GatewayOptions) -> Result<(), Problem
         _ => "STATUS=no connection crosses to another host".to_owned(),
     };
     let wire = Wire::open(wire).await.map_err(|error| problem_of(&error))?;
-    let gateway = Gateway::start(options, wire);
+    let gateway = Gateway::start(dir, kind, wire);
     tell_service_manager(&format!("{status}\nREADY=1\n"));
     tokio::select! {
         _ = terminate.recv() => {}
@@ -80,7 +77,8 @@ async fn serve(wire: WireOptions, options: GatewayOptions) -> Result<(), Problem
     Ok(())
 }
 
-fn wire_options(system: &System, host: &Host, files: Option<HostFiles>, routes: &[Route]) -> WireOptions {
+fn wire_options(system: &System, host: &Host, files: Option<HostFiles>) -> WireOptions {
+    let routes = routes(&system.plan, &system.deployment, &host.name);
     let shares_routes = |other: &&Host| routes.iter().any(|it| it.from.host == other.name || it.to.host == other.name);
     let others = system.deployment.hosts.iter().filter(|other| other.name != host.name).filter(shares_routes);
     let peer = |other: &Host| Peer { host: other.name.clone(), address: Some(other.socket_address()) };
@@ -91,8 +89,8 @@ fn wire_options(system: &System, host: &Host, files: Option<HostFiles>, routes: 
         peers: others.map(peer).collect(),
         tls: files,
         insecure: system.deployment.insecure,
-        routes: routes.to_vec(),
         components: system.hosts_of_components(),
+        routes,
     }
 }
 
@@ -130,16 +128,6 @@ fn transport_kind() -> Result<TransportKind, Problem> {
         TransportKind::Tcp => Ok(TransportKind::Tcp),
         TransportKind::Ipc | TransportKind::Shm => Ok(TransportKind::Ipc),
     }
-}
-
-fn problem_of(error: &dyn std::error::Error) -> Problem {
-    let text = text_with_causes(error);
-    let mut lines = text.lines();
-    let mut problem = Problem::new(lines.next().unwrap_or_default());
-    for line in lines {
-        problem = problem.help(line.trim_start().trim_start_matches("help: "));
-    }
-    problem
 }
 
 fn shown<T>(result: Result<T, Problem>) -> Option<T> {

@@ -12,15 +12,14 @@ pub(crate) struct Slot<T> {
 }
 
 /// A handle of the value, which exists until the last handle is dropped.
-#[derive(Debug)]
-pub(crate) struct Held<T>(Arc<Inner<T>>);
+pub(crate) type Held<T> = Arc<Inner<T>>;
 
 /// Where a task sees what is in the slot.
 pub(crate) type View<T> = watch::Receiver<Option<Held<T>>>;
 
 /// Fields are dropped in this order, so the value is gone when that is reported.
 #[derive(Debug)]
-struct Inner<T> {
+pub(crate) struct Inner<T> {
     value: T,
     _gone: oneshot::Sender<()>,
 }
@@ -42,7 +41,7 @@ impl<T> Slot<T> {
     pub(crate) fn put(&mut self, value: T) {
         let (sender, receiver) = oneshot::channel();
         self.gone = Some(receiver);
-        self.value.send_replace(Some(Held(Arc::new(Inner { value, _gone: sender }))));
+        self.value.send_replace(Some(Arc::new(Inner { value, _gone: sender })));
     }
 
     /// Empties the slot, and waits until the value is gone.
@@ -55,23 +54,11 @@ impl<T> Slot<T> {
     }
 }
 
-impl<T> Held<T> {
-    pub(crate) fn is_same(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.0, &other.0)
-    }
-}
-
-impl<T> Clone for Held<T> {
-    fn clone(&self) -> Self {
-        Self(Arc::clone(&self.0))
-    }
-}
-
-impl<T> Deref for Held<T> {
+impl<T> Deref for Inner<T> {
     type Target = T;
 
     fn deref(&self) -> &T {
-        &self.0.value
+        &self.value
     }
 }
 
@@ -88,7 +75,7 @@ mod tests {
         let view = slot.view();
         slot.put(1);
         let held = view.borrow().clone().unwrap();
-        assert_eq!(*held, 1);
+        assert_eq!(**held, 1);
         {
             let mut clearing = pin!(slot.clear());
             poll_fn(|cx| {
@@ -102,6 +89,6 @@ mod tests {
         }
         slot.clear().await;
         slot.put(2);
-        assert_eq!(view.borrow().as_deref(), Some(&2));
+        assert_eq!(view.borrow().as_deref().map(Deref::deref), Some(&2));
     }
 }

@@ -16,7 +16,6 @@ mod error;
 mod header;
 mod keys;
 mod lane;
-mod link;
 mod mailbox;
 mod neighbour;
 mod options;
@@ -38,19 +37,18 @@ use bytes::Bytes;
 use tokio::sync::oneshot;
 
 pub use self::announcement::Announced;
-use self::command::{Command, Commands};
+use self::command::{Command, Commands, Declared};
 pub use self::connection_log::ConnectionLog;
 pub use self::error::WireError;
-use self::link::Link;
 use self::mailbox::Mailbox;
 pub use self::neighbour::Neighbour;
 pub use self::options::{Peer, WireOptions};
-use self::presence::{Identity, Presence};
+use self::presence::Presence;
 pub use self::receiver::WireReceiver;
 pub use self::replier::{ReplierEvent, WireReplier};
 pub use self::requester::{RequesterEvent, WireRequester};
-pub use self::sender::{SenderEvent, WireSender};
-pub use self::stream::ReceiverEvent;
+pub use self::sender::WireSender;
+pub use self::stream::{ReceiverEvent, SenderEvent};
 use crate::route::Route;
 
 /// Most messages of one route that are on their way without an acknowledgement; a smaller queue of the receiving gate
@@ -60,12 +58,21 @@ pub const WINDOW_MESSAGES: u32 = 64;
 /// Most bytes of one route that are on their way without an acknowledgement. A larger message travels alone.
 pub const WINDOW_BYTES: u64 = 256 * 1024;
 
+/// What every handle needs of the wire.
+#[derive(Debug, Clone)]
+struct Link {
+    options: Arc<WireOptions>,
+    commands: Commands,
+    /// The table of connected gateways.
+    presence: Presence,
+    /// The number of this gateway's run.
+    instance: String,
+}
+
 /// This host's connection to the gateways of the other hosts. Dropping it closes it in the background.
 #[derive(Debug)]
 pub struct Wire {
     link: Link,
-    system: String,
-    host: String,
     neighbours: Arc<Mailbox<Neighbour>>,
 }
 
@@ -78,33 +85,27 @@ impl Wire {
     /// cannot be used, or if the address is taken. A second gateway of the same host, here or elsewhere, is found when
     /// both are connected to one network: see [`Neighbour::Refused`].
     pub async fn open(options: WireOptions) -> Result<Wire, WireError> {
+        let options = Arc::new(options);
         let failed = |reason: String| WireError::Start { host: options.host.clone(), reason };
         let config = config::config(&options)?;
         let config = zenoh::Config::from_json5(&config.to_string()).map_err(|error| failed(error.to_string()))?;
         let instance = format!("{}-{:x}", std::process::id(), random());
         let (commands, received) = Commands::new();
         let neighbours = Arc::new(Mailbox::new(u64::MAX));
-        let (system, host, homes) = (&*options.system, &*options.host, &options.components);
-        let presence = Presence::new(&Identity { system, host, instance: &instance, homes }, &commands, &neighbours);
-        let setup = session::Setup {
-            config,
-            system: options.system.clone(),
-            host: options.host.clone(),
-            instance: instance.clone(),
-            peers: options.peers.iter().map(|peer| (peer.host.clone(), config::endpoint(&options, peer))).collect(),
-            commands: commands.clone(),
-            received,
-            presence: presence.clone(),
-            neighbours: Arc::clone(&neighbours),
-        };
+        let presence = Presence::new(&options, &instance, &commands, &neighbours);
+        let link = Link { options: Arc::clone(&options), commands, presence, instance };
+        let setup = session::Setup { config, link: link.clone(), received, neighbours: Arc::clone(&neighbours) };
         let (ready, started) = oneshot::channel();
         std::thread::Builder::new()
             .name("scl-wire".to_owned())
             .spawn(move || session::run(setup, ready))
             .map_err(|error| failed(error.to_string()))?;
         started.await.map_err(|_| failed("its thread ended".to_owned()))??;
-        let link = Link { commands, presence, instance };
-        Ok(Wire { link, system: options.system, host: options.host, neighbours })
+        Ok(Wire { link, neighbours })
+    }
+
+    pub(crate) fn options(&self) -> &WireOptions {
+        &self.link.options
     }
 
     /// The end at which messages leave this host. It must be `route.from.host`. At most one per route.
@@ -130,8 +131,9 @@ impl Wire {
     /// Tells the other hosts that `component` runs here, until the result is dropped. `content` is its announcement and
     /// schema, up to some MiB, handed to each neighbour as [`Neighbour::Started`].
     pub fn announce(&self, component: &str, content: Bytes) -> Announced {
-        let key = keys::component(&self.system, component, &self.host, &self.link.instance, random());
-        Announced::new(&self.link.commands, key, content)
+        let WireOptions { system, host, .. } = self.options();
+        let key = keys::component(system, component, host, &self.link.instance, random());
+        Announced { _declared: Declared::new(&self.link.commands, |id| Command::Announce { id, key, content }) }
     }
 
     /// What the other hosts run, and what is wrong with them. Never ends.

@@ -69,7 +69,7 @@ pub(crate) async fn mirror(
 }
 
 fn restore(component: &str, slot: &Slot<Mirror>) {
-    if let Some(Err(error)) = slot.view().borrow().as_deref().map(Mirror::restore) {
+    if let Some(Err(error)) = slot.view().borrow().as_ref().map(|mirror| mirror.restore()) {
         tracing::error!("cannot show component `{component}` here any longer: {}", text_with_causes(&error));
     }
 }

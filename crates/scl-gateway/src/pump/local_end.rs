@@ -4,7 +4,6 @@ use crate::route::Route;
 use scl::bridge::MirrorError;
 use scl::host::text_with_causes;
 use scl::transport::{TransportError, Window};
-use std::error::Error;
 use std::pin::Pin;
 use std::task::{Context, Poll};
 use std::time::Duration;
@@ -86,20 +85,16 @@ impl Attempts {
                 Some(end)
             }
             Err(error) => {
-                self.log(route, &error);
+                let text = text_with_causes(&error);
+                if self.logged.as_ref() != Some(&text) {
+                    tracing::error!(route = %route.key, "cannot open `{}` here: {text}", route.endpoint);
+                    self.logged = Some(text);
+                }
                 self.pause.start(RETRY);
                 // Registers the task's waker.
                 let _not_yet = self.pause.is_running(cx);
                 None
             }
-        }
-    }
-
-    fn log(&mut self, route: &Route, error: &(dyn Error + 'static)) {
-        let text = text_with_causes(error);
-        if self.logged.as_ref() != Some(&text) {
-            tracing::error!(route = %route.key, "cannot open `{}` here: {text}", route.endpoint);
-            self.logged = Some(text);
         }
     }
 }

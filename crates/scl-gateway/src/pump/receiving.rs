@@ -7,6 +7,7 @@ use crate::wire::{ReceiverEvent, WireReceiver};
 use scl::bridge::Mirror;
 use scl::transport::{Disconnected, Driven, Endpoint, Frame, Link, PeerKind, Sender, Transport};
 use std::collections::VecDeque;
+use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::{Duration, Instant};
 
@@ -89,7 +90,7 @@ impl Pump<WireReceiver, Receiving> {
         let pending = state.pending();
         let Some(local) = &mut state.local else { return };
         let now = running(&self.mirror);
-        let is_shown = local.mirror.as_ref().is_none_or(|mirror| now.is_some_and(|now| now.is_same(mirror)));
+        let is_shown = local.mirror.as_ref().is_none_or(|mirror| now.is_some_and(|now| Arc::ptr_eq(&now, mirror)));
         if !is_shown {
             local.limit.start(DRAIN_LIMIT);
         }
@@ -142,7 +143,9 @@ impl Pump<WireReceiver, Receiving> {
                     continue;
                 }
                 self.lose_link();
-                self.begin_epoch();
+                if !std::mem::replace(&mut self.state.open, true) {
+                    self.wire.set_open(true);
+                }
                 if let Some(local) = &mut self.state.local {
                     (local.link, local.unasked) = (Some(peer.link), (0, 0));
                 }
@@ -164,12 +167,6 @@ impl Pump<WireReceiver, Receiving> {
             self.tell(confirmed);
             drop(link);
             self.end_epoch();
-        }
-    }
-
-    fn begin_epoch(&mut self) {
-        if !std::mem::replace(&mut self.state.open, true) {
-            self.wire.set_open(true);
         }
     }
 

@@ -73,7 +73,7 @@ impl Pump<WireRequester, Requesting> {
         let state = &mut self.state;
         let mirror = running(&self.mirror).filter(|_| self.matched);
         if let Some(local) = &state.local
-            && !mirror.as_ref().is_some_and(|mirror| mirror.is_same(&local.mirror))
+            && !mirror.as_ref().is_some_and(|mirror| Arc::ptr_eq(mirror, &local.mirror))
         {
             // Requesters notice at once that their requests are lost.
             state.local = None;

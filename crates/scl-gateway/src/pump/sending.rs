@@ -6,6 +6,7 @@ use crate::slot::Held;
 use crate::wire::{Announced, SenderEvent, WireSender};
 use scl::bridge::Mirror;
 use scl::transport::{Receiver, Resumed, Transport};
+use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
 
@@ -79,7 +80,6 @@ impl Pump<WireSender, Sending> {
                 tracing::warn!("{count} messages from {from} to {to} were on their way when {to} was lost; given up");
                 self.settle(self.state.settled + count);
             }
-            SenderEvent::Credit => {}
         }
     }
 
@@ -162,7 +162,7 @@ impl Pump<WireSender, Sending> {
                 state.local = receiver.map(local);
             }
             (Some(local), mirror) => {
-                let is_wanted = mirror.is_some_and(|mirror| mirror.is_same(&local.mirror)) && !local.is_outdated;
+                let is_wanted = mirror.is_some_and(|mirror| Arc::ptr_eq(&mirror, &local.mirror)) && !local.is_outdated;
                 if !is_wanted && !std::mem::replace(&mut local.finishing, true) {
                     local.receiver.finish();
                     local.limit.start(FINISH_LIMIT);

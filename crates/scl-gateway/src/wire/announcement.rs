@@ -25,26 +25,22 @@ const RETRY: Duration = Duration::from_millis(200);
 #[derive(Debug)]
 #[must_use = "the component is announced only until this is dropped"]
 pub struct Announced {
-    _declared: Declared,
-}
-
-impl Announced {
-    pub(super) fn new(commands: &Commands, key: String, content: Bytes) -> Self {
-        Announced { _declared: Declared::new(commands, |id| Command::Announce { id, key, content }) }
-    }
+    pub(super) _declared: Declared,
 }
 
 /// The announcements of the neighbours.
 #[derive(Debug)]
 pub(super) struct Announcements {
     neighbours: Arc<Mailbox<Neighbour>>,
-    known: HashMap<String, Known>,
+    /// By token.
+    known: HashMap<String, Loading>,
 }
 
-#[derive(Debug)]
-enum Known {
-    Loading { content: BytesMut, retry_at: Option<Instant> },
-    Complete,
+#[derive(Debug, Default)]
+struct Loading {
+    content: BytesMut,
+    retry_at: Option<Instant>,
+    is_complete: bool,
 }
 
 impl Announcements {
@@ -54,18 +50,21 @@ impl Announcements {
 
     /// Begins to load. The part at offset 0 has to be asked for.
     pub(super) fn appeared(&mut self, key: &str) {
-        self.known.insert(key.to_owned(), Known::Loading { content: BytesMut::new(), retry_at: None });
+        self.known.insert(key.to_owned(), Loading::default());
     }
 
     pub(super) fn disappeared(&mut self, key: &str) {
-        if let (Some(Known::Complete), Some((component, host))) = (self.known.remove(key), names(key)) {
+        if self.known.remove(key).is_some_and(|it| it.is_complete)
+            && let Some((component, host)) = names(key)
+        {
             self.neighbours.push(0, Neighbour::Stopped { component, host });
         }
     }
 
     /// Handles a part. Returns the offset of the next one to ask for.
     pub(super) fn part(&mut self, key: &str, part: Option<Part>) -> Option<usize> {
-        let Some(Known::Loading { content, retry_at }) = self.known.get_mut(key) else { return None };
+        let loading = self.known.get_mut(key).filter(|it| !it.is_complete)?;
+        let Loading { content, retry_at, .. } = loading;
         let fits = |part: &Part| {
             part.offset == content.len() as u64
                 && part.total <= LARGEST
@@ -81,7 +80,7 @@ impl Announcements {
             return Some(content.len());
         }
         let content = std::mem::take(content).freeze();
-        self.known.insert(key.to_owned(), Known::Complete);
+        *loading = Loading { is_complete: true, ..Loading::default() };
         if let Some((component, host)) = names(key) {
             self.neighbours.push(0, Neighbour::Started { component, host, content });
         }
@@ -90,22 +89,15 @@ impl Announcements {
 
     /// The parts to ask for once more.
     pub(super) fn due(&mut self, now: Instant) -> Vec<(String, usize)> {
-        let due = |(key, known): (&String, &mut Known)| match known {
-            Known::Loading { content, retry_at } if retry_at.is_some_and(|at| at <= now) => {
-                *retry_at = None;
-                Some((key.clone(), content.len()))
-            }
-            _ => None,
+        let due = |(key, it): (&String, &mut Loading)| {
+            it.retry_at.take_if(|at| *at <= now)?;
+            Some((key.clone(), it.content.len()))
         };
         self.known.iter_mut().filter_map(due).collect()
     }
 
     pub(super) fn deadline(&self) -> Option<Instant> {
-        let at = |known: &Known| match known {
-            Known::Loading { retry_at, .. } => *retry_at,
-            Known::Complete => None,
-        };
-        self.known.values().filter_map(at).min()
+        self.known.values().filter_map(|it| it.retry_at).min()
     }
 }
 

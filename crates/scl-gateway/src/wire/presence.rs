@@ -23,6 +23,7 @@ use super::command::{Command, Commands, Declared, EndId};
 use super::keys::{self, Side, Token};
 use super::mailbox::Mailbox;
 use super::neighbour::Neighbour;
+use super::options::WireOptions;
 
 /// Time without a match until another contract is reported: programs that are being replaced need a moment.
 const MISMATCH_AFTER: Duration = Duration::from_secs(1);
@@ -35,10 +36,8 @@ pub(super) struct Presence(Arc<Mutex<State>>);
 
 #[derive(Debug)]
 struct State {
-    system: String,
-    host: String,
+    options: Arc<WireOptions>,
     instance: String,
-    homes: BTreeMap<String, String>,
     /// The gateways of each host, the accepted one first.
     gateways: BTreeMap<String, Vec<Gateway>>,
     /// Open ends by key without contract.
@@ -101,22 +100,16 @@ impl Drop for Watching {
     }
 }
 
-/// Who this gateway is.
-pub(super) struct Identity<'a> {
-    pub(super) system: &'a str,
-    pub(super) host: &'a str,
-    pub(super) instance: &'a str,
-    /// The host of each component.
-    pub(super) homes: &'a BTreeMap<String, String>,
-}
-
 impl Presence {
-    pub(super) fn new(me: &Identity<'_>, commands: &Commands, neighbours: &Arc<Mailbox<Neighbour>>) -> Self {
+    pub(super) fn new(
+        options: &Arc<WireOptions>,
+        instance: &str,
+        commands: &Commands,
+        neighbours: &Arc<Mailbox<Neighbour>>,
+    ) -> Self {
         Presence(Arc::new(Mutex::new(State {
-            system: me.system.to_owned(),
-            host: me.host.to_owned(),
-            instance: me.instance.to_owned(),
-            homes: me.homes.clone(),
+            options: Arc::clone(options),
+            instance: instance.to_owned(),
             gateways: BTreeMap::new(),
             ends: HashMap::new(),
             watches: HashMap::new(),
@@ -149,15 +142,21 @@ impl Presence {
         let mut state = self.lock();
         match Token::parse(token) {
             Some(Token::End { key, side, instance, id }) => state.end(key, side, instance, id, is_there),
-            Some(Token::Host { system, host, instance }) if system == state.system => {
+            Some(Token::Host { system, host, instance }) if system == state.options.system => {
                 state.gateway(host, instance, is_there);
             }
-            Some(Token::Host { system, host, .. }) if is_there => state.foreign_system(system, host),
+            Some(Token::Host { system, host, .. }) if is_there => {
+                let own = &state.options.system;
+                let text = format!(
+                    "the gateway of host `{host}` belongs to the system `{system}`, this one to `{own}`: refused"
+                );
+                state.refuse(text);
+            }
             Some(Token::Component { component, host, instance }) => {
                 state.component(token, component, host, instance, is_there);
             }
             Some(Token::Refused { instance, by }) if is_there && instance == state.instance => {
-                let other = format!("another gateway of host `{}` is connected there", state.host);
+                let other = format!("another gateway of host `{}` is connected there", state.options.host);
                 state.refuse(format!("host `{by}` refuses this gateway: {other}"));
             }
             _ => (),
@@ -208,7 +207,7 @@ impl State {
         // The refusal of a gateway that is now the only one ends.
         gateways.iter_mut().take(1).for_each(|first| first.refusal = None);
         let after = gateways.first().map(|gateway| gateway.instance.clone());
-        if before == after || host == self.host {
+        if before == after || host == self.options.host {
             return;
         }
         if before.is_some() {
@@ -251,7 +250,7 @@ impl State {
             }
             return;
         }
-        if let Some(home) = self.homes.get(component).filter(|home| *home != host) {
+        if let Some(home) = self.options.components.get(component).filter(|home| *home != host) {
             let text = format!("host `{host}` claims the component `{component}`, which is on host `{home}`: refused");
             return self.refuse(text);
         }
@@ -273,18 +272,10 @@ impl State {
         }
     }
 
-    fn foreign_system(&mut self, system: &str, host: &str) {
-        let text = format!(
-            "the gateway of host `{host}` belongs to the system `{system}`, this one to `{}`: refused",
-            self.system
-        );
-        self.refuse(text);
-    }
-
     fn report_conflicts(&mut self) {
         for (host, gateways) in &mut self.gateways {
             // The accepted one, or this gateway itself.
-            let accepted = if *host == self.host { 0 } else { 1 };
+            let accepted = if *host == self.options.host { 0 } else { 1 };
             debug_assert!(
                 gateways.iter().take(accepted).all(|it| it.refusal.is_none()),
                 "an accepted gateway is refused"
@@ -293,7 +284,7 @@ impl State {
                 if gateway.refusal.is_some() || gateway.since.elapsed() < CONFLICT_AFTER {
                     continue;
                 }
-                let key = keys::refused(&self.system, host, &gateway.instance, &self.host);
+                let key = keys::refused(&self.options.system, host, &gateway.instance, &self.options.host);
                 gateway.refusal = Some(Declared::new(&self.commands, |id| Command::Token { id, key }));
                 let text = format!("a second gateway of host `{host}` is connected, and refused until the first ends");
                 self.neighbours.push(0, Neighbour::Refused { text });

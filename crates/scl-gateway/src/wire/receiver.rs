@@ -2,8 +2,8 @@
 
 use std::task::{Context, Poll};
 
+use super::Link;
 use super::keys::Side;
-use super::link::Link;
 use super::mailbox::ReceivingMail;
 use super::presence::Watching;
 use super::stream::{ReceiverEvent, ReceivingEnd};

@@ -1,16 +1,16 @@
 //! The end of a route at which requests arrive at this host.
 
 use std::collections::HashMap;
-use std::task::{Context, Poll};
+use std::task::{Context, Poll, ready};
 
 use bytes::Bytes;
 
+use super::Link;
 use super::envelope::{self, Envelope, Outcome};
 use super::keys::{self, Side};
-use super::link::Link;
 use super::mailbox::{ReceivingMail, SendingMail};
 use super::presence::Watching;
-use super::stream::{ReceiverEvent, ReceivingEnd, SendingEnd, Sent};
+use super::stream::{ReceiverEvent, ReceivingEnd, SenderEvent, SendingEnd};
 use super::token::EndToken;
 use crate::route::Route;
 
@@ -82,23 +82,19 @@ impl WireReplier {
     /// The next event.
     pub fn poll_event(&mut self, cx: &mut Context<'_>) -> Poll<ReplierEvent> {
         loop {
-            match self.replies.poll(cx) {
-                Poll::Ready(Sent::Matched { is_new: true, .. }) => {
+            while let Poll::Ready(event) = self.replies.poll(cx) {
+                if event == SenderEvent::NewReceiver {
                     self.open.clear();
-                    continue;
                 }
-                Poll::Ready(_) => continue,
-                Poll::Pending => (),
             }
-            let event = match self.requests.poll(cx) {
-                Poll::Ready(ReceiverEvent::Matched) => ReplierEvent::Matched,
-                Poll::Ready(ReceiverEvent::Unmatched) => ReplierEvent::Unmatched,
-                Poll::Ready(ReceiverEvent::Message(message)) => match self.request(&message) {
+            let event = match ready!(self.requests.poll(cx)) {
+                ReceiverEvent::Matched => ReplierEvent::Matched,
+                ReceiverEvent::Unmatched => ReplierEvent::Unmatched,
+                ReceiverEvent::Message(message) => match self.request(&message) {
                     Some(event) => event,
                     None => continue,
                 },
-                Poll::Ready(ReceiverEvent::AcknowledgementRequested | ReceiverEvent::Latched(_)) => continue,
-                Poll::Pending => return Poll::Pending,
+                ReceiverEvent::AcknowledgementRequested | ReceiverEvent::Latched(_) => continue,
             };
             return Poll::Ready(event);
         }

@@ -5,12 +5,12 @@ use std::task::{Context, Poll, Waker};
 
 use bytes::Bytes;
 
+use super::Link;
 use super::envelope::{self, Envelope, Outcome};
 use super::keys::{self, Side};
-use super::link::Link;
 use super::mailbox::SendingMail;
 use super::presence::Watching;
-use super::stream::{ReceiverEvent, ReceivingEnd, SendingEnd, Sent};
+use super::stream::{ReceiverEvent, ReceivingEnd, SenderEvent, SendingEnd};
 use super::token::EndToken;
 use crate::route::Route;
 
@@ -22,7 +22,6 @@ pub struct WireRequester {
     replies: ReceivingEnd,
     /// Its number tells the replier for whom its replies are.
     _token: EndToken,
-    replier: Option<u64>,
     /// The caller's ids by ours, which are never used twice.
     open: HashMap<u64, u64>,
     last: u64,
@@ -66,7 +65,6 @@ impl WireRequester {
             requests,
             replies,
             _token: token,
-            replier: None,
             open: HashMap::new(),
             last: 0,
             replied: 0,
@@ -87,17 +85,15 @@ impl WireRequester {
                 continue;
             }
             match self.requests.poll(cx) {
-                Poll::Ready(Sent::Matched { peer: replier, .. }) if self.replier != Some(replier) => {
+                Poll::Ready(SenderEvent::Matched) => {
                     self.all_gone();
-                    self.replier = Some(replier);
                     self.events.push_back(RequesterEvent::Matched);
                 }
-                Poll::Ready(Sent::Unmatched) => {
+                Poll::Ready(SenderEvent::Unmatched) => {
                     self.all_gone();
-                    self.replier = None;
                     self.events.push_back(RequesterEvent::Unmatched);
                 }
-                Poll::Ready(Sent::Matched { .. } | Sent::Settled(_) | Sent::GivenUp(_)) => (),
+                Poll::Ready(_) => (),
                 Poll::Pending => break,
             }
         }

@@ -14,8 +14,10 @@ use zenoh::query::{Query, Queryable};
 use zenoh::sample::{Sample, SampleKind};
 use zenoh::{Config, Session, Wait};
 
+use super::Link;
 use super::announcement::{Announcements, Answer, PART};
-use super::command::{Command, Commands, EndId};
+use super::command::{Command, EndId};
+use super::config;
 use super::connection_log;
 use super::error::WireError;
 use super::header::{Ack, Header};
@@ -23,7 +25,7 @@ use super::keys;
 use super::lane::{Emission, Lane};
 use super::mailbox::{Mailbox, ReceivingMail, SendingMail};
 use super::neighbour::Neighbour;
-use super::presence::Presence;
+use super::options::WireOptions;
 use super::user_timeout;
 
 /// How often what has been wrong for a while is looked for.
@@ -40,20 +42,14 @@ type Result<T> = std::result::Result<T, zenoh::Error>;
 /// What the thread needs from the start.
 pub(super) struct Setup {
     pub(super) config: Config,
-    pub(super) system: String,
-    pub(super) host: String,
-    pub(super) instance: String,
-    /// The other hosts, and where this one connects to them.
-    pub(super) peers: Vec<(String, Option<String>)>,
-    pub(super) commands: Commands,
+    pub(super) link: Link,
     pub(super) received: Receiver<Command>,
-    pub(super) presence: Presence,
     pub(super) neighbours: Arc<Mailbox<Neighbour>>,
 }
 
 /// Runs until [`Command::Close`]. `ready` tells how the start went.
 pub(super) fn run(setup: Setup, ready: oneshot::Sender<std::result::Result<(), WireError>>) {
-    let host = setup.host.clone();
+    let host = setup.link.options.host.clone();
     let failed = |error: zenoh::Error| WireError::Start { host, reason: error.to_string() };
     let (mut thread, received) = match Thread::open(setup) {
         Ok(started) => started,
@@ -69,10 +65,7 @@ pub(super) fn run(setup: Setup, ready: oneshot::Sender<std::result::Result<(), W
 
 struct Thread {
     session: Session,
-    system: String,
-    host: String,
-    commands: Commands,
-    presence: Presence,
+    link: Link,
     ends: HashMap<EndId, End>,
     tokens: HashMap<EndId, LivelinessToken>,
     announced: HashMap<EndId, OwnAnnouncement>,
@@ -110,10 +103,7 @@ impl Thread {
         let session = zenoh::open(setup.config).wait()?;
         let mut thread = Thread {
             session,
-            system: setup.system,
-            host: setup.host,
-            commands: setup.commands,
-            presence: setup.presence,
+            link: setup.link,
             ends: HashMap::new(),
             tokens: HashMap::new(),
             announced: HashMap::new(),
@@ -121,12 +111,13 @@ impl Thread {
             hosts: HashMap::new(),
             _subscribers: Vec::new(),
         };
-        for (peer, endpoint) in setup.peers {
-            thread.add_host(&peer, endpoint)?;
+        let options = Arc::clone(&thread.link.options);
+        for peer in &options.peers {
+            thread.add_host(&peer.host, config::endpoint(&options, peer))?;
         }
-        thread.declare(EndId::next(), keys::host_token(&thread.system, &thread.host, &setup.instance))?;
-        for key in keys::tokens(&thread.system, &thread.host) {
-            let presence = thread.presence.clone();
+        thread.declare(EndId::next(), keys::host_token(&options.system, &options.host, &thread.link.instance))?;
+        for key in keys::tokens(&options.system, &options.host) {
+            let presence = thread.link.presence.clone();
             let subscriber = thread
                 .session
                 .liveliness()
@@ -159,7 +150,7 @@ impl Thread {
             }
             let now = Instant::now();
             if now >= next_tick {
-                self.presence.tick();
+                self.link.presence.tick();
                 self.log_missing();
                 next_tick = now + TICK;
             }
@@ -176,41 +167,40 @@ impl Thread {
     }
 
     fn handle(&mut self, command: Command) {
-        let outcome = match command {
-            Command::AddSending { id, host, key, mail } => self.add_sending(id, host, &key, mail),
-            Command::AddReceiving { id, host, key, mail } => self.add_receiving(id, host, &key, mail),
-            Command::Remove { id } => {
-                self.remove(id);
-                Ok(())
-            }
+        if let Err(error) = self.try_handle(command) {
+            tracing::error!("the network library refuses a call: {error}");
+        }
+    }
+
+    fn try_handle(&mut self, command: Command) -> Result<()> {
+        match command {
+            Command::AddSending { id, host, key, mail } => self.add_sending(id, host, &key, mail)?,
+            Command::AddReceiving { id, host, key, mail } => self.add_receiving(id, host, &key, mail)?,
+            Command::Remove { id } => self.remove(id),
             Command::Emit { id, header, message } => {
-                if let Some(host) = self.ends.get(&id).and_then(|end| self.hosts.get_mut(&end.host)) {
-                    host.lane.push(id, header, message);
+                if let Some(lane) = self.lane(id) {
+                    lane.push(id, header, message);
                 }
-                Ok(())
             }
             Command::Clear { id } => {
-                if let Some(host) = self.ends.get(&id).and_then(|end| self.hosts.get_mut(&end.host)) {
-                    host.lane.clear(id);
+                if let Some(lane) = self.lane(id) {
+                    lane.clear(id);
                 }
-                Ok(())
             }
-            Command::Acknowledge { id, ack } => self.put(self.ends.get(&id).map(|end| &end.publisher), ack.encode()),
-            Command::Token { id, key } => self.declare(id, key),
-            Command::Announce { id, key, content } => self.announce(id, key, content),
-            Command::Asked { id, query } => self.answer(id, &query),
+            Command::Acknowledge { id, ack } => self.put(self.ends.get(&id).map(|end| &end.publisher), ack.encode())?,
+            Command::Token { id, key } => self.declare(id, key)?,
+            Command::Announce { id, key, content } => self.announce(id, key, content)?,
+            Command::Asked { id, query } => self.answer(id, &query)?,
             Command::Fetch { key } => {
                 self.announcements.appeared(&key);
-                self.ask(&key, 0)
+                self.ask(&key, 0)?;
             }
-            Command::Forget { key } => {
-                self.announcements.disappeared(&key);
-                Ok(())
+            Command::Forget { key } => self.announcements.disappeared(&key),
+            Command::Part { key, part } => {
+                if let Some(offset) = self.announcements.part(&key, part) {
+                    self.ask(&key, offset)?;
+                }
             }
-            Command::Part { key, part } => match self.announcements.part(&key, part) {
-                Some(offset) => self.ask(&key, offset),
-                None => Ok(()),
-            },
             Command::Host { host, is_present } => {
                 if let Some(host) = self.hosts.get_mut(&host) {
                     host.lane.set_open(is_present);
@@ -220,22 +210,23 @@ impl Thread {
                 if is_present {
                     user_timeout::set();
                 }
-                Ok(())
             }
             Command::Mark { host, number } => {
-                self.put(self.hosts.get(&host).map(|host| &host.echoes), number.to_be_bytes().to_vec())
+                self.put(self.hosts.get(&host).map(|host| &host.echoes), number.to_be_bytes().to_vec())?;
             }
             Command::Echo { host, number } => {
                 if let Some(host) = self.hosts.get_mut(&host) {
                     host.lane.echo(number, Instant::now());
                 }
-                Ok(())
             }
-            Command::Close { .. } => Ok(()),
-        };
-        if let Err(error) = outcome {
-            tracing::error!("the network library refuses a call: {error}");
+            Command::Close { .. } => {}
         }
+        Ok(())
+    }
+
+    /// Where the messages of an end go.
+    fn lane(&mut self, id: EndId) -> Option<&mut Lane> {
+        self.hosts.get_mut(&self.ends.get(&id)?.host).map(|host| &mut host.lane)
     }
 
     fn add_sending(&mut self, id: EndId, host: String, key: &str, mail: Arc<Mailbox<SendingMail>>) -> Result<()> {
@@ -264,33 +255,33 @@ impl Thread {
     }
 
     fn add_host(&mut self, host: &str, endpoint: Option<String>) -> Result<()> {
-        let marks = self.publisher(keys::mark(&self.system, &self.host, host), Priority::Data)?;
-        let echoes = self.publisher(keys::echo(&self.system, &self.host, host), Priority::InteractiveHigh)?;
+        let WireOptions { system, host: own, .. } = &*self.link.options;
+        let marks = self.publisher(keys::mark(system, own, host), Priority::Data)?;
+        let echoes = self.publisher(keys::echo(system, own, host), Priority::InteractiveHigh)?;
         let missing_since = Some(Instant::now());
         let state = Host { lane: Lane::new(), marks, echoes, endpoint, missing_since, reason: None };
-        self.hosts.insert(host.to_owned(), state);
-        let (commands, name) = (self.commands.clone(), host.to_owned());
-        let mark = self.subscribe(keys::mark(&self.system, host, &self.host), move |sample| {
+        let (commands, name) = (self.link.commands.clone(), host.to_owned());
+        let mark = self.subscribe(keys::mark(system, host, own), move |sample| {
             if let Some(number) = number(&sample) {
                 commands.send(Command::Mark { host: name.clone(), number });
             }
         })?;
-        let (commands, name) = (self.commands.clone(), host.to_owned());
-        let echo = self.subscribe(keys::echo(&self.system, host, &self.host), move |sample| {
+        let (commands, name) = (self.link.commands.clone(), host.to_owned());
+        let echo = self.subscribe(keys::echo(system, host, own), move |sample| {
             if let Some(number) = number(&sample) {
                 commands.send(Command::Echo { host: name.clone(), number });
             }
         })?;
+        self.hosts.insert(host.to_owned(), state);
         self._subscribers.extend([mark, echo]);
         Ok(())
     }
 
     fn remove(&mut self, id: EndId) {
-        if let Some(end) = self.ends.remove(&id)
-            && let Some(host) = self.hosts.get_mut(&end.host)
-        {
-            host.lane.clear(id);
+        if let Some(lane) = self.lane(id) {
+            lane.clear(id);
         }
+        self.ends.remove(&id);
         self.tokens.remove(&id);
         self.announced.remove(&id);
     }
@@ -302,7 +293,7 @@ impl Thread {
     }
 
     fn announce(&mut self, id: EndId, key: String, content: Bytes) -> Result<()> {
-        let commands = self.commands.clone();
+        let commands = self.link.commands.clone();
         let queryable = self
             .session
             .declare_queryable(key.clone())
@@ -326,7 +317,7 @@ impl Thread {
 
     /// Asks for a part of an announcement.
     fn ask(&self, key: &str, offset: usize) -> Result<()> {
-        let mut answer = Answer::new(&self.commands, key);
+        let mut answer = Answer::new(&self.link.commands, key);
         self.session
             .get(format!("{key}?offset={offset}"))
             .timeout(PART_TIMEOUT)

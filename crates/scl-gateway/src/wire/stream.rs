@@ -13,4 +13,5 @@ mod sending_end;
 
 pub use self::receiving_end::ReceiverEvent;
 pub(super) use self::receiving_end::ReceivingEnd;
-pub(super) use self::sending_end::{SendingEnd, Sent};
+pub use self::sending_end::SenderEvent;
+pub(super) use self::sending_end::SendingEnd;

@@ -1,23 +1,20 @@
 //! The token of an end of a route, while it is open.
 
-use super::command::{Command, Commands, Declared};
+use super::command::{Command, Declared};
 use super::keys::{self, Side};
-use super::link::Link;
-use super::random;
+use super::{Link, random};
 
 #[derive(Debug)]
 pub(super) struct EndToken {
-    commands: Commands,
+    link: Link,
     key: String,
     side: Side,
-    instance: String,
     open: Option<Declared>,
 }
 
 impl EndToken {
     pub(super) fn new(link: &Link, key: &str, side: Side) -> Self {
-        let (commands, instance) = (link.commands.clone(), link.instance.clone());
-        EndToken { commands, key: key.to_owned(), side, instance, open: None }
+        EndToken { link: link.clone(), key: key.to_owned(), side, open: None }
     }
 
     /// Declares or withdraws the token. Returns its new number if it was opened.
@@ -30,8 +27,8 @@ impl EndToken {
             return None;
         }
         let number = random();
-        let key = keys::end_token(&self.key, self.side, &self.instance, number);
-        self.open = Some(Declared::new(&self.commands, |id| Command::Token { id, key }));
+        let key = keys::end_token(&self.key, self.side, &self.link.instance, number);
+        self.open = Some(Declared::new(&self.link.commands, |id| Command::Token { id, key }));
         Some(number)
     }
 }

@@ -6,7 +6,7 @@ use scl::plan::{Plan, SystemPlan};
 use scl::runtime_dir::{ComponentState, RuntimeDir, SystemDir};
 use scl::untyped::Component;
 use scl_gateway::deployment::{Deployment, Host as HostPlan};
-use scl_gateway::local::{Gateway, GatewayOptions};
+use scl_gateway::local::Gateway;
 use scl_gateway::route::routes;
 use scl_gateway::wire::{Peer, Wire, WireOptions};
 use std::collections::BTreeMap;
@@ -95,19 +95,12 @@ impl Hosts {
             peers: peers.collect(),
             tls: None,
             insecure: false,
-            routes: routes.clone(),
-            components: components.clone(),
+            routes,
+            components,
         });
         let wire = wire.await.unwrap();
         let host = self.host_mut(name);
-        let options = GatewayOptions {
-            dir: host.dir(),
-            kind: scl::TransportKind::Ipc,
-            host: name.to_owned(),
-            components,
-            routes,
-        };
-        host.gateway = Some(Gateway::start(options, wire));
+        host.gateway = Some(Gateway::start(host.dir(), scl::TransportKind::Ipc, wire));
     }
 
     pub(super) async fn stop_gateway(&mut self, name: &str) {

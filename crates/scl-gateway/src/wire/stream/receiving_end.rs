@@ -99,11 +99,8 @@ impl ReceivingEnd {
                 ReceivingMail::Peer(peer) if peer.is_some() == self.is_matched => continue,
                 ReceivingMail::Peer(peer) => {
                     self.is_matched = peer.is_some();
-                    return Poll::Ready(if self.is_matched {
-                        ReceiverEvent::Matched
-                    } else {
-                        ReceiverEvent::Unmatched
-                    });
+                    let event = if self.is_matched { ReceiverEvent::Matched } else { ReceiverEvent::Unmatched };
+                    return Poll::Ready(event);
                 }
                 ReceivingMail::Arrived(header, payload) => (header, payload),
             };

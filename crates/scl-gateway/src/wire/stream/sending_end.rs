@@ -19,16 +19,20 @@ use crate::wire::random;
 const FIRST_PROBE: Duration = Duration::from_millis(300);
 const LAST_PROBE: Duration = Duration::from_secs(5);
 
-/// What a sending end tells its owner.
+/// What a sending end tells its owner, and event of [`WireSender::poll_event`](crate::wire::WireSender::poll_event).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::wire) enum Sent {
-    /// With this receiving end; `is_new` if it is another one than the last time.
-    Matched {
-        peer: u64,
-        is_new: bool,
-    },
+#[non_exhaustive]
+pub enum SenderEvent {
+    /// The receiving side is open. What was unacknowledged has been sent again if it is the same one as before.
+    Matched,
+    /// On a latched route, after `Matched`: this receiver has got nothing yet, it is not the one before.
+    NewReceiver,
+    /// The receiving side closed, or the link is lost. Unacknowledged messages stay here for the next match.
     Unmatched,
-    Settled(u64),
+    /// All messages up to this number are taken by the receiving component (or were given up before).
+    Acknowledged(u64),
+    /// This many of the oldest messages were unacknowledged when another receiver took the place of theirs: whether
+    /// they arrived is unknown, and they are not sent again. Comes after the `Matched` of the new receiver.
     GivenUp(u64),
 }
 
@@ -37,7 +41,7 @@ pub(in crate::wire) struct SendingEnd {
     declared: Declared,
     mail: Arc<Mailbox<SendingMail>>,
     outgoing: Outgoing,
-    events: VecDeque<Sent>,
+    events: VecDeque<SenderEvent>,
     losses: u64,
     pause: Duration,
     timer: Option<Pin<Box<Sleep>>>,
@@ -102,7 +106,7 @@ impl SendingEnd {
         self.outgoing.abandon(random());
     }
 
-    pub(in crate::wire) fn poll(&mut self, cx: &mut Context<'_>) -> Poll<Sent> {
+    pub(in crate::wire) fn poll(&mut self, cx: &mut Context<'_>) -> Poll<SenderEvent> {
         loop {
             if let Some(event) = self.events.pop_front() {
                 return Poll::Ready(event);
@@ -120,11 +124,13 @@ impl SendingEnd {
         match mail {
             SendingMail::Peer(Some(epoch)) => {
                 self.declared.send(|id| Command::Clear { id });
-                let is_new = self.outgoing.is_new(epoch);
+                self.events.push_back(SenderEvent::Matched);
+                if self.outgoing.is_new(epoch) {
+                    self.events.push_back(SenderEvent::NewReceiver);
+                }
                 let given_up = self.outgoing.matched(epoch);
-                self.events.push_back(Sent::Matched { peer: epoch, is_new });
                 if given_up > 0 {
-                    self.events.push_back(Sent::GivenUp(given_up));
+                    self.events.push_back(SenderEvent::GivenUp(given_up));
                 }
                 self.restart_timer();
                 self.emit();
@@ -133,7 +139,7 @@ impl SendingEnd {
                 self.declared.send(|id| Command::Clear { id });
                 if self.outgoing.is_matched() {
                     self.outgoing.unmatched();
-                    self.events.push_back(Sent::Unmatched);
+                    self.events.push_back(SenderEvent::Unmatched);
                 }
             }
             SendingMail::Ack(ack) => {
@@ -143,7 +149,7 @@ impl SendingEnd {
                     self.declared.send(|id| Command::Clear { id });
                 }
                 if let Some(settled) = progress.settled {
-                    self.events.push_back(Sent::Settled(settled));
+                    self.events.push_back(SenderEvent::Acknowledged(settled));
                     self.restart_timer();
                 }
                 self.emit();
