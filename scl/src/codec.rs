@@ -4,6 +4,9 @@
 //! never constructed. [`Opaque`] is always available; `Protobuf`, `Json`, `Raw`, `Cbor`, `Msgpack` and `Postcard` have
 //! one cargo feature each, the last three of them off by default. You can implement [`Codec`] for codecs of your own.
 
+#[cfg(any(feature = "cbor", feature = "msgpack", feature = "postcard", all(feature = "json", feature = "protobuf")))]
+#[macro_use]
+mod visit_plain;
 #[cfg(any(feature = "cbor", feature = "msgpack", feature = "postcard"))]
 mod bounded;
 #[macro_use]
@@ -27,6 +30,8 @@ mod protobuf;
 #[cfg(feature = "raw")]
 mod raw;
 
+#[cfg(any(feature = "json", feature = "cbor", feature = "msgpack", feature = "postcard"))]
+use bytes::BufMut;
 use bytes::{Bytes, BytesMut};
 
 #[cfg(feature = "postcard")]
@@ -140,6 +145,16 @@ pub trait Codec<T>: Send + Sync + 'static {
     ///
     /// [`DecodeError`] if the bytes are not a message of this type.
     fn decode(bytes: Bytes) -> Result<T, DecodeError>;
+}
+
+/// Appends an encoding to the buffer, or leaves the buffer as it was.
+#[cfg(any(feature = "json", feature = "cbor", feature = "msgpack", feature = "postcard"))]
+fn encode_with<E>(
+    buffer: &mut BytesMut,
+    encode: impl FnOnce(bytes::buf::Writer<&mut BytesMut>) -> Result<(), E>,
+) -> Result<(), E> {
+    let start = buffer.len();
+    encode((&mut *buffer).writer()).inspect_err(|_| buffer.truncate(start))
 }
 
 #[cfg(all(test, any(feature = "cbor", feature = "msgpack", feature = "postcard")))]

@@ -1,8 +1,8 @@
 //! CBOR, for any serde type.
 
 use super::bounded::{self, Floats};
-use super::{Codec, DecodeError, EncodeError};
-use bytes::{BufMut, Bytes, BytesMut};
+use super::{Codec, DecodeError, EncodeError, encode_with};
+use bytes::{Bytes, BytesMut};
 use cbor4ii::core::dec::Read;
 use cbor4ii::core::utils::SliceReader;
 use cbor4ii::serde::Deserializer;
@@ -26,11 +26,8 @@ impl<T: Serialize + DeserializeOwned> Codec<T> for Cbor {
     const NAME: &'static str = "cbor";
 
     fn encode(message: &T, buffer: &mut BytesMut) -> Result<(), EncodeError> {
-        let start = buffer.len();
-        cbor4ii::serde::to_writer((&mut *buffer).writer(), message).map_err(|error| {
-            buffer.truncate(start);
-            EncodeError::new(<Self as Codec<T>>::NAME, "CBOR cannot represent its value").caused_by(error)
-        })
+        encode_with(buffer, |writer| cbor4ii::serde::to_writer(writer, message))
+            .map_err(|error| EncodeError::new("cbor", "CBOR cannot represent its value").caused_by(error))
     }
 
     fn decode(bytes: Bytes) -> Result<T, DecodeError> {
@@ -41,11 +38,11 @@ impl<T: Serialize + DeserializeOwned> Codec<T> for Cbor {
         decoded.map_err(|error| match error {
             Refused::Item(error) => {
                 let reason = format!("this {}-byte frame is not a CBOR item of the expected type", bytes.len());
-                DecodeError::new(<Self as Codec<T>>::NAME, reason).caused_by(error)
+                DecodeError::new("cbor", reason).caused_by(error)
             }
             Refused::Rest => {
                 let reason = format!("data follows the CBOR item in this {}-byte frame", bytes.len());
-                DecodeError::new(<Self as Codec<T>>::NAME, reason)
+                DecodeError::new("cbor", reason)
             }
         })
     }

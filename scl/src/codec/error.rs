@@ -13,29 +13,6 @@ pub struct EncodeError {
     source: Option<Cause>,
 }
 
-impl EncodeError {
-    /// Creates an error of the codec named `codec`. By convention `reason` starts in lower case and has no full stop.
-    pub fn new(codec: &'static str, reason: impl Into<String>) -> Self {
-        Self { codec, reason: reason.into(), source: None }
-    }
-
-    /// Adds the error that caused this one, its [`source`](Error::source).
-    #[must_use]
-    pub fn caused_by(self, source: impl Into<Cause>) -> Self {
-        Self { source: Some(source.into()), ..self }
-    }
-
-    /// The codec's name.
-    pub fn codec(&self) -> &'static str {
-        self.codec
-    }
-
-    /// Why the message cannot be encoded.
-    pub fn reason(&self) -> &str {
-        &self.reason
-    }
-}
-
 /// Received bytes could not be decoded as a message of the expected type.
 ///
 /// The usual causes are a peer that is not an SCL program, and two programs built with different versions of a schema.
@@ -47,25 +24,33 @@ pub struct DecodeError {
     source: Option<Cause>,
 }
 
-impl DecodeError {
-    /// Creates an error of the codec named `codec`. By convention `reason` starts in lower case and has no full stop.
-    pub fn new(codec: &'static str, reason: impl Into<String>) -> Self {
-        Self { codec, reason: reason.into(), source: None }
-    }
+macro_rules! codec_error {
+    ($error:ident) => {
+        impl $error {
+            /// Creates an error of the codec named `codec`. By convention `reason` starts in lower case and has no full
+            /// stop.
+            pub fn new(codec: &'static str, reason: impl Into<String>) -> Self {
+                Self { codec, reason: reason.into(), source: None }
+            }
 
-    /// Adds the error that caused this one, its [`source`](Error::source).
-    #[must_use]
-    pub fn caused_by(self, source: impl Into<Cause>) -> Self {
-        Self { source: Some(source.into()), ..self }
-    }
+            /// Adds the error that caused this one, its [`source`](Error::source).
+            #[must_use]
+            pub fn caused_by(self, source: impl Into<Cause>) -> Self {
+                Self { source: Some(source.into()), ..self }
+            }
 
-    /// The codec's name.
-    pub fn codec(&self) -> &'static str {
-        self.codec
-    }
+            /// The codec's name.
+            pub fn codec(&self) -> &'static str {
+                self.codec
+            }
 
-    /// Why the bytes cannot be decoded.
-    pub fn reason(&self) -> &str {
-        &self.reason
-    }
+            /// Why the codec cannot do it.
+            pub fn reason(&self) -> &str {
+                &self.reason
+            }
+        }
+    };
 }
+
+codec_error!(EncodeError);
+codec_error!(DecodeError);

@@ -1,7 +1,7 @@
 //! JSON, for any serde type. The messages of `schemas:` are serde types too, see `message_json`.
 
-use super::{Codec, DecodeError, EncodeError};
-use bytes::{BufMut, Bytes, BytesMut};
+use super::{Codec, DecodeError, EncodeError, encode_with};
+use bytes::{Bytes, BytesMut};
 use serde::{Serialize, de::DeserializeOwned};
 
 /// Encodes any serde type as one JSON value, and the messages of `schemas:` as canonical protobuf JSON.
@@ -22,17 +22,14 @@ impl<T: Serialize + DeserializeOwned> Codec<T> for Json {
     const NAME: &'static str = "json";
 
     fn encode(message: &T, buffer: &mut BytesMut) -> Result<(), EncodeError> {
-        let start = buffer.len();
-        serde_json::to_writer((&mut *buffer).writer(), message).map_err(|error| {
-            buffer.truncate(start);
-            EncodeError::new(<Self as Codec<T>>::NAME, "JSON cannot represent its value").caused_by(error)
-        })
+        encode_with(buffer, |writer| serde_json::to_writer(writer, message))
+            .map_err(|error| EncodeError::new("json", "JSON cannot represent its value").caused_by(error))
     }
 
     fn decode(bytes: Bytes) -> Result<T, DecodeError> {
         serde_json::from_slice(&bytes).map_err(|error| {
             let reason = format!("this {}-byte frame is not a JSON value of the expected type", bytes.len());
-            DecodeError::new(<Self as Codec<T>>::NAME, reason).caused_by(error)
+            DecodeError::new("json", reason).caused_by(error)
         })
     }
 }

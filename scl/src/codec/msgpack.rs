@@ -1,8 +1,8 @@
 //! MessagePack, for any serde type.
 
 use super::bounded::{self, Floats};
-use super::{Codec, DecodeError, EncodeError};
-use bytes::{BufMut, Bytes, BytesMut};
+use super::{Codec, DecodeError, EncodeError, encode_with};
+use bytes::{Bytes, BytesMut};
 use serde::{Serialize, de::DeserializeOwned};
 
 /// Encodes any serde type as one MessagePack value, structs as maps with field names.
@@ -19,15 +19,12 @@ impl<T: Serialize + DeserializeOwned> Codec<T> for Msgpack {
     const NAME: &'static str = "msgpack";
 
     fn encode(message: &T, buffer: &mut BytesMut) -> Result<(), EncodeError> {
-        let start = buffer.len();
-        rmp_serde::encode::write_named(&mut (&mut *buffer).writer(), message).map_err(|error| {
-            buffer.truncate(start);
-            EncodeError::new(<Self as Codec<T>>::NAME, "MessagePack cannot represent its value").caused_by(error)
-        })
+        encode_with(buffer, |mut writer| rmp_serde::encode::write_named(&mut writer, message))
+            .map_err(|error| EncodeError::new("msgpack", "MessagePack cannot represent its value").caused_by(error))
     }
 
     fn decode(bytes: Bytes) -> Result<T, DecodeError> {
-        let refused = |reason| DecodeError::new(<Self as Codec<T>>::NAME, reason);
+        let refused = |reason| DecodeError::new("msgpack", reason);
         let mut rest = std::io::Cursor::new(&bytes[..]);
         // The library limits the depth of arrays and maps, but not of enums.
         let message = bounded::decode(&mut rmp_serde::Deserializer::new(&mut rest), bytes.len(), Floats::OfTheirWidth)

@@ -1,8 +1,8 @@
 //! Postcard, for any serde type.
 
 use super::bounded::{self, Floats};
-use super::{Codec, DecodeError, EncodeError};
-use bytes::{BufMut, Bytes, BytesMut};
+use super::{Codec, DecodeError, EncodeError, encode_with};
+use bytes::{Bytes, BytesMut};
 use serde::{Serialize, de::DeserializeOwned};
 
 /// Encodes any serde type in the compact format of `postcard`, without field names.
@@ -22,15 +22,12 @@ impl<T: Serialize + DeserializeOwned> Codec<T> for Postcard {
     const NAME: &'static str = "postcard";
 
     fn encode(message: &T, buffer: &mut BytesMut) -> Result<(), EncodeError> {
-        let start = buffer.len();
-        postcard::to_io(message, (&mut *buffer).writer()).map(drop).map_err(|error| {
-            buffer.truncate(start);
-            EncodeError::new(<Self as Codec<T>>::NAME, "postcard cannot represent its value").caused_by(error)
-        })
+        encode_with(buffer, |writer| postcard::to_io(message, writer).map(drop))
+            .map_err(|error| EncodeError::new("postcard", "postcard cannot represent its value").caused_by(error))
     }
 
     fn decode(bytes: Bytes) -> Result<T, DecodeError> {
-        let refused = |reason| DecodeError::new(<Self as Codec<T>>::NAME, reason);
+        let refused = |reason| DecodeError::new("postcard", reason);
         let mut input = postcard::Deserializer::from_bytes(&bytes);
         let message = bounded::decode(&mut input, bytes.len(), Floats::OfTheirWidth);
         let read = message.and_then(|message| Ok((message, input.finalize()?)));

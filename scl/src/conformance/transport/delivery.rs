@@ -5,7 +5,6 @@ use super::{ENDPOINT, PATTERNS, Pattern, SIZES, check_carried, content, numbered
 use crate::transport::{Endpoint, Transport};
 use bytes::Bytes;
 use std::future::poll_fn;
-use std::task::Poll;
 
 /// The messages of one connection arrive complete, in order, and once each.
 pub async fn keeps_order(transport: &dyn Transport) {
@@ -68,11 +67,7 @@ pub async fn delivers_what_was_written(transport: &dyn Transport) {
     for pattern in PATTERNS {
         let (mut sender, mut receiver) = pattern.connected(transport).await;
         sender.queue(numbered(10));
-        poll_fn(|cx| {
-            sender.poll(cx);
-            if sender.is_written() { Poll::Ready(()) } else { Poll::Pending }
-        })
-        .await;
+        sender.until_written().await;
         drop(sender);
         for expected in numbered(10) {
             assert_eq!(receiver.next(&mut []).await, expected, "{pattern:?}: lost with its sender");

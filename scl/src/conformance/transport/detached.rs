@@ -3,7 +3,7 @@
 use super::requests;
 use super::{PATTERNS, content, numbered};
 use crate::conformance::PATIENCE;
-use crate::transport::{Answer, Transport};
+use crate::transport::Transport;
 use bytes::Bytes;
 use std::future::poll_fn;
 use std::task::Poll;
@@ -79,7 +79,7 @@ pub async fn replies_when_detached(transport: &dyn Transport) {
         let (mut requester, mut replier) = requests::pair(transport).await;
         assert_eq!(requester.request(1, Bytes::from_static(b"question")), Ok(()));
         let request = requests::next_request(&mut requester, &mut replier).await;
-        replier.detach();
+        replier.end.detach();
         assert_eq!(request.path.reply(&request.envelope, content(size)), Ok(()), "the requester is connected");
         drop(request);
         let mut replier = Some(replier);
@@ -89,12 +89,7 @@ pub async fn replies_when_detached(transport: &dyn Transport) {
             cx.waker().wake_by_ref();
             requester.poll_answer(cx)
         });
-        match answer.await {
-            Answer::Reply { id, body } => {
-                assert!(id == 1 && body == content(size), "a reply of {size} bytes is damaged")
-            }
-            Answer::Refused { .. } | Answer::Lost => panic!("a reply of {size} bytes is lost with its replier"),
-        }
+        assert!(requests::reply_of(answer.await) == (1, content(size)), "a reply of {size} bytes is damaged");
     }
 }
 

@@ -1,7 +1,7 @@
 //! The ends of messages, as the tests use them.
 
 use super::watched::Watched;
-use crate::transport::{Driven, Frame, Link, Loan, PeerKind, Receiver, Sender, Sent};
+use crate::transport::{Driven, Frame, Link, PeerKind, Receiver, Sender, Sent};
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::future::poll_fn;
@@ -13,7 +13,7 @@ const MOST_PEERS: usize = 10_000;
 
 /// A sending end, its newest link, and the messages to send over that.
 pub(super) struct TestSender {
-    watched: Watched<Box<dyn Sender>>,
+    pub(super) watched: Watched<Box<dyn Sender>>,
     pub(super) link: Option<TestLink>,
     queue: VecDeque<Frame>,
     /// Number of peers so far.
@@ -37,10 +37,6 @@ impl TestSender {
 
     pub(super) fn peers(&self) -> usize {
         self.peers
-    }
-
-    pub(super) fn refusal(&self) -> Option<String> {
-        self.watched.end.refusal()
     }
 
     pub(super) fn queue(&mut self, messages: impl IntoIterator<Item = Bytes>) {
@@ -84,7 +80,7 @@ impl TestSender {
 
     /// Returns the link to the next peer.
     pub(super) fn poll_link(&mut self, test: &Context<'_>) -> Poll<TestLink> {
-        self.watched.poll(test, |end, cx| end.poll_peer(cx)).map(|peer| {
+        self.watched.poll_with(test, |end, cx| end.poll_peer(cx)).map(|peer| {
             assert_eq!(peer.kind, PeerKind::Component, "an end of this transport is taken for a foreign program");
             self.peers += 1;
             assert!(self.peers < MOST_PEERS, "a sending end returns peers without end");
@@ -100,6 +96,15 @@ impl TestSender {
     /// Waits until there is a peer, or no longer.
     pub(super) async fn until_connected(&mut self, connected: bool) {
         poll_fn(|cx| if self.poll(cx) == connected { Poll::Ready(()) } else { Poll::Pending }).await;
+    }
+
+    /// Waits until everything is written, to the peer that is connected.
+    pub(super) async fn until_written(&mut self) {
+        poll_fn(|cx| {
+            self.poll(cx);
+            if self.is_written() { Poll::Ready(()) } else { Poll::Pending }
+        })
+        .await;
     }
 
     pub(super) fn detach(&mut self) {
@@ -122,7 +127,7 @@ impl TestSender {
 
 /// The connection of a sending end to one peer.
 pub(super) struct TestLink {
-    watched: Watched<Box<dyn Link>>,
+    pub(super) watched: Watched<Box<dyn Link>>,
     /// A message was returned since the link was last woken.
     refused: bool,
     /// The last message was returned because the peer was gone.
@@ -187,14 +192,6 @@ impl TestLink {
         self.refused = !queue.is_empty();
     }
 
-    pub(super) fn loan(&mut self, length: usize) -> Option<Loan> {
-        self.watched.end.loan(length)
-    }
-
-    pub(super) fn unacknowledged(&self) -> u64 {
-        self.watched.end.unacknowledged()
-    }
-
     pub(super) fn request_acknowledgement(&mut self) {
         self.watched.end.request_acknowledgement(&mut Context::from_waker(&self.watched.waker));
     }
@@ -204,15 +201,11 @@ impl TestLink {
         self.watched.end.read_last();
         self.watched.end.not_received()
     }
-
-    pub(super) fn wakes(&self) -> usize {
-        self.watched.wakes()
-    }
 }
 
 /// A receiving end.
 pub(super) struct TestReceiver {
-    watched: Watched<Box<dyn Receiver>>,
+    pub(super) watched: Watched<Box<dyn Receiver>>,
     /// What [`poll_newest`](Self::poll_newest) has received and not returned yet.
     newest: Option<Bytes>,
     /// Whether a call of it has begun that has returned nothing yet.
@@ -224,34 +217,14 @@ impl TestReceiver {
         Self { watched: Watched::new(end), newest: None, catching_up: false }
     }
 
-    pub(super) fn renew_waker(&mut self) {
-        self.watched.renew_waker();
-    }
-
-    pub(super) fn wakes(&self) -> usize {
-        self.watched.wakes()
-    }
-
-    pub(super) fn peers(&self) -> usize {
-        self.watched.end.peers()
-    }
-
-    pub(super) fn refusal(&self) -> Option<String> {
-        self.watched.end.refusal()
-    }
-
     /// Drops the end as a gate does in which some of the messages wait that were returned last.
     pub(super) fn leave(mut self, waiting: u64) {
         let _awaited = self.watched.end.note_waiting(&mut Context::from_waker(&self.watched.waker), waiting);
         self.watched.end.acknowledge_last();
     }
 
-    pub(super) fn is_lossless(&self) -> bool {
-        self.watched.end.is_lossless()
-    }
-
     pub(super) fn poll(&mut self, test: &Context<'_>) -> Poll<Bytes> {
-        self.watched.poll(test, |end, cx| end.poll_recv(cx))
+        self.watched.poll_with(test, |end, cx| end.poll_recv(cx))
     }
 
     /// Lets the end connect, without asking it for a message.
@@ -264,7 +237,7 @@ impl TestReceiver {
     /// Returns the newest message, or `None` if there is none since the last call, once the sender has nothing newer.
     pub(super) fn poll_newest(&mut self, test: &Context<'_>) -> Poll<Option<Bytes>> {
         let (newest, catching_up) = (&mut self.newest, &mut self.catching_up);
-        self.watched.poll(test, |end, cx| {
+        self.watched.poll_with(test, |end, cx| {
             while let Poll::Ready(message) = end.poll_recv(cx) {
                 *newest = Some(message);
             }

@@ -18,7 +18,7 @@ pub async fn lends_nothing(transport: &dyn Transport) {
         exchange(&mut sender, &mut receiver).await;
         let link = sender.link.as_mut().unwrap_or_else(|| panic!("{pattern:?}: disconnected"));
         for length in LENGTHS {
-            assert!(link.loan(length).is_none(), "{pattern:?}: lent {length} bytes; test it with `lends;`");
+            assert!(link.watched.end.loan(length).is_none(), "{pattern:?}: lent {length} bytes; test it with `lends;`");
         }
     }
 }
@@ -50,7 +50,7 @@ pub async fn carries_loans(transport: &dyn Transport) {
         poll_fn(|cx| {
             assert!(receiver.poll(cx).is_pending(), "{pattern:?}: received a message that was not sent");
             assert!(sender.poll(cx), "{pattern:?}: disconnected");
-            let left = sender.link.as_ref().map(|link| link.unacknowledged());
+            let left = sender.link.as_ref().map(|link| link.watched.end.unacknowledged());
             if left == Some(0) { Poll::Ready(()) } else { Poll::Pending }
         })
         .await;
@@ -65,7 +65,7 @@ pub async fn returns_loans_that_it_refuses(transport: &dyn Transport) {
         drop(lent(&mut sender, &mut receiver, LENGTH).await);
         for number in 0..MESSAGES {
             let message = numbered_content(LENGTH, number);
-            let loan = sender.link.as_mut().and_then(|link| link.loan(LENGTH));
+            let loan = sender.link.as_mut().and_then(|link| link.watched.end.loan(LENGTH));
             // A link need not have memory for so many.
             let frame = loan.map_or_else(|| message.clone().into(), |loan| fill(loan, &message));
             sender.queue_frame(frame);
@@ -86,7 +86,7 @@ pub async fn takes_dropped_loans_back(transport: &dyn Transport) {
             lent(&mut sender, &mut receiver, LENGTH).await.as_mut_slice().fill(1);
         }
         let link = sender.link.as_mut().unwrap_or_else(|| panic!("{pattern:?}: disconnected"));
-        let held: Vec<Loan> = (0..100).map_while(|_| link.loan(LENGTH)).collect();
+        let held: Vec<Loan> = (0..100).map_while(|_| link.watched.end.loan(LENGTH)).collect();
         assert!(!held.is_empty(), "{pattern:?}: dropped loans are lost");
         drop(held);
         let message = numbered_content(LENGTH, 7);
@@ -135,7 +135,7 @@ async fn lent(sender: &mut TestSender, receiver: &mut TestReceiver, length: usiz
     let loan = poll_fn(|cx| {
         assert!(receiver.poll(cx).is_pending(), "received a message that was not sent");
         sender.poll(cx);
-        match sender.link.as_mut().and_then(|link| link.loan(length)) {
+        match sender.link.as_mut().and_then(|link| link.watched.end.loan(length)) {
             Some(loan) => Poll::Ready(loan),
             None => {
                 cx.waker().wake_by_ref();

@@ -86,20 +86,17 @@ pub async fn acknowledges_what_was_taken(transport: &dyn Transport) {
         let (mut sender, mut receiver) = pattern.connected(transport).await;
         for count in [1, 7, 30] {
             sender.queue(numbered(count));
-            poll_fn(|cx| {
-                sender.poll(cx);
-                if sender.is_written() { Poll::Ready(()) } else { Poll::Pending }
-            })
-            .await;
+            sender.until_written().await;
             let link = sender.link.as_mut().unwrap_or_else(|| panic!("{pattern:?}: disconnected"));
-            let sent = link.unacknowledged();
+            let sent = link.watched.end.unacknowledged();
             assert!(sent <= u64::from(count), "{pattern:?}: more is unacknowledged than was sent");
             link.request_acknowledgement();
-            let asked = link.wakes();
+            let asked = link.watched.wakes();
             for expected in numbered(count) {
                 assert_eq!(receiver.next(&mut [&mut sender]).await, expected);
             }
-            let is_acknowledged = |link: &TestLink| link.unacknowledged() == 0 && (sent == 0 || link.wakes() > asked);
+            let is_acknowledged =
+                |link: &TestLink| link.watched.end.unacknowledged() == 0 && (sent == 0 || link.watched.wakes() > asked);
             poll_fn(|cx| {
                 assert!(receiver.poll(cx).is_pending(), "{pattern:?}: received a message that was not sent");
                 assert!(sender.poll(cx), "{pattern:?}: disconnected");
@@ -131,7 +128,7 @@ pub async fn stays_quiet_when_idle(transport: &dyn Transport) {
                 Poll::Ready(())
             })
             .await;
-            wakes.push((sender.wakes(), receiver.wakes(), lonely.wakes(), requester.wakes(), replier.wakes()));
+            wakes.push((sender.wakes(), receiver.watched.wakes(), lonely.wakes(), requester.wakes(), replier.wakes()));
         }
         // The first round completes what was under way before.
         let what = "wake-ups of an idle sender and its link, receiver, lonely publisher, requester, replier";

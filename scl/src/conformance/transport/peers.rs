@@ -42,7 +42,7 @@ pub async fn connects_without_room(transport: &dyn Transport) {
             let mut sender = first.take().unwrap_or_else(sender);
             poll_fn(|cx| {
                 receiver.connect(cx);
-                if sender.poll(cx) && receiver.peers() == 1 { Poll::Ready(()) } else { Poll::Pending }
+                if sender.poll(cx) && receiver.watched.end.peers() == 1 { Poll::Ready(()) } else { Poll::Pending }
             })
             .await;
             // When there is room, what was sent meanwhile is there.
@@ -52,7 +52,7 @@ pub async fn connects_without_room(transport: &dyn Transport) {
                 receiver.connect(cx);
             })
             .await;
-            receiver.renew_waker();
+            receiver.watched.renew_waker();
             for expected in numbered(3) {
                 assert_eq!(receiver.next(&mut [&mut sender]).await, expected, "{pattern:?}");
             }
@@ -159,36 +159,36 @@ pub async fn releases_an_idle_connection(transport: &dyn Transport) {
 pub async fn counts_peers(transport: &dyn Transport) {
     for pattern in PATTERNS {
         let mut receiver = pattern.receiver(transport);
-        assert_eq!(receiver.peers(), 0, "{pattern:?}: peers of a receiver without sender");
+        assert_eq!(receiver.watched.end.peers(), 0, "{pattern:?}: peers of a receiver without sender");
         let mut sender = pattern.sender(transport);
         connect(&mut sender, &mut receiver).await;
         let has_peers = |receiver: &mut TestReceiver, count: usize, cx: &Context<'_>| {
             assert!(receiver.poll(cx).is_pending(), "{pattern:?}: received a message that was not sent");
-            if receiver.peers() == count { Poll::Ready(()) } else { Poll::Pending }
+            if receiver.watched.end.peers() == count { Poll::Ready(()) } else { Poll::Pending }
         };
         poll_fn(|cx| {
             assert!(sender.poll(cx), "{pattern:?}: disconnected");
             has_peers(&mut receiver, 1, cx)
         })
         .await;
-        let woken = receiver.wakes();
+        let woken = receiver.watched.wakes();
         drop(sender);
         poll_fn(|cx| has_peers(&mut receiver, 0, cx)).await;
-        poll_fn(|_| if receiver.wakes() > woken { Poll::Ready(()) } else { Poll::Pending }).await;
+        poll_fn(|_| if receiver.watched.wakes() > woken { Poll::Ready(()) } else { Poll::Pending }).await;
     }
 }
 
 /// Repliers know how many peers are connected, and are woken when that changes.
 pub async fn counts_requesters(transport: &dyn Transport) {
     let mut replier = requests::replier(transport, &Endpoint::new(ENDPOINT));
-    assert_eq!(replier.peers(), 0, "peers of a replier without requesters");
+    assert_eq!(replier.end.peers(), 0, "peers of a replier without requesters");
     let mut first = requests::requester(transport, &Endpoint::new(ENDPOINT));
     requests::connect(&mut first, &mut replier).await;
     let mut second = requests::requester(transport, &Endpoint::new(ENDPOINT));
     requests::connect(&mut second, &mut replier).await;
     let has_peers = |replier: &mut TestReplier, count: usize, cx: &Context<'_>| {
         assert!(replier.poll(cx).is_pending(), "received a request that was not sent");
-        if replier.peers() == count { Poll::Ready(()) } else { Poll::Pending }
+        if replier.end.peers() == count { Poll::Ready(()) } else { Poll::Pending }
     };
     poll_fn(|cx| has_peers(&mut replier, 2, cx)).await;
     let woken = replier.wakes();
@@ -206,29 +206,29 @@ pub async fn connects_only_if_the_check_passes(transport: &dyn Transport) {
     until(|cx| {
         assert!(!publisher.poll(cx), "a subscriber connected although its check refused");
         assert!(subscriber.poll(cx).is_pending());
-        subscriber.refusal()
+        subscriber.watched.end.refusal()
     })
     .await;
     drop(publisher);
     accepts.store(true, Ordering::SeqCst);
     let mut publisher = Pattern::PubSub.sender(transport);
     check_carried(Pattern::PubSub, &mut publisher, &mut subscriber, &numbered(3)).await;
-    assert_eq!(subscriber.refusal(), None, "the reason of a refusal remains after it");
+    assert_eq!(subscriber.watched.end.refusal(), None, "the reason of a refusal remains after it");
 
     let (checked, accepts) = with_check();
     let mut pusher = Pattern::PushPull.sender_at(transport, &checked);
     let mut puller = Pattern::PushPull.receiver(transport);
     until(|cx| {
         assert!(!pusher.poll(cx), "a pusher connected although its check refused");
-        assert!(puller.poll(cx).is_pending() && puller.peers() == 0);
-        pusher.refusal()
+        assert!(puller.poll(cx).is_pending() && puller.watched.end.peers() == 0);
+        pusher.watched.end.refusal()
     })
     .await;
     drop(puller);
     accepts.store(true, Ordering::SeqCst);
     let mut puller = Pattern::PushPull.receiver(transport);
     check_carried(Pattern::PushPull, &mut pusher, &mut puller, &numbered(3)).await;
-    assert_eq!(pusher.refusal(), None, "the reason of a refusal remains after it");
+    assert_eq!(pusher.watched.end.refusal(), None, "the reason of a refusal remains after it");
 }
 
 /// A requester does not connect to a replier that its [`Endpoint::check`] refuses, and says why.
@@ -238,15 +238,15 @@ pub async fn requests_only_if_the_check_passes(transport: &dyn Transport) {
     let mut replier = requests::replier(transport, &Endpoint::new(ENDPOINT));
     until(|cx| {
         assert!(requester.poll_connected(cx).is_pending(), "a requester connected although its check refused");
-        assert!(replier.poll(cx).is_pending() && replier.peers() == 0);
-        requester.refusal()
+        assert!(replier.poll(cx).is_pending() && replier.end.peers() == 0);
+        requester.end.refusal()
     })
     .await;
     drop(replier);
     accepts.store(true, Ordering::SeqCst);
     let mut replier = requests::replier(transport, &Endpoint::new(ENDPOINT));
     requests::connect(&mut requester, &mut replier).await;
-    assert_eq!(requester.refusal(), None, "the reason of a refusal remains after it");
+    assert_eq!(requester.end.refusal(), None, "the reason of a refusal remains after it");
     check_call(&mut requester, &mut replier, 1).await;
 }
 

@@ -108,10 +108,10 @@ pub async fn refuses_requests_without_a_replier(transport: &dyn Transport) {
     let mut requester = requester(transport, &Endpoint::new(ENDPOINT));
     let body = Bytes::from_static(b"is anybody there?");
     assert_eq!(requester.request(1, body.clone()), Err(body), "a request was accepted without a replier");
-    assert!(!requester.is_connected());
+    assert!(!requester.end.is_connected());
     let mut replier = replier(transport, &Endpoint::new(ENDPOINT));
     connect(&mut requester, &mut replier).await;
-    assert!(requester.is_connected());
+    assert!(requester.end.is_connected());
     check_call(&mut requester, &mut replier, 2).await;
 }
 
@@ -132,7 +132,7 @@ pub async fn reports_a_lost_replier(transport: &dyn Transport) {
         .await;
         drop(replier);
         match poll_fn(|cx| requester.poll_answer(cx)).await {
-            Answer::Lost => assert!(!requester.is_connected(), "connected to a replier that is lost"),
+            Answer::Lost => assert!(!requester.end.is_connected(), "connected to a replier that is lost"),
             Answer::Reply { id, .. } | Answer::Refused { id } => {
                 panic!("received an answer to request {id} that was not sent")
             }
@@ -205,10 +205,8 @@ pub async fn delivers_written_replies(transport: &dyn Transport) {
     poll_fn(|cx| replier.poll_written(cx)).await;
     drop(replier);
     for expected in 0..10 {
-        match poll_fn(|cx| requester.poll_answer(cx)).await {
-            Answer::Reply { id, body } => assert_eq!((id, body), (expected, text(b'r', expected))),
-            Answer::Refused { .. } | Answer::Lost => panic!("reply {expected} is lost with its replier"),
-        }
+        let answer = poll_fn(|cx| requester.poll_answer(cx)).await;
+        assert_eq!(reply_of(answer), (expected, text(b'r', expected)));
     }
 }
 
@@ -264,9 +262,14 @@ async fn next_reply(requester: &mut TestRequester, replier: &mut TestReplier) ->
         Poll::Ready(request) => panic!("received a request that was not sent: {:?}", request.body),
         Poll::Pending => requester.poll_answer(cx),
     });
-    match answer.await {
+    reply_of(answer.await)
+}
+
+/// The number of a request, and the reply to it.
+pub(super) fn reply_of(answer: Answer) -> (u64, Bytes) {
+    match answer {
         Answer::Reply { id, body } => (id, body),
-        Answer::Refused { .. } | Answer::Lost => panic!("the replier is there, and its reply is not"),
+        Answer::Refused { .. } | Answer::Lost => panic!("the reply is lost"),
     }
 }
 

@@ -2,10 +2,9 @@
 
 use super::{PATTERNS, numbered, requests};
 use crate::conformance::PATIENCE;
-use crate::transport::{Answer, Transport};
+use crate::transport::Transport;
 use std::future::poll_fn;
 use std::panic::resume_unwind;
-use std::task::Poll;
 use tokio::runtime::Handle;
 use tokio::task::JoinHandle;
 use tokio::time::timeout;
@@ -50,14 +49,10 @@ pub async fn moves_between_threads(transport: &dyn Transport) {
         let (mut sender, mut receiver) = pattern.connected(transport).await;
         for (sends, receives) in PLACES {
             sender.renew_waker();
-            receiver.renew_waker();
+            receiver.watched.renew_waker();
             sender.queue(numbered(MESSAGES));
             let sending = sends.run(async move {
-                poll_fn(|cx| {
-                    assert!(sender.poll(cx), "{pattern:?}: disconnected");
-                    if sender.is_written() { Poll::Ready(()) } else { Poll::Pending }
-                })
-                .await;
+                sender.until_written().await;
                 sender
             });
             let receiving = receives.run(async move {
@@ -83,12 +78,8 @@ pub async fn moves_requests_between_threads(transport: &dyn Transport) {
             for id in 0..REQUESTS {
                 poll_fn(|cx| requester.poll_connected(cx)).await;
                 assert_eq!(requester.request(id, requests::text(b'q', id)), Ok(()), "the replier is connected");
-                match poll_fn(|cx| requester.poll_answer(cx)).await {
-                    Answer::Reply { id: answered, body } => {
-                        assert_eq!((answered, body), (id, requests::text(b'q', id)), "{requests:?} to {replies:?}");
-                    }
-                    Answer::Refused { .. } | Answer::Lost => panic!("the replier is there, and reported as lost"),
-                }
+                let reply = requests::reply_of(poll_fn(|cx| requester.poll_answer(cx)).await);
+                assert_eq!(reply, (id, requests::text(b'q', id)), "{requests:?} to {replies:?}");
             }
             requester
         });

@@ -65,7 +65,7 @@ impl<E> Watched<E> {
         self.signal.woken.swap(false, Ordering::SeqCst)
     }
 
-    pub(super) fn poll<R>(
+    pub(super) fn poll_with<R>(
         &mut self,
         test: &Context<'_>,
         poll: impl FnOnce(&mut E, &mut Context<'_>) -> Poll<R>,
