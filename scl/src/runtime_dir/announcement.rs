@@ -8,6 +8,7 @@ use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::transport_choice::TransportChoice;
 use crate::transport_kind::TransportKind;
 use scl_plan::Plan;
+use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
@@ -48,14 +49,16 @@ pub struct Announcement {
 }
 
 /// One endpoint of a gate, and what it was built for.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct AnnouncedEndpoint {
     /// The gate.
     pub gate: String,
     /// What the gate does: `pub`, `sub`, `req`, `rep`, `push` or `pull`.
+    #[serde(default)]
     pub kind: String,
     /// Whether this is the gate's tap, where tools observe it.
+    #[serde(default)]
     pub tap: bool,
     /// The endpoint's name, contract included.
     pub endpoint: String,
@@ -66,8 +69,10 @@ pub struct AnnouncedEndpoint {
     /// The codec as in the topology file.
     pub codec: String,
     /// The gates that it connects to, as `<component>.<gate>`.
+    #[serde(default, deserialize_with = "texts")]
     pub peers: Vec<String>,
     /// What it listens on: `ipc`, `tcp` or `shm`. Empty for an end that only connects, and if the writer is older.
+    #[serde(default, alias = "medium")]
     pub transport: String,
 }
 
@@ -126,14 +131,13 @@ impl Announcement {
             "program": self.program.to_string_lossy(),
             "host": self.host,
             "schema": self.schema,
-            "endpoints": self.endpoints.iter().map(AnnouncedEndpoint::to_json).collect::<Vec<_>>(),
+            "endpoints": self.endpoints,
             "plan": self.plan.as_ref().and_then(plan_to_json),
         })
     }
 
     pub(crate) fn from_json(json: &Value) -> Option<Self> {
         let started = Duration::from_millis(json["started_ms"].as_u64()?);
-        let endpoints = json["endpoints"].as_array()?.iter().map(AnnouncedEndpoint::from_json);
         Some(Self {
             version: json["version"].as_u64().and_then(|version| version.try_into().ok()).unwrap_or(0),
             component: text(json, "component")?,
@@ -142,41 +146,10 @@ impl Announcement {
             program: text(json, "program")?.into(),
             host: text(json, "host"),
             schema: text(json, "schema"),
-            endpoints: endpoints.collect::<Option<_>>()?,
+            endpoints: Vec::deserialize(&json["endpoints"]).ok()?,
             plan: Some(&json["plan"])
                 .filter(|plan| plan.is_object())
                 .and_then(|plan| Plan::from_json(&plan.to_string()).ok()),
-        })
-    }
-}
-
-impl AnnouncedEndpoint {
-    fn to_json(&self) -> Value {
-        json!({
-            "gate": self.gate,
-            "kind": self.kind,
-            "tap": self.tap,
-            "endpoint": self.endpoint,
-            "contract": self.contract,
-            "payload": self.payload,
-            "codec": self.codec,
-            "peers": self.peers,
-            "transport": self.transport,
-        })
-    }
-
-    fn from_json(json: &Value) -> Option<Self> {
-        let peers = json["peers"].as_array().into_iter().flatten();
-        Some(Self {
-            gate: text(json, "gate")?,
-            kind: text(json, "kind").unwrap_or_default(),
-            tap: json["tap"].as_bool().unwrap_or(false),
-            endpoint: text(json, "endpoint")?,
-            contract: text(json, "contract")?,
-            payload: text(json, "payload")?,
-            codec: text(json, "codec")?,
-            peers: peers.filter_map(|peer| Some(peer.as_str()?.to_owned())).collect(),
-            transport: text(json, "transport").or_else(|| text(json, "medium")).unwrap_or_default(),
         })
     }
 }
@@ -222,6 +195,12 @@ fn plan_to_json(plan: &Plan) -> Option<Value> {
 
 fn text(json: &Value, key: &str) -> Option<String> {
     json[key].as_str().map(str::to_owned)
+}
+
+/// The texts of a list. Anything else in it is from a newer release.
+fn texts<'de, D: Deserializer<'de>>(list: D) -> Result<Vec<String>, D::Error> {
+    let list = Vec::<Value>::deserialize(list)?;
+    Ok(list.iter().filter_map(|item| Some(item.as_str()?.to_owned())).collect())
 }
 
 #[cfg(test)]

@@ -103,8 +103,13 @@ impl RuntimeDir {
         Ok(dir)
     }
 
-    /// The folder of a system, verified, if it exists.
-    pub(super) fn open_system(&self, name: &str) -> Result<Option<SystemDir>, RuntimeDirError> {
+    /// The folder of a system, verified as [`system`](Self::system) does, or `None` if there is none. Creates nothing
+    /// and removes nothing.
+    ///
+    /// # Errors
+    ///
+    /// [`RuntimeDirError`] if the name cannot be the name of a folder, or the folder is not safe.
+    pub fn existing_system(&self, name: &str) -> Result<Option<SystemDir>, RuntimeDirError> {
         let dir = self.system_dir(name)?;
         Ok(verify_existing(&dir.path, false)?.then_some(dir))
     }

@@ -10,6 +10,7 @@
 //! The operating system tells which descriptor a lock was taken through: the second lock on a file leaves the first as
 //! it is. A copy that finds the file locked through another's descriptor keeps its own open, so that the lock stays.
 
+use super::error::ComponentProcess;
 use crate::sync::lock;
 use rustix::fs::{FlockOperation, OFlags};
 use rustix::io::Errno;
@@ -79,14 +80,7 @@ impl FileId {
 pub(super) enum Attempt {
     /// The file is locked now, until [`unlock`].
     Locked(FileId),
-    Held(LockHolder),
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum LockHolder {
-    ThisProcess,
-    /// Another process; `None` if it is not visible from here, as in another container.
-    Process(Option<u32>),
+    Held(ComponentProcess),
 }
 
 /// Locks the file at `path` without waiting, creating it with mode 0600 if necessary.
@@ -100,17 +94,17 @@ pub(super) fn unlock(id: FileId) {
 }
 
 /// Who holds the lock on the file at `path`, if any process does.
-pub(super) fn lock_holder(path: &Path) -> Option<LockHolder> {
+pub(super) fn lock_holder(path: &Path) -> Option<ComponentProcess> {
     let mut open = lock(&OPEN);
     // Not for writing: who follows which components run takes the closing of a writable descriptor for the end of one.
     let index = match open_once(path, OpenOptions::new().read(true), &mut open, &mut |_| {}).ok()? {
         Opened::At(index) => index,
-        Opened::LockedHere => return Some(LockHolder::ThisProcess),
+        Opened::LockedHere => return Some(ComponentProcess::ThisProcess),
     };
     let holder = other_holder(&open[index].file).ok().flatten();
     if holder.is_none() && is_locked_by_another_copy(open[index].id) {
         open[index].make_writable(path);
-        return Some(LockHolder::ThisProcess);
+        return Some(ComponentProcess::ThisProcess);
     }
     open.swap_remove(index);
     holder
@@ -129,7 +123,7 @@ fn try_lock_with(path: &Path, step: &mut dyn FnMut(Step)) -> io::Result<Attempt>
         let mut options = OpenOptions::new();
         options.read(true).write(true).create(true).truncate(false).mode(0o600);
         let Opened::At(index) = open_once(path, &mut options, &mut open, step)? else {
-            return Ok(Attempt::Held(LockHolder::ThisProcess));
+            return Ok(Attempt::Held(ComponentProcess::ThisProcess));
         };
         let OpenFile { id, file, .. } = &open[index];
         let id = *id;
@@ -142,7 +136,7 @@ fn try_lock_with(path: &Path, step: &mut dyn FnMut(Step)) -> io::Result<Attempt>
             // A file that was removed or replaced in the meantime excludes nobody.
             Ok(()) if FileId::at(path).is_ok_and(|now| now == id) => {
                 if !has_lock(file.as_raw_fd()) && is_locked_by_another_copy(id) {
-                    return Ok(Attempt::Held(LockHolder::ThisProcess));
+                    return Ok(Attempt::Held(ComponentProcess::ThisProcess));
                 }
                 open[index].locked = true;
                 return Ok(Attempt::Locked(id));
@@ -214,10 +208,10 @@ fn has_lock(descriptor: RawFd) -> bool {
     about.lines().any(|line| line.starts_with("lock:") && line.contains("POSIX"))
 }
 
-fn other_holder(file: &File) -> io::Result<Option<LockHolder>> {
+fn other_holder(file: &File) -> io::Result<Option<ComponentProcess>> {
     let lock = fcntl_getlk(file, &Flock::from(FlockType::WriteLock))?;
-    let pid = |lock: Flock| lock.pid.map(|pid| pid.as_raw_nonzero().get().cast_unsigned());
-    Ok(lock.map(|lock| LockHolder::Process(pid(lock))))
+    let process = |pid: rustix::process::Pid| ComponentProcess::Process(pid.as_raw_nonzero().get().cast_unsigned());
+    Ok(lock.map(|lock| lock.pid.map_or(ComponentProcess::Unknown, process)))
 }
 
 #[cfg(test)]
@@ -247,7 +241,7 @@ mod tests {
             assert_eq!(opened, 2);
             let Attempt::Locked(id) = locked.unwrap() else { panic!("the lock is free") };
             assert_eq!(FileId::at(&path).unwrap(), id);
-            assert_eq!(lock_holder(&path), Some(LockHolder::ThisProcess));
+            assert_eq!(lock_holder(&path), Some(ComponentProcess::ThisProcess));
             unlock(id);
             assert_eq!(lock_holder(&path), None);
         }
@@ -277,10 +271,10 @@ mod tests {
                 fs::rename(&held, &path).unwrap();
             }
         };
-        assert_eq!(try_lock_with(&path, &mut rename).unwrap(), Attempt::Held(LockHolder::ThisProcess));
+        assert_eq!(try_lock_with(&path, &mut rename).unwrap(), Attempt::Held(ComponentProcess::ThisProcess));
         assert!(is_locked(id));
-        assert_eq!(try_lock(&path).unwrap(), Attempt::Held(LockHolder::ThisProcess));
-        assert_eq!(lock_holder(&path), Some(LockHolder::ThisProcess));
+        assert_eq!(try_lock(&path).unwrap(), Attempt::Held(ComponentProcess::ThisProcess));
+        assert_eq!(lock_holder(&path), Some(ComponentProcess::ThisProcess));
         assert!(is_locked(id));
         unlock(id);
         assert!(!is_locked(id));
@@ -295,8 +289,8 @@ mod tests {
         let Attempt::Locked(id) = try_lock(&path).unwrap() else { panic!("the lock is free") };
         assert_eq!(fs::metadata(&path).unwrap().mode() & 0o7777, 0o600);
         for _ in 0..10 {
-            assert_eq!(try_lock(&path).unwrap(), Attempt::Held(LockHolder::ThisProcess));
-            assert_eq!(lock_holder(&path), Some(LockHolder::ThisProcess));
+            assert_eq!(try_lock(&path).unwrap(), Attempt::Held(ComponentProcess::ThisProcess));
+            assert_eq!(lock_holder(&path), Some(ComponentProcess::ThisProcess));
         }
         let open = fs::read_dir("/proc/self/fd").unwrap().flatten();
         let open = open.filter(|descriptor| fs::read_link(descriptor.path()).is_ok_and(|file| file == path));
@@ -313,8 +307,8 @@ mod tests {
         let other = File::create(&path).unwrap();
         rustix::fs::fcntl_lock(&other, FlockOperation::NonBlockingLockExclusive).unwrap();
         for _ in 0..3 {
-            assert_eq!(lock_holder(&path), Some(LockHolder::ThisProcess));
-            assert_eq!(try_lock(&path).unwrap(), Attempt::Held(LockHolder::ThisProcess));
+            assert_eq!(lock_holder(&path), Some(ComponentProcess::ThisProcess));
+            assert_eq!(try_lock(&path).unwrap(), Attempt::Held(ComponentProcess::ThisProcess));
             assert!(is_locked(id(&other)), "looking at it does not release it");
         }
         drop(other);

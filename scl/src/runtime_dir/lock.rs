@@ -2,7 +2,7 @@
 
 use super::SystemDir;
 use super::error::{ComponentProcess, RuntimeDirError};
-use super::held_locks::{Attempt, FileId, LockHolder, lock_holder, try_lock, unlock};
+use super::held_locks::{Attempt, FileId, lock_holder, try_lock, unlock};
 use scl_fork::ProcessMark;
 use std::fs;
 use std::os::unix::fs::FileTypeExt;
@@ -35,18 +35,16 @@ impl ComponentLock {
             Ok(Attempt::Locked(file)) => {
                 Ok(Self { component: component.to_owned(), path, file, process: ProcessMark::new() })
             }
-            Ok(Attempt::Held(holder)) => Err(RuntimeDirError::AlreadyRunning {
-                component: component.to_owned(),
-                holder: holder.into(),
-                lock: path,
-            }),
+            Ok(Attempt::Held(holder)) => {
+                Err(RuntimeDirError::AlreadyRunning { component: component.to_owned(), holder, lock: path })
+            }
             Err(error) => Err(RuntimeDirError::io("lock", &path, error)),
         }
     }
 
     /// The process that runs a component, if there is one.
     pub fn holder(dir: &SystemDir, component: &str) -> Option<ComponentProcess> {
-        lock_holder(&dir.file_of(component, ".lock").ok()?).map(ComponentProcess::from)
+        lock_holder(&dir.file_of(component, ".lock").ok()?)
     }
 
     /// Returns true unless the lock's file was removed or replaced, so that it no longer excludes other processes.
@@ -87,16 +85,6 @@ impl Drop for ComponentLock {
     fn drop(&mut self) {
         if self.process.is_own() {
             unlock(self.file);
-        }
-    }
-}
-
-impl From<LockHolder> for ComponentProcess {
-    fn from(holder: LockHolder) -> Self {
-        match holder {
-            LockHolder::ThisProcess => Self::ThisProcess,
-            LockHolder::Process(Some(pid)) => Self::Process(pid),
-            LockHolder::Process(None) => Self::Unknown,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Looking at what runs, for tools: nothing here creates, changes or removes a file.
 
-use super::error::{ComponentProcess, RuntimeDirError};
+use super::error::ComponentProcess;
 use super::folder::{RuntimeDir, SystemDir, is_plain};
 use super::lock::ComponentLock;
 use super::schema::SCHEMA_LIMIT;
@@ -47,16 +47,6 @@ impl RuntimeDir {
             components.iter().any(|component| matches!(dir.state(component), ComponentState::Running(_)))
         });
         Ok(systems)
-    }
-
-    /// The folder of a system, verified as [`system`](Self::system) does, or `None` if there is none. Creates nothing
-    /// and removes nothing.
-    ///
-    /// # Errors
-    ///
-    /// [`RuntimeDirError`] if the name cannot be the name of a folder, or the folder is not safe.
-    pub fn existing_system(&self, name: &str) -> Result<Option<SystemDir>, RuntimeDirError> {
-        self.open_system(name)
     }
 }
 

@@ -21,17 +21,8 @@ pub struct OwnedPath {
 
 impl OwnedPath {
     /// Opens the file at `now`, which is about to be renamed to `path`.
-    pub(super) fn of(now: &Path, path: &Path) -> io::Result<Self> {
-        let flags = OFlags::PATH | OFlags::NOFOLLOW | OFlags::CLOEXEC;
-        Self::opened(now, path, flags)
-    }
-
-    /// The same, open for writing.
-    pub(super) fn writable(now: &Path, path: &Path) -> io::Result<Self> {
-        Self::opened(now, path, OFlags::WRONLY | OFlags::NOFOLLOW | OFlags::CLOEXEC)
-    }
-
-    fn opened(now: &Path, path: &Path, flags: OFlags) -> io::Result<Self> {
+    pub(super) fn open(now: &Path, path: &Path, access: OFlags) -> io::Result<Self> {
+        let flags = access | OFlags::NOFOLLOW | OFlags::CLOEXEC;
         let opened = rustix::fs::open(now, flags, Mode::empty())?.into();
         Ok(Self { path: path.to_owned(), opened, process: ProcessMark::new() })
     }
@@ -74,11 +65,11 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("sensor.json");
         fs::write(&path, "").unwrap();
-        let mut inherited = OwnedPath::of(&path, &path).unwrap();
+        let mut inherited = OwnedPath::open(&path, &path, OFlags::PATH).unwrap();
         inherited.process = ProcessMark::inherited();
         drop(inherited);
         assert!(path.exists());
-        drop(OwnedPath::of(&path, &path).unwrap());
+        drop(OwnedPath::open(&path, &path, OFlags::PATH).unwrap());
         assert!(!path.exists());
     }
 }

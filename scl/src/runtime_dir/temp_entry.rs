@@ -2,6 +2,7 @@
 
 use super::error::RuntimeDirError;
 use super::owned_path::OwnedPath;
+use rustix::fs::OFlags;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -48,20 +49,17 @@ impl TempEntry {
 
     /// Renames it to `path`, replacing what is there. Dropping the returned value removes it.
     pub(super) fn rename(self, path: &Path) -> Result<OwnedPath, RuntimeDirError> {
-        self.rename_as(OwnedPath::of, path)
+        self.rename_opened(path, OFlags::PATH)
     }
 
     /// The same; the returned value has the file open for writing.
     pub(super) fn rename_open(self, path: &Path) -> Result<OwnedPath, RuntimeDirError> {
-        self.rename_as(OwnedPath::writable, path)
+        self.rename_opened(path, OFlags::WRONLY)
     }
 
-    fn rename_as(
-        self,
-        open: impl Fn(&Path, &Path) -> io::Result<OwnedPath>,
-        path: &Path,
-    ) -> Result<OwnedPath, RuntimeDirError> {
-        let owned = open(&self.path, path).map_err(|error| RuntimeDirError::io("open", &self.path, error))?;
+    fn rename_opened(self, path: &Path, access: OFlags) -> Result<OwnedPath, RuntimeDirError> {
+        let owned = OwnedPath::open(&self.path, path, access);
+        let owned = owned.map_err(|error| RuntimeDirError::io("open", &self.path, error))?;
         self.rename_and_keep(path)?;
         Ok(owned)
     }
