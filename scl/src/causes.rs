@@ -1,13 +1,13 @@
-//! An error as one text.
+//! The causes of an error, and an error as one text.
+
+use std::error::Error;
+
+/// Its cause, the cause of that, and so on.
+pub(crate) fn causes<'e>(error: &'e (dyn Error + 'e)) -> impl Iterator<Item = &'e (dyn Error + 'static)> {
+    std::iter::successors(error.source(), |&cause| cause.source())
+}
 
 /// An error and its causes in one line, for languages whose errors have no causes of their own.
-pub fn text_with_causes(error: &dyn std::error::Error) -> String {
-    let mut text = error.to_string();
-    let mut cause = error.source();
-    while let Some(error) = cause {
-        text.push_str(": ");
-        text.push_str(&error.to_string());
-        cause = error.source();
-    }
-    text
+pub fn text_with_causes(error: &dyn Error) -> String {
+    causes(error).fold(error.to_string(), |text, cause| format!("{text}: {cause}"))
 }

@@ -12,8 +12,8 @@ mod transports;
 pub use main::{run_async, run_blocking};
 pub use opener::Opener;
 pub use outcome::Returned;
+pub(crate) use realtime::Settings as RealTimeSettings;
 
-use crate::environment::Variables;
 use crate::error::{BlockingError, Missing, MissingPeer, NotFlushed, NotReady, OpenError, PeerName};
 use crate::gate::AnyGate;
 use crate::log;
@@ -38,17 +38,6 @@ pub trait Component: Sized + Send + Sync + 'static {
 
     /// Returns its gates, in file order.
     fn gates(&self) -> Vec<&dyn AnyGate>;
-}
-
-/// Reads the real-time settings and applies them to the calling thread.
-pub(crate) fn apply_real_time(variables: Variables<'_>) -> Result<(), OpenError> {
-    realtime::Settings::read(variables)?.apply();
-    Ok(())
-}
-
-/// Reads the real-time settings without applying them.
-pub(crate) fn check_real_time(variables: Variables<'_>) -> Result<(), OpenError> {
-    realtime::Settings::read(variables).map(drop)
 }
 
 /// Opens a component on the tokio runtime of the caller.
@@ -110,7 +99,8 @@ pub(crate) async fn wait_for_peers(
         if ended || !changed.await {
             let missing = missing().into_iter().map(|(gate, missing)| {
                 let reason = state.explain(gate, &missing);
-                MissingPeer::new(gate.name, PeerName::of(missing.connection), reason, missing.refusal.is_some())
+                let (peer, refused) = (PeerName::of(missing.connection), missing.refusal.is_some());
+                MissingPeer { gate: gate.name, peer, reason, refused }
             });
             let missing: Vec<MissingPeer> = missing.collect();
             return match missing.is_empty() {
@@ -126,7 +116,7 @@ pub(crate) async fn wait_for_peers(
 pub async fn close<C: Component>(component: C, timeout: Duration) -> Result<(), NotFlushed> {
     let handle = component.handle().clone();
     drop(component);
-    only_failures(handle.flush(Flush::Running, timeout).await)
+    only_failures(handle.0.flush(Flush::Running, timeout).await)
 }
 
 #[doc(hidden)]
@@ -135,7 +125,7 @@ pub fn close_blocking<C: Component>(component: C, timeout: Duration) -> crate::R
     handle.0.may_proceed()?;
     handle.0.may_close()?;
     drop(component);
-    Ok(only_failures(handle.flush_blocking(Flush::Running, timeout))?)
+    Ok(only_failures(handle.0.flush_blocking(Flush::Running, timeout))?)
 }
 
 /// Waits from a plain thread, as the blocking calls of gates do.
@@ -152,17 +142,5 @@ pub(crate) fn only_failures(flushed: Result<(), NotFlushed>) -> Result<(), NotFl
             Ok(())
         }
         flushed => flushed,
-    }
-}
-
-impl ComponentHandle {
-    /// Waits until peers have taken everything, at most for a given time.
-    pub(crate) async fn flush(&self, flush: Flush, timeout: Duration) -> Result<(), NotFlushed> {
-        self.0.flush(flush, timeout).await
-    }
-
-    /// The same from a plain thread.
-    pub(crate) fn flush_blocking(&self, flush: Flush, timeout: Duration) -> Result<(), NotFlushed> {
-        self.0.flush_blocking(flush, timeout)
     }
 }

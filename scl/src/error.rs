@@ -4,181 +4,20 @@ mod any;
 mod names;
 mod not_flushed;
 mod not_ready;
+mod open;
 
 pub use any::{Error, Result};
 pub(crate) use names::Missing;
 pub use names::{GateName, PeerName, Peers};
 pub use not_flushed::{NotFlushed, Unflushed};
 pub use not_ready::{MissingPeer, NotReady};
+pub use open::{MissingGuarantee, OpenError};
 
 use crate::codec::{DecodeError, EncodeError};
 use crate::time::Rounded;
-use crate::transport::{Guarantee, TransportError};
 use std::fmt;
 use std::time::Duration;
 use thiserror::Error;
-
-/// A component could not be opened.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum OpenError {
-    /// The component could not be registered in the runtime folder.
-    #[error("component `{component}` cannot be opened")]
-    RuntimeDir {
-        /// The component.
-        component: &'static str,
-        /// The problem, and what to do.
-        source: crate::runtime_dir::RuntimeDirError,
-    },
-    /// The component could not be registered, see [`OpenOptions::registry`](crate::OpenOptions::registry).
-    #[error("component `{component}` cannot be opened")]
-    Registry {
-        /// The component.
-        component: &'static str,
-        /// Why.
-        source: crate::registry::RegistryError,
-    },
-    /// A gate's connection could not be set up.
-    #[error("gate `{gate}` cannot be opened")]
-    Gate {
-        /// The gate.
-        gate: GateName,
-        /// Why.
-        source: TransportError,
-    },
-    /// The operating system refused a timer for the gate's `timeout`.
-    #[error("gate `{gate}` cannot be opened: the operating system refused a timer")]
-    Timer {
-        /// The gate.
-        gate: GateName,
-        /// The operating system's error.
-        source: std::io::Error,
-    },
-    /// The process was started as another component, by `scl run` or a unit file of `scl deploy`: `SCL_COMPONENT`.
-    #[error(
-        "component `{component}` of system `{system}` was not expected: this program was started as {expected}; \
-         correct its command in the launch file, or allow it there with `opens: [{component}]`"
-    )]
-    Unexpected {
-        /// The component that the program opens.
-        component: &'static str,
-        /// The system of its topology.
-        system: &'static str,
-        /// What it was started as, for messages: `` `gps` of system `rover` ``.
-        expected: String,
-    },
-    /// `open` was called outside a tokio runtime.
-    #[error(
-        "component `{component}` was opened outside a tokio runtime; \
-         write `#[scl::main]` on `async fn main`, or use `open_blocking`"
-    )]
-    NoRuntime {
-        /// The component.
-        component: &'static str,
-    },
-    /// The operating system refused a runtime for a program without async.
-    #[error("component `{component}` cannot start its runtime")]
-    Runtime {
-        /// The component.
-        component: &'static str,
-        /// The operating system's error.
-        source: std::io::Error,
-    },
-    /// The `scl` crate was built without any transport.
-    #[error(
-        "component `{component}` has no transport: enable the feature `zeromq` of the crate `scl`, or choose one with `OpenOptions::transport`"
-    )]
-    NoTransport {
-        /// The component.
-        component: &'static str,
-    },
-    /// A transport is chosen for a gate that the component does not have.
-    #[error(
-        "component `{component}` has no gate `{gate}`, for which a transport is chosen (`{component}.{gate}={transport}`){}",
-        suggestion(nearest)
-    )]
-    NoSuchGate {
-        /// The component.
-        component: &'static str,
-        /// The name of the gate.
-        gate: String,
-        /// The word of the transport.
-        transport: &'static str,
-        /// The gate that was probably meant.
-        nearest: Option<String>,
-    },
-    /// The component's gates need more than its transport offers.
-    #[error(
-        "component `{component}` needs more than its transport offers: {}; choose another transport",
-        listed(missing)
-    )]
-    Guarantees {
-        /// The component.
-        component: &'static str,
-        /// What is missing.
-        missing: Vec<MissingGuarantee>,
-    },
-    /// Shared memory was chosen, and the `scl` crate was built without it.
-    #[error(
-        "component `{component}` cannot use shared memory: enable the feature `shm` of the crate `scl`, or choose the transport `ipc`"
-    )]
-    NoSharedMemory {
-        /// The component.
-        component: &'static str,
-    },
-    /// The plan of an untyped component contradicts itself.
-    #[error("component `{component}` cannot be opened: its plan is wrong")]
-    Plan {
-        /// The component.
-        component: String,
-        /// What is wrong with it.
-        source: Box<scl_plan::PlanError>,
-    },
-    /// This process has opened too many different plans. They are kept until it ends.
-    #[error(
-        "component `{component}` cannot be opened: the different plans that this process has opened take {limit} bytes, \
-         and they are kept until it ends; open each component with the same plan every time"
-    )]
-    TooManyPlans {
-        /// The component.
-        component: String,
-        /// Maximum size of all plans, in bytes.
-        limit: usize,
-    },
-    /// An environment variable has a value that it cannot have.
-    #[error("`{variable}={value}` is not understood; expected {expected}")]
-    Environment {
-        /// The variable.
-        variable: &'static str,
-        /// Its value.
-        value: String,
-        /// The values it may have.
-        expected: &'static str,
-    },
-}
-
-/// What a gate needs and its transport does not offer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct MissingGuarantee {
-    /// The gate.
-    pub gate: GateName,
-    /// The part of its declaration that needs it: `queue: 1`.
-    pub option: &'static str,
-    /// What is missing.
-    pub guarantee: Guarantee,
-}
-
-impl fmt::Display for MissingGuarantee {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { gate, option, guarantee } = self;
-        write!(f, "gate `{gate}` (`{option}`) needs {guarantee}")
-    }
-}
-
-fn suggestion(nearest: &Option<String>) -> String {
-    nearest.as_ref().map(|name| format!("; did you mean `{name}`?")).unwrap_or_default()
-}
 
 /// A call could not be made, or had to stop waiting.
 #[derive(Debug, Error, Clone, Copy, PartialEq, Eq)]

@@ -1,14 +1,13 @@
 //! For `scl doctor`: the checks that a component makes when it is opened and when it connects, without opening one.
 
-use crate::component;
+use crate::component::RealTimeSettings;
 use crate::environment::Variables;
 use crate::error::OpenError;
-use crate::log::Level;
 use crate::options::OpenOptions;
 use crate::plan::{Plan, Schema};
 use crate::runtime_dir::{Announcement, SystemDir, check_peer};
 use crate::state::stats_period;
-use crate::{stop, untyped};
+use crate::{log, stop, untyped};
 use std::sync::Arc;
 
 /// The environment variables that components read.
@@ -26,9 +25,9 @@ pub const VARIABLES: [&str; 8] = [
 /// What components refuse of the values of environment variables. The runtime folder is checked where it is opened.
 pub fn wrong_variables(variables: Variables<'_>) -> Vec<OpenError> {
     let checks = [
-        Level::read(variables).err(),
+        log::level(variables).err(),
         stop::grace_period(variables).err(),
-        component::check_real_time(variables).err(),
+        RealTimeSettings::read(variables).err(),
         OpenOptions::check(variables).err(),
         stats_period(variables).err(),
     ];

@@ -13,23 +13,27 @@
 //! # }
 //! ```
 
-use crate::component;
+use crate::component::RealTimeSettings;
 use crate::environment;
 use crate::error::{OpenError, Result};
 use crate::sync::lock;
-use crate::{log, service, state, stop};
+use crate::{log, service, stop};
 use std::sync::Mutex;
 use std::time::Duration;
 
 pub use crate::causes::text_with_causes;
-pub use crate::stop::{ONE_REQUEST, StopSignal};
+pub use crate::state::prepare_thread;
+pub use crate::stop::{
+    ONE_REQUEST, StopSignal, end_grace_period, gates_stopped, handle as handle_stop, request as request_stop,
+    was_requested as is_stop_requested,
+};
 
 /// Writes the log to standard error, as detailed as `SCL_LOG` says, unless the process has a log already.
 ///
 /// # Errors
 /// [`OpenError::Environment`] if `SCL_LOG` is not a level.
 pub fn start_log() -> Result<(), OpenError> {
-    log::start(log::Level::read(&environment::of_process)?);
+    log::start(log::level(&environment::of_process)?);
     Ok(())
 }
 
@@ -66,17 +70,10 @@ pub fn apply_real_time() -> Result<(), OpenError> {
     static APPLIED: Mutex<bool> = Mutex::new(false);
     let mut applied = lock(&APPLIED);
     if !*applied {
-        component::apply_real_time(&environment::of_process)?;
+        RealTimeSettings::read(&environment::of_process)?.apply();
         *applied = true;
     }
     Ok(())
-}
-
-/// Makes what calls to components need of the calling thread's thread-local values. For bindings whose programs make
-/// calls in destructors and at their exit: a thread-local value that the binding makes after this call is destroyed
-/// before those, so its destructor tells when calls have to be made on another thread.
-pub fn prepare_thread() {
-    state::prepare_thread();
 }
 
 /// How long a program may take to end after a stop request: `SCL_STOP_WITHIN`, or 3 s.
@@ -85,33 +82,4 @@ pub fn prepare_thread() {
 /// [`OpenError::Environment`] if the value is not a duration of 1 us to a day.
 pub fn grace_period() -> Result<Duration, OpenError> {
     stop::grace_period(&environment::of_process)
-}
-
-/// Requests the stop, for a binding that watches for signals itself. Ending the process after the grace period is left
-/// to the binding, too.
-pub fn request_stop(signal: StopSignal) {
-    stop::request(signal);
-}
-
-/// From now on the program handles stop requests itself, as after [`stop_requested`](crate::stop_requested): its gates
-/// keep working after the request.
-pub fn handle_stop() {
-    stop::handle();
-}
-
-/// Ends the grace period: the gates stop working even if the program handles the stop request itself.
-pub fn end_grace_period() {
-    stop::end_grace_period();
-}
-
-/// Returns true if a stop was requested. Unlike [`is_stop_requested`](crate::is_stop_requested), asking does not mean
-/// that the program handles the request itself.
-pub fn is_stop_requested() -> bool {
-    stop::was_requested()
-}
-
-/// Returns true if no gate can be used any more: a stop was requested and the program does not handle it itself, or its
-/// grace period is over.
-pub fn gates_stopped() -> bool {
-    stop::gates_stopped()
 }

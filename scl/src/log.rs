@@ -3,37 +3,24 @@
 use crate::environment::{self, Variables};
 use crate::error::OpenError;
 use crate::sync::{is_thread_ending, on_another_thread};
+use tracing::level_filters::LevelFilter;
 
-/// The most detailed messages that are logged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Level {
-    Off,
-    Error,
-    #[default]
-    Warn,
-    Info,
-    Debug,
-    Trace,
-}
-
-impl Level {
-    /// Reads `SCL_LOG`.
-    ///
-    /// # Errors
-    /// [`OpenError::Environment`] if the value is not a level.
-    pub(crate) fn read(variables: Variables<'_>) -> Result<Self, OpenError> {
-        let expected = "`error`, `warn`, `info`, `debug`, `trace` or `off`";
-        let level = environment::read(variables, "SCL_LOG", expected, |word| match word {
-            "off" => Some(Self::Off),
-            "error" => Some(Self::Error),
-            "warn" => Some(Self::Warn),
-            "info" => Some(Self::Info),
-            "debug" => Some(Self::Debug),
-            "trace" => Some(Self::Trace),
-            _ => None,
-        })?;
-        Ok(level.unwrap_or_default())
-    }
+/// Reads `SCL_LOG`: the most detailed messages that are logged.
+///
+/// # Errors
+/// [`OpenError::Environment`] if the value is not a level.
+pub(crate) fn level(variables: Variables<'_>) -> Result<LevelFilter, OpenError> {
+    let expected = "`error`, `warn`, `info`, `debug`, `trace` or `off`";
+    let level = environment::read(variables, "SCL_LOG", expected, |word| match word {
+        "off" => Some(LevelFilter::OFF),
+        "error" => Some(LevelFilter::ERROR),
+        "warn" => Some(LevelFilter::WARN),
+        "info" => Some(LevelFilter::INFO),
+        "debug" => Some(LevelFilter::DEBUG),
+        "trace" => Some(LevelFilter::TRACE),
+        _ => None,
+    })?;
+    Ok(level.unwrap_or(LevelFilter::WARN))
 }
 
 /// Logs a warning about the end of a component. Its thread may be ending, too, and a log that keeps something in a
@@ -47,23 +34,14 @@ pub(crate) fn warn(text: &str) {
 
 /// Without the feature `logging` the program chooses what happens to its log.
 #[cfg(not(feature = "logging"))]
-pub(crate) fn start(_level: Level) {}
+pub(crate) fn start(_level: LevelFilter) {}
 
 /// Writes the log to standard error, unless the program has already set up a log of its own.
 #[cfg(feature = "logging")]
-pub(crate) fn start(level: Level) {
+pub(crate) fn start(level: LevelFilter) {
     use std::io::IsTerminal;
-    use tracing_subscriber::filter::LevelFilter;
-    let filter = match level {
-        Level::Off => LevelFilter::OFF,
-        Level::Error => LevelFilter::ERROR,
-        Level::Warn => LevelFilter::WARN,
-        Level::Info => LevelFilter::INFO,
-        Level::Debug => LevelFilter::DEBUG,
-        Level::Trace => LevelFilter::TRACE,
-    };
     let colour = use_colour(std::io::stderr().is_terminal(), &environment::of_process);
-    let log = tracing_subscriber::fmt().with_writer(std::io::stderr).with_max_level(filter).with_ansi(colour);
+    let log = tracing_subscriber::fmt().with_writer(std::io::stderr).with_max_level(level).with_ansi(colour);
     let _already_set = log.with_target(false).without_time().try_init();
 }
 
@@ -86,19 +64,19 @@ mod tests {
     #[test]
     fn a_level_is_read_or_refused() {
         let cases = [
-            ("", Ok(Level::Warn)),
-            ("off", Ok(Level::Off)),
-            ("error", Ok(Level::Error)),
-            ("warn", Ok(Level::Warn)),
-            ("info", Ok(Level::Info)),
-            ("debug", Ok(Level::Debug)),
-            ("trace", Ok(Level::Trace)),
+            ("", Ok(LevelFilter::WARN)),
+            ("off", Ok(LevelFilter::OFF)),
+            ("error", Ok(LevelFilter::ERROR)),
+            ("warn", Ok(LevelFilter::WARN)),
+            ("info", Ok(LevelFilter::INFO)),
+            ("debug", Ok(LevelFilter::DEBUG)),
+            ("trace", Ok(LevelFilter::TRACE)),
             ("loud", Err("SCL_LOG=loud, not `error`, `warn`, `info`, `debug`, `trace` or `off`")),
             ("3", Err("SCL_LOG=3, not `error`, `warn`, `info`, `debug`, `trace` or `off`")),
         ];
         for (value, expected) in cases {
             let variables = |name: &str| (name == "SCL_LOG").then(|| value.into());
-            assert_eq!(refused(Level::read(&variables)), expected.map_err(str::to_owned));
+            assert_eq!(refused(level(&variables)), expected.map_err(str::to_owned));
         }
     }
 

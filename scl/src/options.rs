@@ -31,9 +31,9 @@ pub struct OpenOptions {
     transport_kind: Option<TransportKind>,
     /// Gates as `component.gate`, in order.
     transport_of: Vec<(String, TransportKind)>,
-    transport: Option<Arc<dyn Transport>>,
-    registry: Option<Arc<dyn Registry>>,
-    is_test: bool,
+    pub(crate) transport: Option<Arc<dyn Transport>>,
+    pub(crate) registry: Option<Arc<dyn Registry>>,
+    pub(crate) is_test: bool,
 }
 
 impl OpenOptions {
@@ -106,18 +106,6 @@ impl OpenOptions {
         Self { is_test: true, ..Self::new().transport(transport) }
     }
 
-    pub(crate) fn is_test(&self) -> bool {
-        self.is_test
-    }
-
-    pub(crate) fn chosen_registry(&self) -> Option<&Arc<dyn Registry>> {
-        self.registry.as_ref()
-    }
-
-    pub(crate) fn chosen_transport(&self) -> Option<Arc<dyn Transport>> {
-        self.transport.clone()
-    }
-
     /// Looks up an environment variable; the chosen runtime folder replaces `SCL_RUNTIME_DIR`.
     pub(crate) fn variable(&self, name: &str) -> Option<OsString> {
         match (name, &self.runtime_dir) {
@@ -126,34 +114,20 @@ impl OpenOptions {
         }
     }
 
-    /// The name of the system: the chosen one, or `SCL_SYSTEM`, or the topology's.
-    ///
-    /// # Errors
-    /// [`OpenError::Environment`] if `SCL_SYSTEM` is not UTF-8.
-    pub(crate) fn system_name(&self, topology: &str) -> Result<String, OpenError> {
-        self.system_name_from(&environment::of_process, topology)
-    }
-
-    /// The transports: those chosen, after those of `SCL_TRANSPORT`, else Unix sockets.
-    ///
-    /// # Errors
-    /// [`OpenError::Environment`] if `SCL_TRANSPORT` is not understood.
-    pub(crate) fn chosen_transports(&self) -> Result<TransportChoice, OpenError> {
-        self.choice_from(&environment::of_process)
-    }
-
     /// Checks the variables that take the place of unset options.
     ///
     /// # Errors
     /// [`OpenError::Environment`] if one of them would be refused.
     pub(crate) fn check(variables: Variables<'_>) -> Result<(), OpenError> {
-        Self::new()
-            .system_name_from(variables, "")
-            .map(drop)
-            .and_then(|()| Self::new().choice_from(variables).map(drop))
+        Self::new().system_name(variables, "")?;
+        Self::new().transport_choice(variables).map(drop)
     }
 
-    fn system_name_from(&self, variables: Variables<'_>, topology: &str) -> Result<String, OpenError> {
+    /// The name of the system: the chosen one, or `SCL_SYSTEM`, or the topology's.
+    ///
+    /// # Errors
+    /// [`OpenError::Environment`] if `SCL_SYSTEM` is not UTF-8.
+    pub(crate) fn system_name(&self, variables: Variables<'_>, topology: &str) -> Result<String, OpenError> {
         if let Some(name) = self.system.as_ref().filter(|name| !name.is_empty()) {
             return Ok(name.clone());
         }
@@ -161,7 +135,11 @@ impl OpenOptions {
         Ok(name.unwrap_or_else(|| topology.to_owned()))
     }
 
-    fn choice_from(&self, variables: Variables<'_>) -> Result<TransportChoice, OpenError> {
+    /// The transports: those chosen, after those of `SCL_TRANSPORT`, else Unix sockets.
+    ///
+    /// # Errors
+    /// [`OpenError::Environment`] if `SCL_TRANSPORT` is not understood.
+    pub(crate) fn transport_choice(&self, variables: Variables<'_>) -> Result<TransportChoice, OpenError> {
         let parse = |text: &str| text.parse().ok();
         let mut choice = match self.transport_kind {
             Some(default) => TransportChoice { default, ..TransportChoice::default() },
@@ -211,7 +189,7 @@ mod tests {
             (OpenOptions::new(), b"read\xff", Err("SCL_SYSTEM=read\u{fffd}, not a name in UTF-8")),
         ];
         for (options, value, expected) in cases {
-            let found = refused(options.system_name_from(&table("SCL_SYSTEM", value), "rover"));
+            let found = refused(options.system_name(&table("SCL_SYSTEM", value), "rover"));
             assert_eq!(found, expected.map(str::to_owned).map_err(str::to_owned), "{options:?} {value:?}");
         }
     }
@@ -235,7 +213,7 @@ mod tests {
             (some(), b"ipc,x=shm", Err("SCL_TRANSPORT=ipc,x=shm")),
         ];
         for (options, value, expected) in cases {
-            let found = refused(options.choice_from(&table("SCL_TRANSPORT", value)));
+            let found = refused(options.transport_choice(&table("SCL_TRANSPORT", value)));
             let expected = match expected {
                 Ok(text) => Ok(text.parse().unwrap()),
                 Err(value) => Err(format!("{value}, not {}", TransportChoice::EXPECTED)),

@@ -14,7 +14,8 @@ pub(crate) use calls::WakeCall;
 pub(crate) use flush::{Flush, LINGER, ReceivingEnd, SendingEnd};
 pub(crate) use monitor::stats_period;
 pub(crate) use owner::Owner;
-pub(crate) use runtime::{Driven, OwnedRuntime, prepare_thread};
+pub use runtime::prepare_thread;
+pub(crate) use runtime::{Driven, OwnedRuntime};
 
 use monitor::Monitor;
 
@@ -84,7 +85,7 @@ struct Registered {
 }
 
 /// What generated code holds of a component besides its gates.
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub struct ComponentHandle(pub(crate) Owner);
 
 struct SetOnDrop(Arc<AtomicBool>);
@@ -120,13 +121,12 @@ impl ComponentState {
         let handle = Handle::current();
         let runtime_ended = Arc::new(AtomicBool::new(false));
         let (keep, ended) = (registration.keep(), SetOnDrop(Arc::clone(&runtime_ended)));
-        let keeper = handle.spawn(async move {
+        let keeper = AbortOnDrop::spawn(&handle, async move {
             keep.await;
             // Held by a task that never ends, so it is dropped with the runtime.
             let _ended = ended;
             std::future::pending::<()>().await;
         });
-        let keeper = AbortOnDrop::new(keeper.abort_handle());
         let (monitor, stats) = monitor::start(spec, stats, &handle);
         let member = service::join(|| reported::follows_calls(runtime.is_some(), &handle));
         Self {
@@ -192,16 +192,8 @@ impl ComponentState {
     pub(crate) fn drive<E: SendingEnd + 'static>(&self, end: E) -> Arc<Mutex<E>> {
         let end = Arc::new(Mutex::new(end));
         // Weak, so that the end is gone with its gate, and not only when the runtime drops the task.
-        let driven = Arc::downgrade(&end);
-        let task = self.handle.spawn(poll_fn(move |cx| match driven.upgrade() {
-            Some(end) => {
-                lock(&end).drive(cx);
-                Poll::Pending
-            }
-            None => Poll::Ready(()),
-        }));
-        let task = Some(AbortOnDrop::new(task.abort_handle()));
-        lock(&self.ends).push(Registered { end: Arc::clone(&end) as _, _task: task });
+        let task = AbortOnDrop::drive(&self.handle, &end, |end, cx| lock(end).drive(cx));
+        lock(&self.ends).push(Registered { end: Arc::clone(&end) as _, _task: Some(task) });
         end
     }
 
@@ -282,14 +274,9 @@ impl ComponentState {
 
     /// Why a peer is missing, as a sentence.
     pub(crate) fn explain(&self, gate: &GateSpec, missing: &Missing) -> String {
-        let explain = || {
-            format!(
-                "{} {}",
-                PeerName::of(missing.connection),
-                self.registration.explain_missing(gate, missing.connection)
-            )
-        };
-        missing.refusal.clone().unwrap_or_else(explain)
+        let Missing { connection, refusal } = missing;
+        let reason = || self.registration.explain_missing(gate, connection);
+        refusal.clone().unwrap_or_else(|| format!("{} {}", PeerName::of(connection), reason()))
     }
 
     /// Returns true if another process runs a component. One of this process cannot be waited for while its thread may
@@ -306,13 +293,11 @@ impl ComponentState {
         let started = Instant::now();
         let ends = self.ends();
         let mut left = flush::flush(&ends, flush, timeout, &|component| self.runs_elsewhere(component)).await;
-        self.acknowledge_last();
         let mut given_up = std::mem::take(&mut *lock(&self.given_up));
         if flush == Flush::Running {
             left.append(&mut given_up);
         }
-        let is_running = |component: &str| self.runs_elsewhere(component);
-        self.worth_telling(NotFlushed::of(self.spec.name, left, started.elapsed(), &is_running))
+        self.flushed_in(started.elapsed(), left)
     }
 
     /// [`flush`](Self::flush) from a plain thread. Also after a stop request.
@@ -335,8 +320,7 @@ impl ComponentState {
                 let started = Instant::now();
                 let is_running = |component: &str| self.runs_elsewhere(component);
                 let left = flush::flush_detached(&self.ends(), flush, true, timeout, &is_running);
-                self.acknowledge_last();
-                self.worth_telling(NotFlushed::of(self.spec.name, left, started.elapsed(), &is_running))
+                self.flushed_in(started.elapsed(), left)
             }
         }
     }
@@ -346,8 +330,10 @@ impl ComponentState {
         if self.is_test { Flush::Connected } else { flush }
     }
 
-    /// A unit test need not receive everything.
-    fn worth_telling(&self, flushed: Result<(), NotFlushed>) -> Result<(), NotFlushed> {
+    /// Ends a flush. A unit test need not receive everything.
+    fn flushed_in(&self, waited: Duration, left: Vec<Unflushed>) -> Result<(), NotFlushed> {
+        self.acknowledge_last();
+        let flushed = NotFlushed::of(self.spec.name, left, waited, &|component| self.runs_elsewhere(component));
         flushed.or_else(|left| if self.is_test && !left.is_failure() { Ok(()) } else { Err(left) })
     }
 
@@ -399,11 +385,5 @@ impl Drop for ComponentState {
 impl std::fmt::Debug for ComponentState {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_tuple("ComponentState").field(&self.spec.name).finish()
-    }
-}
-
-impl std::fmt::Debug for ComponentHandle {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        self.0.fmt(f)
     }
 }

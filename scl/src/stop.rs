@@ -104,25 +104,28 @@ pub fn is_stop_requested() -> bool {
     STOP.is_requested()
 }
 
-/// Requests the stop, as a signal does.
-pub(crate) fn request(signal: StopSignal) {
+/// Requests the stop, for a binding that watches for signals itself. Ending the process after the grace period is left
+/// to the binding, too.
+pub fn request(signal: StopSignal) {
     STOP.request(signal.exit_code());
     service::stopping();
 }
 
-/// Makes the program handle stop requests itself, without watching for signals.
-pub(crate) fn handle() {
+/// From now on the program handles stop requests itself, as after [`stop_requested`](crate::stop_requested): its gates
+/// keep working after the request.
+pub fn handle() {
     STOP.handle();
 }
 
-/// Stops the gates even of a program that handles stop requests itself.
-pub(crate) fn end_grace_period() {
+/// Ends the grace period: the gates stop working even if the program handles the stop request itself.
+pub fn end_grace_period() {
     STOP.end_grace_period();
 }
 
-/// Returns true if no gate may be used any more: a stop was requested and the program does not handle it itself, or its
-/// grace period is over. Every call to a gate asks this.
-pub(crate) fn gates_stopped() -> bool {
+/// Returns true if no gate can be used any more: a stop was requested and the program does not handle it itself, or its
+/// grace period is over.
+pub fn gates_stopped() -> bool {
+    // Every call to a gate asks this.
     STOP.gates_stopped()
 }
 
@@ -136,8 +139,9 @@ pub(crate) fn until_gates_stopped() -> impl Future<Output = ()> + Send + 'static
     STOP.until_gates_stopped()
 }
 
-/// Returns true if a stop was requested, without handling it.
-pub(crate) fn was_requested() -> bool {
+/// Returns true if a stop was requested. Unlike [`is_stop_requested`](crate::is_stop_requested), asking does not mean
+/// that the program handles the request itself.
+pub fn was_requested() -> bool {
     STOP.is_requested()
 }
 

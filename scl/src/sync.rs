@@ -1,9 +1,11 @@
 //! Small things about threads and tasks that several parts need.
 
 use scl_fork::ProcessMark;
+use std::future::poll_fn;
 use std::panic::resume_unwind;
-use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
-use std::thread::{self, ScopedJoinHandle};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
+use std::task::{Context, Poll, Wake, Waker};
+use std::thread::{self, ScopedJoinHandle, Thread};
 use tokio::runtime::Handle;
 use tokio::task::AbortHandle;
 
@@ -39,6 +41,27 @@ pub(crate) fn on_another_thread<T: Send>(call: impl Fn() -> T + Sync) -> T {
     })
 }
 
+/// Keeps the waker of a task, which is usually the one that is kept already.
+pub(crate) fn keep_waker(kept: &mut Option<Waker>, waker: &Waker) {
+    match kept {
+        Some(kept) => kept.clone_from(waker),
+        None => *kept = Some(waker.clone()),
+    }
+}
+
+/// A waker that unparks the calling thread.
+pub(crate) fn unparks_this_thread() -> Waker {
+    struct Unpark(Thread);
+
+    impl Wake for Unpark {
+        fn wake(self: Arc<Self>) {
+            self.0.unpark();
+        }
+    }
+
+    Arc::new(Unpark(thread::current())).into()
+}
+
 /// Ends a task with its owner. In a forked child the task and its runtime are the parent's, and dropping does nothing.
 #[derive(Debug)]
 pub(crate) struct AbortOnDrop {
@@ -47,8 +70,26 @@ pub(crate) struct AbortOnDrop {
 }
 
 impl AbortOnDrop {
-    pub(crate) fn new(task: AbortHandle) -> Self {
-        Self { task, process: ProcessMark::new() }
+    pub(crate) fn spawn(runtime: &Handle, task: impl Future<Output = ()> + Send + 'static) -> Self {
+        Self { task: runtime.spawn(task).abort_handle(), process: ProcessMark::new() }
+    }
+
+    /// A task that drives an end as long as it exists. It holds the end weakly, so that the end is gone with its gate,
+    /// and not only when the runtime drops the task.
+    pub(crate) fn drive<E: Send + Sync + 'static>(
+        runtime: &Handle,
+        end: &Arc<E>,
+        drive: impl Fn(&E, &mut Context<'_>) + Send + 'static,
+    ) -> Self {
+        let end = Arc::downgrade(end);
+        let driven = poll_fn(move |cx| match end.upgrade() {
+            Some(end) => {
+                drive(&end, cx);
+                Poll::Pending
+            }
+            None => Poll::Ready(()),
+        });
+        Self::spawn(runtime, driven)
     }
 }
 
@@ -68,8 +109,8 @@ mod tests {
     #[tokio::test]
     async fn a_task_ends_with_its_owner_but_not_in_a_forked_child() {
         for is_inherited in [true, false] {
-            let task = tokio::spawn(pending::<()>());
-            let mut owner = AbortOnDrop::new(task.abort_handle());
+            let mut owner = AbortOnDrop::spawn(&Handle::current(), pending());
+            let task = owner.task.clone();
             if is_inherited {
                 owner.process = ProcessMark::inherited();
             }

@@ -8,12 +8,16 @@ mod endpoint;
 mod frame;
 mod guarantees;
 mod heap_memory;
+#[cfg(any(feature = "memory", feature = "zeromq"))]
+mod link_count;
 #[cfg(feature = "memory")]
 pub mod memory;
 #[cfg(any(feature = "memory", feature = "zeromq"))]
 mod origins;
 mod receiver;
 mod request;
+#[cfg(any(feature = "memory", feature = "zeromq"))]
+mod round_robin;
 mod sender;
 #[cfg(feature = "zeromq")]
 pub mod zeromq;
@@ -97,4 +101,11 @@ pub enum TransportError {
         /// The reason it gave.
         reason: String,
     },
+}
+
+impl TransportError {
+    #[cfg(any(feature = "memory", feature = "zeromq"))]
+    fn refused(endpoint: &str, reason: &dyn std::fmt::Display) -> Self {
+        Self::Refused { endpoint: endpoint.to_owned(), reason: reason.to_string() }
+    }
 }

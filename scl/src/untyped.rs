@@ -167,10 +167,7 @@ impl Component {
     /// # Errors
     /// [`GateError`]: there is no gate with this name, it is of another kind, or it was taken before.
     pub fn publisher(&mut self, gate: &str) -> Result<Pub<Bytes>, GateError> {
-        self.take(gate, GateKind::Pub, |gate| match gate {
-            Gate::Pub(gate) => Some(gate),
-            _ => None,
-        })
+        self.take(gate, GateKind::Pub, |gate| if let Gate::Pub(gate) = gate { Some(gate) } else { None })
     }
 
     /// Takes a `sub` gate out of the component.
@@ -178,10 +175,7 @@ impl Component {
     /// # Errors
     /// Those of [`publisher`](Self::publisher).
     pub fn subscriber(&mut self, gate: &str) -> Result<Sub<Bytes>, GateError> {
-        self.take(gate, GateKind::Sub, |gate| match gate {
-            Gate::Sub(gate) => Some(gate),
-            _ => None,
-        })
+        self.take(gate, GateKind::Sub, |gate| if let Gate::Sub(gate) = gate { Some(gate) } else { None })
     }
 
     /// Takes a `req` gate out of the component.
@@ -189,10 +183,7 @@ impl Component {
     /// # Errors
     /// Those of [`publisher`](Self::publisher).
     pub fn requester(&mut self, gate: &str) -> Result<Req<Bytes, Bytes>, GateError> {
-        self.take(gate, GateKind::Req, |gate| match gate {
-            Gate::Req(gate) => Some(gate),
-            _ => None,
-        })
+        self.take(gate, GateKind::Req, |gate| if let Gate::Req(gate) = gate { Some(gate) } else { None })
     }
 
     /// Takes a `rep` gate out of the component.
@@ -200,10 +191,7 @@ impl Component {
     /// # Errors
     /// Those of [`publisher`](Self::publisher).
     pub fn replier(&mut self, gate: &str) -> Result<Rep<Bytes, Bytes>, GateError> {
-        self.take(gate, GateKind::Rep, |gate| match gate {
-            Gate::Rep(gate) => Some(gate),
-            _ => None,
-        })
+        self.take(gate, GateKind::Rep, |gate| if let Gate::Rep(gate) = gate { Some(gate) } else { None })
     }
 
     /// Takes a `push` gate out of the component.
@@ -211,10 +199,7 @@ impl Component {
     /// # Errors
     /// Those of [`publisher`](Self::publisher).
     pub fn pusher(&mut self, gate: &str) -> Result<Push<Bytes>, GateError> {
-        self.take(gate, GateKind::Push, |gate| match gate {
-            Gate::Push(gate) => Some(gate),
-            _ => None,
-        })
+        self.take(gate, GateKind::Push, |gate| if let Gate::Push(gate) = gate { Some(gate) } else { None })
     }
 
     /// Takes a `pull` gate out of the component.
@@ -222,10 +207,7 @@ impl Component {
     /// # Errors
     /// Those of [`publisher`](Self::publisher).
     pub fn puller(&mut self, gate: &str) -> Result<Pull<Bytes>, GateError> {
-        self.take(gate, GateKind::Pull, |gate| match gate {
-            Gate::Pull(gate) => Some(gate),
-            _ => None,
-        })
+        self.take(gate, GateKind::Pull, |gate| if let Gate::Pull(gate) = gate { Some(gate) } else { None })
     }
 
     /// Waits until all required peers are connected, also those of gates that were taken. Gates that listen for any
@@ -273,7 +255,7 @@ impl Component {
     pub async fn close(self, timeout: Duration) -> Result<(), NotFlushed> {
         let handle = self.handle.clone();
         drop(self);
-        only_failures(handle.flush(Flush::Running, timeout).await)
+        only_failures(handle.0.flush(Flush::Running, timeout).await)
     }
 
     /// [`close`](Self::close) from a plain thread.
@@ -289,9 +271,9 @@ impl Component {
         handle.0.may_close()?;
         drop(self);
         if !stop::was_requested() {
-            return Ok(only_failures(handle.flush_blocking(Flush::Running, timeout))?);
+            return Ok(only_failures(handle.0.flush_blocking(Flush::Running, timeout))?);
         }
-        if let Err(left) = handle.flush_blocking(Flush::Connected, timeout.min(stop::LAST_FLUSH)) {
+        if let Err(left) = handle.0.flush_blocking(Flush::Connected, timeout.min(stop::LAST_FLUSH)) {
             log::warn(&left.to_string());
         }
         Ok(())
@@ -299,12 +281,12 @@ impl Component {
 
     /// A handle that ends the calls of the component and its gates, from any thread.
     pub fn closer(&self) -> Closer {
-        Closer::of(&self.handle)
+        Closer { state: Arc::downgrade(&self.handle.0) }
     }
 
     /// A handle that waits for futures of the gates, from any plain thread.
     pub fn driver(&self) -> Driver {
-        Driver::of(&self.handle)
+        Driver { state: Arc::downgrade(&self.handle.0) }
     }
 
     /// A file descriptor for event loops, which is readable while any gate that receives has something. See

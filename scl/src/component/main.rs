@@ -1,7 +1,7 @@
 //! What `#[scl::main]` does around a program: settings, log, signals, the component, the flush at the end, the exit
 //! code.
 
-use super::{Component, Flush, realtime};
+use super::{Component, Flush, RealTimeSettings};
 use crate::environment;
 use crate::error::{Error, NotFlushed};
 use crate::options::OpenOptions;
@@ -26,7 +26,7 @@ pub fn run_async<C: Component, F: Future<Output = Result<(), Error>>>(main: fn(C
             let returned = stop::until_stopped(main(component)).await;
             let result = returned.map_err(Error::from).and_then(|result| result);
             let (mode, timeout) = last_flush();
-            conclude(result, handle.flush(mode, timeout).await)
+            conclude(result, handle.0.flush(mode, timeout).await)
         })
     });
     exit_code(result)
@@ -40,7 +40,7 @@ pub fn run_blocking<C: Component>(main: fn(C) -> Result<(), Error>) -> ExitCode 
         let handle = C::handle(&component).clone();
         let result = main(component);
         let (mode, timeout) = last_flush();
-        conclude(result, handle.flush_blocking(mode, timeout))
+        conclude(result, handle.0.flush_blocking(mode, timeout))
     });
     exit_code(result)
 }
@@ -48,9 +48,9 @@ pub fn run_blocking<C: Component>(main: fn(C) -> Result<(), Error>) -> ExitCode 
 /// Reads the settings of the environment and applies them.
 fn set_up() -> Result<(), Error> {
     let variables = &environment::of_process;
-    let level = log::Level::read(variables)?;
+    let level = log::level(variables)?;
     let grace_period = stop::grace_period(variables)?;
-    let settings = realtime::Settings::read(variables)?;
+    let settings = RealTimeSettings::read(variables)?;
     log::start(level);
     service::start(variables);
     // Before the real-time settings: a main thread that computes at real-time priority on its one processor would keep

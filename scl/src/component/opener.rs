@@ -13,8 +13,8 @@ use crate::runtime_dir::{ComponentStats, RuntimeDir};
 use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::state::{ComponentState, OwnedRuntime, Owner, stats_period};
 use crate::time::Watchdog;
-use crate::transport::{Endpoint, Sender, Transport, TransportError};
-use std::sync::{Arc, Mutex};
+use crate::transport::{Endpoint, Receiver, Sender, Transport, TransportError};
+use std::sync::Arc;
 
 /// Opens the gates of one component; only generated code calls it.
 pub struct Opener {
@@ -29,7 +29,7 @@ impl Opener {
         options: &OpenOptions,
         runtime: Option<Arc<OwnedRuntime>>,
     ) -> Result<Self, OpenError> {
-        let (Joined { registration, stats }, transports) = match options.chosen_transport() {
+        let (Joined { registration, stats }, transports) = match options.transport.clone() {
             Some(transport) => {
                 let transports = Transports::Own(transport);
                 needs::check(spec, &transports)?;
@@ -37,29 +37,22 @@ impl Opener {
             }
             None => register(spec, options)?,
         };
-        let state = Owner::new(ComponentState::new(spec, registration, stats, runtime).of_test(options.is_test()));
+        let state = Owner::new(ComponentState::new(spec, registration, stats, runtime).of_test(options.is_test));
         state.start_reporting();
         Ok(Self { state, transports })
     }
 
     /// Opens the `pub` gate at an index of the component's list.
     pub fn publisher<T, C: Codec<T>>(&mut self, index: usize) -> Result<Pub<T>, OpenError> {
-        let spec = self.gate(index);
-        let connections = self.connections::<T, C>(spec, |transport, endpoint| transport.publish(endpoint))?;
-        let tap = self.tap(spec)?;
-        let gate = Outgoing::new::<C>(self.state.clone(), spec, connections, tap);
-        self.follow(index, gate.fanout.figures());
-        Ok(Pub::new(gate))
+        let tap = self.tap(self.gate(index))?;
+        self.outgoing::<T, C>(index, tap, |transport, endpoint| transport.publish(endpoint)).map(Pub::new)
     }
 
     /// Opens the `push` gate at an index of the component's list.
     pub fn pusher<T, C: Codec<T>>(&mut self, index: usize) -> Result<Push<T>, OpenError> {
-        let spec = self.gate(index);
-        let connections = self.connections::<T, C>(spec, |transport, endpoint| transport.push(endpoint))?;
         // The puller has the tap.
-        let gate = Outgoing::new::<C>(self.state.clone(), spec, connections, GateTap::new(None, false));
-        self.follow(index, gate.fanout.figures());
-        Ok(Push::new(gate))
+        let no_tap = GateTap::new(None, false);
+        self.outgoing::<T, C>(index, no_tap, |transport, endpoint| transport.push(endpoint)).map(Push::new)
     }
 
     /// Opens the `sub` gate at an index of the component's list.
@@ -67,10 +60,7 @@ impl Opener {
         let spec = self.gate(index);
         let subscribe = |link| self.transports.of_connection(spec, link).subscribe(&self.connecting(spec, link));
         let links = self.links(spec).iter().map(subscribe).collect::<Result<_, _>>();
-        let links = links.map_err(|source| self.refused(spec, source))?;
-        let gate = Incoming::new::<C>(self.state.clone(), spec, links, GateTap::new(None, false));
-        self.follow(index, gate.figures());
-        Ok(Sub::new(gate))
+        Ok(Sub::new(self.incoming::<T, C>(index, links, GateTap::new(None, false))?))
     }
 
     /// Opens the `pull` gate at an index of the component's list.
@@ -79,11 +69,7 @@ impl Opener {
         let longest = longest::<T, C>(spec.options.max_size);
         let endpoint = Endpoint { longest, ..endpoint(spec.endpoint, spec) };
         let link = self.transports.of_gate(spec).pull(&endpoint);
-        let link = link.map_err(|source| self.refused(spec, source))?;
-        let tap = self.tap(spec)?;
-        let gate = Incoming::new::<C>(self.state.clone(), spec, vec![link], tap);
-        self.follow(index, gate.figures());
-        Ok(Pull::new(gate))
+        Ok(Pull::new(self.incoming::<T, C>(index, link.map(|link| vec![link]), self.tap(spec)?)?))
     }
 
     /// Opens the `req` gate at an index of the component's list.
@@ -127,24 +113,43 @@ impl Opener {
         &self.state.spec().gates[index]
     }
 
-    fn connections<T, C: Codec<T>>(
+    fn incoming<T, C: Codec<T>>(
         &self,
-        spec: &'static GateSpec,
+        index: usize,
+        links: Result<Vec<Box<dyn Receiver>>, TransportError>,
+        tap: GateTap,
+    ) -> Result<Incoming<T>, OpenError> {
+        let spec = self.gate(index);
+        let links = links.map_err(|source| self.refused(spec, source))?;
+        let gate = Incoming::new::<C>(self.state.clone(), spec, links, tap);
+        self.follow(index, gate.figures());
+        Ok(gate)
+    }
+
+    fn outgoing<T, C: Codec<T>>(
+        &self,
+        index: usize,
+        tap: GateTap,
         open: impl Fn(&dyn Transport, &Endpoint) -> Result<Box<dyn Sender>, TransportError>,
-    ) -> Result<Vec<Arc<Mutex<Connection>>>, OpenError> {
+    ) -> Result<Outgoing<T>, OpenError> {
+        let spec = self.gate(index);
         let connect = |link: &'static ConnectionSpec| {
-            let lossless = spec.options.waits_for(link.when_full);
-            let latched = spec.options.latched;
-            let endpoint = self.connecting(spec, link);
-            let longest = longest::<T, C>(link.max_size);
-            let sender =
-                open(self.transports.of_connection(spec, link), &Endpoint { lossless, latched, longest, ..endpoint });
+            let endpoint = Endpoint {
+                lossless: spec.options.waits_for(link.when_full),
+                latched: spec.options.latched,
+                longest: longest::<T, C>(link.max_size),
+                ..self.connecting(spec, link)
+            };
+            let sender = open(self.transports.of_connection(spec, link), &endpoint);
             let sender = sender.map_err(|source| self.refused(spec, source))?;
-            let connection = Connection::new(sender, self.name(spec), spec, link, self.state.changes())
-                .with_end_check(self.state.registration().end_check(link.peer_component));
+            let has_ended = self.state.registration().end_check(link.peer_component);
+            let connection = Connection::new(sender, self.name(spec), spec, link, self.state.changes(), has_ended);
             Ok(self.state.drive(connection))
         };
-        self.links(spec).iter().map(connect).collect()
+        let connections = self.links(spec).iter().map(connect).collect::<Result<_, OpenError>>()?;
+        let gate = Outgoing::new::<C>(self.state.clone(), spec, connections, tap);
+        self.follow(index, gate.fanout.figures());
+        Ok(gate)
     }
 
     /// The connections of a gate: all, or in a unit test that to its counterpart.
@@ -184,7 +189,7 @@ struct Joined {
 
 /// Takes the component's name in the registry of the user's, if there is one.
 fn join(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<Joined, OpenError> {
-    let registration = match options.chosen_registry() {
+    let registration = match &options.registry {
         Some(registry) => {
             registry.register(spec).map_err(|source| OpenError::Registry { component: spec.name, source })?
         }
@@ -195,11 +200,12 @@ fn join(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<Joined, O
 
 /// Takes the component's name in the runtime folder.
 fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<(Joined, Transports), OpenError> {
-    expected::check(spec, &|name| options.variable(name))?;
-    let (system, choice) = (options.system_name(spec.system)?, options.chosen_transports()?);
-    let stats = stats_period(&|name| options.variable(name))?;
+    let variables = &|name: &str| options.variable(name);
+    expected::check(spec, variables)?;
+    let (system, choice) = (options.system_name(variables, spec.system)?, options.transport_choice(variables)?);
+    let stats = stats_period(variables)?;
     let failed = |source| OpenError::RuntimeDir { component: spec.name, source };
-    let runtime_dir = RuntimeDir::locate(&|name| options.variable(name)).map_err(failed)?;
+    let runtime_dir = RuntimeDir::locate(variables).map_err(failed)?;
     let dir = runtime_dir.system(&system).map_err(failed)?;
     let transports = Transports::in_folder(spec, &dir, choice.clone())?;
     needs::check(spec, &transports)?;

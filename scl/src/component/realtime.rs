@@ -15,7 +15,7 @@ use thread_priority::{
 
 /// The real-time settings of the environment.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub(super) struct Settings {
+pub(crate) struct Settings {
     /// `SCL_SCHED=fifo:80`: the priority, 1 to 99.
     fifo: Option<u8>,
     /// `SCL_CPU=1`: the processor, counted from 0.
@@ -27,7 +27,7 @@ impl Settings {
     ///
     /// # Errors
     /// [`OpenError::Environment`] for a value that is not understood.
-    pub(super) fn read(variables: Variables<'_>) -> Result<Self, OpenError> {
+    pub(crate) fn read(variables: Variables<'_>) -> Result<Self, OpenError> {
         let fifo =
             |value: &str| value.strip_prefix("fifo:")?.parse().ok().filter(|priority| (1..=99).contains(priority));
         let cpu = |value: &str| value.parse().ok().filter(|cpu| *cpu < CpuSet::MAX_CPU);
@@ -39,7 +39,7 @@ impl Settings {
 
     /// Applies the settings to the calling thread and to those that it starts from now on. With any of them, the memory
     /// of the program is locked. Logs a warning for what the operating system refuses.
-    pub(super) fn apply(&self) {
+    pub(crate) fn apply(&self) {
         if let Some(cpu) = self.cpu {
             pin(cpu);
         }

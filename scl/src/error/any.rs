@@ -1,6 +1,7 @@
 //! Any error, for functions that report several kinds.
 
 use super::BlockingError;
+use crate::causes::causes;
 use std::fmt;
 
 /// The result of a program's main function: any error, with its causes.
@@ -36,14 +37,9 @@ impl Error {
 
     /// Returns true if it reports that a stop was requested, which is not a failure.
     pub fn is_stop(&self) -> bool {
-        let mut cause: Option<&(dyn std::error::Error + 'static)> = Some(&*self.0);
-        while let Some(error) = cause {
-            if matches!(error.downcast_ref(), Some(BlockingError::Stopped)) {
-                return true;
-            }
-            cause = error.source();
-        }
-        false
+        let is_stop =
+            |error: &(dyn std::error::Error + 'static)| matches!(error.downcast_ref(), Some(BlockingError::Stopped));
+        is_stop(&*self.0) || causes(&*self.0).any(is_stop)
     }
 }
 
@@ -89,11 +85,6 @@ impl fmt::Display for Error {
 impl fmt::Debug for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.0)?;
-        let mut cause = self.0.source();
-        while let Some(error) = cause {
-            write!(f, "\n  caused by: {error}")?;
-            cause = error.source();
-        }
-        Ok(())
+        causes(&*self.0).try_for_each(|cause| write!(f, "\n  caused by: {cause}"))
     }
 }

@@ -33,12 +33,6 @@ pub struct MissingPeer {
     pub refused: bool,
 }
 
-impl MissingPeer {
-    pub(crate) fn new(gate: &'static str, peer: PeerName, reason: String, refused: bool) -> Self {
-        Self { gate, peer, reason, refused }
-    }
-}
-
 impl fmt::Display for MissingPeer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} (gate `{}`)", self.reason, self.gate)

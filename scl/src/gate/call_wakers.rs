@@ -4,7 +4,7 @@
 //! reads and hands each its reply, because none of them may rely on another one to be polled.
 
 use crate::state::WakeCall;
-use crate::sync::lock;
+use crate::sync::{keep_waker, lock};
 use crate::time::Watchdog;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
@@ -43,9 +43,7 @@ impl CallWakers {
     pub(super) fn wait(&self, call: u64, waker: &Waker) {
         let mut wakers = lock(&self.wakers);
         let Some((_, known)) = wakers.calls.iter_mut().find(|(id, _)| *id == call) else { return };
-        if !known.as_ref().is_some_and(|known| known.will_wake(waker)) {
-            *known = Some(waker.clone());
-        }
+        keep_waker(known, waker);
     }
 
     /// Wakes a call that another party has something for.
@@ -66,10 +64,7 @@ impl CallWakers {
     }
 
     pub(super) fn set_task(&self, task: &Waker) {
-        let mut wakers = lock(&self.wakers);
-        if !wakers.task.as_ref().is_some_and(|known| known.will_wake(task)) {
-            wakers.task = Some(task.clone());
-        }
+        keep_waker(&mut lock(&self.wakers).task, task);
     }
 }
 

@@ -26,11 +26,11 @@ pub(super) enum Caller {
 #[derive(Default)]
 pub(super) struct CatchUp {
     /// The question that some senders have not answered. It stays open when the call that asked has vanished.
-    asked: Option<Asked>,
+    open: Option<Question>,
 }
 
-struct Asked {
-    at: Instant,
+struct Question {
+    asked_at: Instant,
     /// Whether this is the second question, because the first was older than the call.
     again: bool,
     /// Whether it is too old for the call that waits.
@@ -39,24 +39,24 @@ struct Asked {
 
 impl CatchUp {
     pub(super) fn is_waiting(&self) -> bool {
-        self.asked.is_some()
+        self.open.is_some()
     }
 
     /// Ready when each sender has said, since the call began, that it holds back nothing newer. To know that, the links
     /// may have read messages that were not there before.
     pub(super) fn poll(&mut self, links: &mut Links, caller: Caller) -> Poll<()> {
-        match &mut self.asked {
-            Some(asked) => asked.is_old |= !asked.counts_for(caller),
+        match &mut self.open {
+            Some(question) => question.is_old |= !question.counts_for(caller),
             None => links.forget_answers(),
         }
         if links.are_behind() {
-            self.asked.get_or_insert_with(|| Asked::now(false));
+            self.open.get_or_insert_with(|| Question::now(false));
             return Poll::Pending;
         }
-        if self.asked.take().is_some_and(|asked| asked.is_old) {
+        if self.open.take().is_some_and(|question| question.is_old) {
             links.forget_answers();
             if links.are_behind() {
-                self.asked = Some(Asked::now(true));
+                self.open = Some(Question::now(true));
                 return Poll::Pending;
             }
         }
@@ -64,17 +64,17 @@ impl CatchUp {
     }
 }
 
-impl Asked {
+impl Question {
     fn now(again: bool) -> Self {
-        Self { at: Instant::now(), again, is_old: false }
+        Self { asked_at: Instant::now(), again, is_old: false }
     }
 
     fn counts_for(&self, caller: Caller) -> bool {
         match caller {
             Caller::SameCall => true,
-            Caller::NewCall | Caller::Stream if self.again => self.at.elapsed() <= FRESH_ENOUGH,
+            Caller::NewCall | Caller::Stream if self.again => self.asked_at.elapsed() <= FRESH_ENOUGH,
             Caller::NewCall => false,
-            Caller::Stream => self.at.elapsed() <= FRESH,
+            Caller::Stream => self.asked_at.elapsed() <= FRESH,
         }
     }
 }

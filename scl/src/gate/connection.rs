@@ -68,6 +68,7 @@ impl Connection {
         spec: &'static GateSpec,
         link: &'static ConnectionSpec,
         component_changes: Changes,
+        has_ended: Option<EndCheck>,
     ) -> Self {
         Self {
             sender,
@@ -89,20 +90,13 @@ impl Connection {
             kind: spec.kind,
             link,
             component_changes,
-            has_ended: None,
+            has_ended,
         }
-    }
-
-    /// The same with what says whether the peer has ended in order.
-    pub(crate) fn with_end_check(self, has_ended: Option<EndCheck>) -> Self {
-        Self { has_ended, ..self }
     }
 
     /// Does background work; called by the connection's task whenever it is woken.
     pub(crate) fn drive(&mut self, cx: &mut Context<'_>) {
-        if !self.task.will_wake(cx.waker()) {
-            self.task = cx.waker().clone();
-        }
+        self.task.clone_from(cx.waker());
         let driven = self.accept_and_read(cx);
         self.hand_over(driven);
         // Also what a sending call has noticed since the last time.

@@ -6,6 +6,8 @@
 //!                                  └── timed out, or dropped: nothing was sent
 //! ```
 
+mod in_call;
+
 use super::call_wakers::CallWakers;
 use super::stats::{Activity, GateStats};
 use super::watch::Watch;
@@ -18,6 +20,7 @@ use crate::sync::{AbortOnDrop, lock, try_lock};
 use crate::time::Watchdog;
 use crate::transport::{Answer, Requester};
 use bytes::Bytes;
+use in_call::InCall;
 use scl_fork::ProcessOwned;
 use std::future::poll_fn;
 use std::pin::pin;
@@ -25,6 +28,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::task::{Context, Poll, Waker};
 use std::time::Duration;
+use tokio::runtime::Handle;
 use tokio::sync::Semaphore;
 use tokio::time::Instant;
 
@@ -92,18 +96,14 @@ impl Exchange {
             in_wait: Arc::new(FiguresInWait::new(1)),
             calls: Arc::clone(&calls),
         }));
-        // Weak, so that the end is gone with the gate, and not only when the runtime drops the task.
-        let (driven, task_calls) = (Arc::downgrade(&end), Arc::clone(&calls));
-        let task = tokio::spawn(poll_fn(move |cx| {
+        let task_calls = Arc::clone(&calls);
+        let task = AbortOnDrop::drive(&Handle::current(), &end, move |end, cx| {
             task_calls.set_task(cx.waker());
-            let Some(end) = driven.upgrade() else { return Poll::Ready(()) };
-            if lock(&end).drive() {
+            if lock(end).drive() {
                 task_calls.wake_call();
             }
-            Poll::Pending
-        }));
-        let (end, last_id) = (ProcessOwned::new(end), AtomicU64::new(0));
-        Self { end, calls, permits, last_id, _task: AbortOnDrop::new(task.abort_handle()) }
+        });
+        Self { end: ProcessOwned::new(end), calls, permits, last_id: AtomicU64::new(0), _task: task }
     }
 
     /// Sends a request and waits for its reply.
@@ -188,10 +188,7 @@ impl Exchange {
 
     pub(super) fn stats(&self) -> GateStats {
         let end = self.lock();
-        let mut stats = GateStats { sent: end.sent, received: end.received, ..GateStats::default() };
-        stats.undecodable = end.undecodable;
-        stats.rejected = end.undecodable;
-        stats.peers = usize::from(end.link.is_connected());
+        let mut stats = end.counts();
         end.activity.add_to(&mut stats);
         stats
     }
@@ -310,18 +307,27 @@ impl End {
         self.link.wait(within)
     }
 
+    /// The gate's counts, without its activity and the calls in progress.
+    fn counts(&self) -> GateStats {
+        GateStats {
+            sent: self.sent,
+            received: self.received,
+            rejected: self.undecodable,
+            undecodable: self.undecodable,
+            peers: self.link.is_connected().into(),
+            ..GateStats::default()
+        }
+    }
+
     fn read_figures(&self, figures: &mut GateFigures) {
-        figures.clear();
-        (figures.sent, figures.received) = (self.sent, self.received);
-        (figures.rejected, figures.undecodable) = (self.undecodable, self.undecodable);
-        figures.waiting = self.calls.in_progress() as u64;
+        let waiting = self.calls.in_progress();
         let connected = self.link.is_connected();
-        figures.peers = connected.into();
+        GateStats { waiting, ..self.counts() }.write_to(figures);
         self.activity.add_to_figures(figures);
         for connection in &mut figures.connections {
             *connection = ConnectionFigures {
                 connected,
-                waiting: self.calls.in_progress() as u64,
+                waiting: waiting as u64,
                 taken: self.received,
                 ..ConnectionFigures::default()
             };
@@ -364,38 +370,6 @@ async fn until<F: Future>(future: F, deadline: Instant, state: &ComponentState) 
         });
         if let Some(ended) = ended.await {
             return ended;
-        }
-    }
-}
-
-/// A call in progress, which hands the end back to the task when it ends in any way.
-struct InCall<'a> {
-    exchange: &'a Exchange,
-    id: u64,
-    watchdog: Option<Watchdog>,
-}
-
-impl<'a> InCall<'a> {
-    fn begin(exchange: &'a Exchange, id: u64) -> Self {
-        Self { exchange, id, watchdog: exchange.calls.begin(id) }
-    }
-
-    /// Ready when the deadline has passed. Without its timer a call could wait forever, so a timer that fails ends it
-    /// too.
-    fn poll_past(&mut self, cx: &mut Context<'_>, deadline: Instant) -> Poll<()> {
-        self.watchdog.as_mut().map_or(Poll::Ready(()), |watchdog| watchdog.poll_past(cx, deadline).map(|_past| ()))
-    }
-}
-
-impl Drop for InCall<'_> {
-    fn drop(&mut self) {
-        let mut end = self.exchange.lock();
-        end.sent_calls.retain(|call| call.id != self.id);
-        self.exchange.calls.end(self.id, self.watchdog.take());
-        // Polled once more, so that an event reported to the call is handled, and the next one wakes the task or
-        // another call.
-        if end.drive() {
-            self.exchange.calls.wake_call();
         }
     }
 }

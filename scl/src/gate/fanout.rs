@@ -206,7 +206,7 @@ impl Fanout {
         let mut full = self
             .connections
             .iter()
-            .map(lock_connection)
+            .map(|connection| lock(connection))
             .filter_map(|mut connection| connection.poll_room(cx).is_pending().then(|| connection.peer_name()));
         let first = full.next();
         // A shared message needs room at one of them.
@@ -303,7 +303,7 @@ impl Fanout {
 
     pub(crate) fn stats(&self) -> GateStats {
         let mut stats = GateStats { dropped_for_observers: self.tap.dropped(), ..GateStats::default() };
-        for connection in self.connections.iter().map(lock_connection) {
+        for connection in self.connections.iter().map(|connection| lock(connection)) {
             let (peer, all) = (connection.stats(), connection.counts());
             all.activity.add_to(&mut stats);
             stats.sent += all.sent;
@@ -337,8 +337,4 @@ impl Drop for Fanout {
             self.state.release(connection);
         }
     }
-}
-
-fn lock_connection(connection: &Arc<Mutex<Connection>>) -> std::sync::MutexGuard<'_, Connection> {
-    lock(connection)
 }

@@ -1,25 +1,24 @@
-//! The links of a receiving gate and its queue, shared by the calls of the program and the gate's background task.
+//! The links of a receiving gate and its queue.
+
+mod shared;
+
+pub(super) use shared::SharedInbox;
 
 use super::catch_up::{Caller, CatchUp};
-use super::io_waker::IoWaker;
 use super::links::{Arrived, Links};
 use super::queue::{Pushed, Queue, QueuePolicy};
 use super::ready_set::{ReadySet, ReadySignals};
-use super::stats::{Activity, CoarseTime};
+use super::stats::{Activity, CoarseTime, GateStats};
 use super::tap::{GateTap, ObservedKind};
 use super::undecodable::UndecodableCount;
 use crate::error::Missing;
-use crate::figures::{FigureSource, FiguresInWait};
+use crate::figures::FiguresInWait;
 use crate::runtime_dir::GateFigures;
 use crate::spec::{GateSpec, WhenFull};
-use crate::state::{ComponentState, ReceivingEnd, WakeCall};
-use crate::sync::{AbortOnDrop, lock, try_lock};
-use crate::transport::Receiver;
-use scl_fork::ProcessOwned;
+use crate::state::ReceivingEnd;
 use std::collections::VecDeque;
-use std::future::poll_fn;
-use std::sync::{Arc, Mutex, Weak};
-use std::task::{Context, Poll, ready};
+use std::sync::{Arc, Weak};
+use std::task::{Poll, ready};
 use std::time::{Duration, Instant};
 
 /// How many messages one call takes in at most, so that a fast peer cannot keep a call from returning.
@@ -48,78 +47,6 @@ pub(super) struct Inbox {
     in_wait: Arc<FiguresInWait>,
     tap: GateTap,
     ready: ReadySignals,
-}
-
-/// The inbox, its waker, and the task that drives it.
-pub(super) struct SharedInbox {
-    inbox: ProcessOwned<Arc<Mutex<Inbox>>>,
-    pub(super) io: Arc<IoWaker>,
-    _task: AbortOnDrop,
-}
-
-impl SharedInbox {
-    /// Starts to receive. Needs a tokio runtime.
-    pub(super) fn new(spec: &GateSpec, links: Vec<Box<dyn Receiver>>, tap: GateTap, state: &ComponentState) -> Self {
-        let io = Arc::new(IoWaker::default());
-        state.register_calls(Arc::downgrade(&io) as _);
-        let links = Links::new(links, Arc::clone(&io), state.changes());
-        let inbox = Arc::new(Mutex::new(Inbox::new(spec, links, tap)));
-        state.register_receiving(Arc::downgrade(&inbox) as _);
-        // Weak, so that the ends are gone with the gate, and not only when the runtime drops the task.
-        let (driven, task_io) = (Arc::downgrade(&inbox), Arc::clone(&io));
-        let task = tokio::spawn(poll_fn(move |cx| {
-            task_io.set_task(cx.waker());
-            let Some(inbox) = driven.upgrade() else { return Poll::Ready(()) };
-            if lock(&inbox).drive() {
-                task_io.wake_call();
-            }
-            Poll::Pending
-        }));
-        Self { inbox: ProcessOwned::new(inbox), io, _task: AbortOnDrop::new(task.abort_handle()) }
-    }
-
-    /// Returns the next message, or registers the call and returns `Pending`.
-    pub(super) fn poll_next(&self, cx: &mut Context<'_>, caller: Caller) -> Poll<Arrived> {
-        let mut inbox = lock(&self.inbox);
-        let polled = inbox.poll_next(caller);
-        inbox.report_ready();
-        if polled.is_pending() {
-            self.io.wait(cx.waker(), caller == Caller::Stream);
-        }
-        polled
-    }
-
-    /// Ready when a message waits; otherwise registers the call, which may vanish.
-    pub(super) fn poll_ready(&self, cx: &mut Context<'_>) -> Poll<()> {
-        let mut inbox = lock(&self.inbox);
-        inbox.take_in();
-        inbox.report_ready();
-        if inbox.queue.is_empty() {
-            self.io.wait(cx.waker(), true);
-            return Poll::Pending;
-        }
-        Poll::Ready(())
-    }
-
-    pub(super) fn lock(&self) -> std::sync::MutexGuard<'_, Inbox> {
-        lock(&self.inbox)
-    }
-
-    pub(super) fn figures(&self) -> FigureSource {
-        let (inbox, in_wait) = (self.downgrade(), Arc::clone(&self.lock().in_wait));
-        Box::new(move |figures| {
-            let Some(inbox) = inbox.upgrade() else { return false };
-            match try_lock(&inbox) {
-                Some(inbox) => inbox.read_figures(figures),
-                None => in_wait.copy_to(figures),
-            }
-            true
-        })
-    }
-
-    pub(super) fn downgrade(&self) -> Weak<Mutex<Inbox>> {
-        Arc::downgrade(&self.inbox)
-    }
 }
 
 impl Inbox {
@@ -372,42 +299,32 @@ impl Inbox {
         self.links.missing(spec)
     }
 
+    /// The gate's counts, without its activity.
+    pub(super) fn counts(&self) -> GateStats {
+        let undecodable = self.undecodable.total();
+        GateStats {
+            received: self.links.received(),
+            rejected: undecodable + self.links.malformed(),
+            undecodable,
+            replaced: self.queue.replaced,
+            dropped_oldest: self.queue.dropped_oldest,
+            dropped_newest: self.queue.dropped_newest,
+            dropped_for_observers: self.tap.dropped(),
+            waiting: self.queue.len(),
+            peers: self.peers(),
+            ..GateStats::default()
+        }
+    }
+
     /// Brings the figures of the gate up to date.
-    pub(super) fn read_figures(&self, figures: &mut GateFigures) {
-        figures.clear();
-        figures.received = self.received();
-        figures.rejected = self.rejected();
-        figures.undecodable = self.undecodable.total();
-        figures.replaced = self.queue.replaced;
-        figures.dropped_oldest = self.queue.dropped_oldest;
-        figures.dropped_newest = self.queue.dropped_newest;
-        figures.tap_dropped = self.tap_dropped();
-        figures.dropped_for_observers = figures.tap_dropped;
-        figures.waiting = self.queue.len() as u64;
-        figures.peers = self.peers() as u64;
+    fn read_figures(&self, figures: &mut GateFigures) {
+        let counts = self.counts();
+        counts.write_to(figures);
         self.activity.add_to_figures(figures);
         if self.listens {
-            return figures.share(self.peers() as u64, self.received());
+            return figures.share(counts.peers as u64, counts.received);
         }
         self.links.add_to_figures(figures);
-    }
-
-    /// Number of messages that arrived.
-    pub(super) fn received(&self) -> u64 {
-        self.links.received()
-    }
-
-    /// Number of messages that could not be used.
-    pub(super) fn rejected(&self) -> u64 {
-        self.undecodable.total() + self.links.malformed()
-    }
-
-    pub(super) fn queue(&self) -> &Queue<Arrived> {
-        &self.queue
-    }
-
-    pub(super) fn tap_dropped(&self) -> u64 {
-        self.tap.dropped()
     }
 
     /// Number of connected peers.

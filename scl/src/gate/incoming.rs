@@ -6,7 +6,7 @@ use super::inbox::SharedInbox;
 use super::links::Arrived;
 use super::stats::GateStats;
 use super::tap::GateTap;
-use super::undecodable::{AT_ONCE, SkipLimit, report, skips};
+use super::undecodable::{AT_ONCE, SkipLimit, report, skips, unless_skipped};
 #[cfg(feature = "raw")]
 use super::view::View;
 use super::watch::Watch;
@@ -84,8 +84,7 @@ impl<T> Incoming<T> {
                 let arrived = Recv { gate: self, caller, is_waiting: false }.await;
                 let Some(arrived) = arrived else { return self.refuse() };
                 caller = Caller::NewCall;
-                let decoded = decode(self, arrived);
-                if decoded.is_ok() || !skips(self.spec) {
+                if let Some(decoded) = unless_skipped(self.spec, decode(self, arrived)) {
                     return decoded;
                 }
             }
@@ -99,13 +98,10 @@ impl<T> Incoming<T> {
         state.may_block().map_err(blocking)?;
         let caller = match self.wait_directly(Duration::MAX) {
             Err(caller) => caller,
-            Ok(arrived) => {
-                let decoded = decode(self, arrived);
-                if decoded.is_ok() || !skips(self.spec) {
-                    return decoded;
-                }
-                Caller::NewCall
-            }
+            Ok(arrived) => match unless_skipped(self.spec, decode(self, arrived)) {
+                Some(decoded) => return decoded,
+                None => Caller::NewCall,
+            },
         };
         state.block_on(self.next(caller, decode)).map_err(blocking)?
     }
@@ -117,10 +113,9 @@ impl<T> Incoming<T> {
         let started = Instant::now();
         let caller = match self.wait_directly(timeout) {
             Err(caller) => caller,
-            Ok(arrived) => match self.decode(arrived) {
-                Ok(message) => return Ok(message),
-                Err(error) if !skips(self.spec) => return Err(error.into()),
-                Err(_) => Caller::NewCall,
+            Ok(arrived) => match unless_skipped(self.spec, self.decode(arrived)) {
+                Some(decoded) => return Ok(decoded?),
+                None => Caller::NewCall,
             },
         };
         let left = timeout.saturating_sub(started.elapsed());
@@ -148,8 +143,7 @@ impl<T> Incoming<T> {
             let Some(arrived) = ready!(self.poll_arrived(cx, Caller::Stream)) else {
                 return Poll::Ready(self.refuse());
             };
-            let decoded = self.decode(arrived);
-            if decoded.is_ok() || !skips(self.spec) {
+            if let Some(decoded) = unless_skipped(self.spec, self.decode(arrived)) {
                 return Poll::Ready(decoded);
             }
         }
@@ -203,10 +197,8 @@ impl<T> Incoming<T> {
         let mut limit = SkipLimit::default();
         loop {
             let Some(arrived) = self.inbox.lock().try_next() else { return Ok(None) };
-            match decode(self, arrived) {
-                Ok(message) => return Ok(Some(message)),
-                Err(error) if !skips(self.spec) => return Err(error),
-                Err(_) => {}
+            if let Some(decoded) = unless_skipped(self.spec, decode(self, arrived)) {
+                return decoded.map(Some);
             }
             if limit.is_over() {
                 return Ok(None);
@@ -226,10 +218,8 @@ impl<T> Incoming<T> {
 
     fn newest_of(&mut self, arrived: &mut VecDeque<Arrived>) -> Result<Option<T>, RecvError> {
         while let Some(newest) = arrived.pop_back() {
-            match self.decode(newest) {
-                Ok(message) => return Ok(Some(message)),
-                Err(error) if !skips(self.spec) => return Err(error),
-                Err(_) => {}
+            if let Some(decoded) = unless_skipped(self.spec, self.decode(newest)) {
+                return decoded.map(Some);
             }
         }
         Ok(None)
@@ -352,18 +342,7 @@ impl<T> Incoming<T> {
 
     pub(crate) fn stats(&self) -> GateStats {
         let inbox = self.inbox.lock();
-        let mut stats = GateStats {
-            received: inbox.received(),
-            rejected: inbox.rejected(),
-            undecodable: inbox.undecodable.total(),
-            replaced: inbox.queue().replaced,
-            dropped_oldest: inbox.queue().dropped_oldest,
-            dropped_newest: inbox.queue().dropped_newest,
-            dropped_for_observers: inbox.tap_dropped(),
-            waiting: inbox.queue().len(),
-            peers: inbox.peers(),
-            ..GateStats::default()
-        };
+        let mut stats = inbox.counts();
         inbox.activity.add_to(&mut stats);
         stats
     }

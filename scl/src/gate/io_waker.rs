@@ -5,7 +5,7 @@
 //! message reaches it without a detour, or else the task.
 
 use crate::state::WakeCall;
-use crate::sync::lock;
+use crate::sync::{keep_waker, lock};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::task::{Wake, Waker};
@@ -30,10 +30,7 @@ impl IoWaker {
     pub(crate) fn wait(&self, call: &Waker, may_vanish: bool) {
         let mut wakers = lock(&self.wakers);
         wakers.may_vanish = may_vanish;
-        match &wakers.call {
-            Some(known) if known.will_wake(call) => {}
-            _ => wakers.call = Some(call.clone()),
-        }
+        keep_waker(&mut wakers.call, call);
     }
 
     /// The call gave up. If an event was reported to it, the task handles that instead.
@@ -47,20 +44,14 @@ impl IoWaker {
     }
 
     pub(crate) fn set_task(&self, task: &Waker) {
-        let mut wakers = lock(&self.wakers);
-        match &wakers.task {
-            Some(known) if known.will_wake(task) => {}
-            _ => wakers.task = Some(task.clone()),
-        }
+        keep_waker(&mut lock(&self.wakers).task, task);
     }
 }
 
 impl WakeCall for IoWaker {
     fn wake_call(&self) {
         let call = lock(&self.wakers).call.take();
-        if let Some(call) = call {
-            call.wake();
-        }
+        call.into_iter().for_each(Waker::wake);
     }
 
     fn waits(&self, futures: bool) -> bool {
@@ -104,7 +95,8 @@ impl Drained {
         self.is_set
     }
 
-    /// To be called when all ends were polled since `still_holds` and none had anything.
+    /// To be called when all ends were polled since `still_holds` and none had anything, or when the queue is full, so
+    /// that nothing can be taken from them.
     pub(super) fn set(&mut self) {
         self.is_set = true;
     }

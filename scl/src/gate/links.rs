@@ -118,8 +118,7 @@ impl Links {
     /// Waits for the only link on the calling thread. Returns true if something has arrived.
     pub(super) fn wait(&mut self, within: Duration) -> bool {
         self.drained.reset();
-        let [link] = &mut self.links[..] else { return false };
-        link.end.wait(within)
+        self.links.first_mut().is_some_and(|link| link.end.wait(within))
     }
 
     /// A call begins, for which no earlier answer of a sender counts.

@@ -5,7 +5,7 @@ use super::encoding::Encoding;
 use super::reply_end::{Numbered, ReplyEnd};
 use super::stats::GateStats;
 use super::tap::{GateTap, ObservedKind};
-use super::undecodable::{AT_ONCE, SkipLimit, report, skips};
+use super::undecodable::{AT_ONCE, SkipLimit, report, skips, unless_skipped};
 use super::watch::Watch;
 use super::{AnyGate, ReceivingGate};
 use crate::codec::{Codec, DecodeError};
@@ -120,10 +120,8 @@ impl<A, B> Rep<A, B> {
         let mut limit = SkipLimit::default();
         loop {
             let Some(request) = self.end.try_next() else { return Ok(None) };
-            match self.decode(request) {
-                Ok(message) => return Ok(Some(message)),
-                Err(error) if !skips(self.spec) => return Err(error),
-                Err(_) => {}
+            if let Some(decoded) = unless_skipped(self.spec, self.decode(request)) {
+                return decoded.map(Some);
             }
             if limit.is_over() {
                 return Ok(None);
@@ -138,14 +136,7 @@ impl<A, B> Rep<A, B> {
 
     /// Returns the gate's counts; `received` counts requests.
     pub fn stats(&self) -> GateStats {
-        let counts = self.end.counts();
-        let mut stats = GateStats { received: counts.received, ..GateStats::default() };
-        counts.activity.add_to(&mut stats);
-        stats.undecodable = counts.undecodable;
-        stats.rejected = counts.undecodable + self.end.malformed();
-        stats.peers = self.end.peers();
-        stats.dropped_for_observers = self.replies.tap.dropped();
-        stats
+        GateStats { dropped_for_observers: self.replies.tap.dropped(), ..self.end.stats() }
     }
 
     pub(crate) fn figures(&self) -> FigureSource {
@@ -162,10 +153,8 @@ impl<A, B> Rep<A, B> {
         }
         for _ in 0..AT_ONCE {
             let Poll::Ready(request) = self.end.poll_next(cx, may_vanish) else { return self.poll_ended().map(Err) };
-            match self.decode(request) {
-                Ok(message) => return Poll::Ready(Ok(message)),
-                Err(error) if !skips(self.spec) => return Poll::Ready(Err(error)),
-                Err(_) => {}
+            if let Some(decoded) = unless_skipped(self.spec, self.decode(request)) {
+                return Poll::Ready(decoded);
             }
         }
         cx.waker().wake_by_ref();

@@ -2,7 +2,7 @@
 
 use super::io_waker::{Drained, IoWaker};
 use super::ready_set::{ReadySet, ReadySignals};
-use super::stats::Activity;
+use super::stats::{Activity, GateStats};
 use super::tap::GateTap;
 use crate::error::Unflushed;
 use crate::figures::FigureSource;
@@ -10,9 +10,9 @@ use crate::runtime_dir::GateFigures;
 use crate::state::{ComponentState, SendingEnd, WakeCall};
 use crate::sync::{AbortOnDrop, lock, try_lock};
 use crate::transport::{IncomingRequest, Replier};
-use std::future::poll_fn;
 use std::sync::{Arc, Mutex, Weak};
 use std::task::{Context, Poll, Waker, ready};
+use tokio::runtime::Handle;
 
 /// Up to this number of requesters, a call that takes a request looks at the others itself, which is cheaper than to
 /// wake the task.
@@ -33,20 +33,14 @@ struct Link {
     waker: Waker,
     written: bool,
     peers: usize,
-    counts: RequestCounts,
+    received: u64,
+    undecodable: u64,
+    activity: Activity,
     /// A request that was read to know that there is one.
     next: Option<IncomingRequest>,
     ready: ReadySignals,
     /// A dropped gate and the component's flush may both wait.
     waiting_flushes: Vec<Waker>,
-}
-
-/// What has become of the requests of a gate.
-#[derive(Debug, Clone, Default)]
-pub(super) struct RequestCounts {
-    pub(super) received: u64,
-    pub(super) undecodable: u64,
-    pub(super) activity: Activity,
 }
 
 impl ReplyEnd {
@@ -61,24 +55,23 @@ impl ReplyEnd {
             waker,
             written: true,
             peers: 0,
-            counts: RequestCounts::default(),
+            received: 0,
+            undecodable: 0,
+            activity: Activity::default(),
             next: None,
             ready: ReadySignals::default(),
             waiting_flushes: Vec::new(),
         }));
         state.register(Arc::clone(&link) as _);
-        // Weak, so that the end is gone with the gate, and not only when the runtime drops the task.
-        let (driven, task_io, changes) = (Arc::downgrade(&link), Arc::clone(&io), state.changes());
-        let task = tokio::spawn(poll_fn(move |cx| {
+        let (task_io, changes) = (Arc::clone(&io), state.changes());
+        let task = AbortOnDrop::drive(&Handle::current(), &link, move |link, cx| {
             task_io.set_task(cx.waker());
-            let Some(link) = driven.upgrade() else { return Poll::Ready(()) };
-            if lock(&link).drive_by_task() {
+            if lock(link).drive_by_task() {
                 changes.report();
             }
             task_io.wake_call();
-            Poll::Pending
-        }));
-        Arc::new(Self { link, io, _task: AbortOnDrop::new(task.abort_handle()) })
+        });
+        Arc::new(Self { link, io, _task: task })
     }
 
     /// Returns the next request with its number, or registers the call and returns `Pending`. `may_vanish`: see
@@ -141,19 +134,18 @@ impl ReplyEnd {
         lock(&self.link).replier.peers()
     }
 
-    pub(super) fn malformed(&self) -> u64 {
-        lock(&self.link).replier.malformed()
-    }
-
-    pub(super) fn counts(&self) -> RequestCounts {
-        lock(&self.link).counts.clone()
+    pub(super) fn stats(&self) -> GateStats {
+        let link = lock(&self.link);
+        let mut stats = link.counts();
+        link.activity.add_to(&mut stats);
+        stats
     }
 
     /// Returns true for the first one.
     pub(super) fn count_undecodable(&self) -> bool {
-        let counts = &mut lock(&self.link).counts;
-        counts.undecodable += 1;
-        counts.undecodable == 1
+        let mut link = lock(&self.link);
+        link.undecodable += 1;
+        link.undecodable == 1
     }
 
     pub(super) fn figures(self: &Arc<Self>, tap: &GateTap) -> FigureSource {
@@ -182,10 +174,10 @@ impl Link {
             Some(request) => request,
             None => ready!(self.poll_request()),
         };
-        self.counts.received += 1;
-        self.counts.activity.add(request.body.len());
+        self.received += 1;
+        self.activity.add(request.body.len());
         self.keep_alive();
-        Poll::Ready((self.counts.received, request))
+        Poll::Ready((self.received, request))
     }
 
     fn poll_request(&mut self) -> Poll<IncomingRequest> {
@@ -211,15 +203,23 @@ impl Link {
         }
     }
 
+    /// The gate's counts, without its activity, its tap and what waits.
+    fn counts(&self) -> GateStats {
+        GateStats {
+            received: self.received,
+            rejected: self.undecodable + self.replier.malformed(),
+            undecodable: self.undecodable,
+            peers: self.replier.peers(),
+            ..GateStats::default()
+        }
+    }
+
     fn read_figures(&self, figures: &mut GateFigures) {
-        figures.clear();
-        figures.received = self.counts.received;
-        figures.undecodable = self.counts.undecodable;
-        figures.rejected = self.counts.undecodable + self.replier.malformed();
-        figures.peers = self.replier.peers() as u64;
+        let counts = self.counts();
+        counts.write_to(figures);
         figures.waiting = self.next.is_some().into();
-        self.counts.activity.add_to_figures(figures);
-        figures.share(self.replier.peers() as u64, self.counts.received);
+        figures.share(counts.peers as u64, counts.received);
+        self.activity.add_to_figures(figures);
     }
 
     /// Returns true if there is a request.

@@ -68,6 +68,24 @@ pub struct PeerStats {
     pub waiting: u64,
 }
 
+impl GateStats {
+    /// Writes the counts, without the gate's connections and the time of its last activity.
+    pub(crate) fn write_to(&self, figures: &mut GateFigures) {
+        figures.clear();
+        figures.sent = self.sent;
+        figures.received = self.received;
+        figures.replaced = self.replaced;
+        figures.dropped_oldest = self.dropped_oldest;
+        figures.dropped_newest = self.dropped_newest;
+        figures.dropped_for_observers = self.dropped_for_observers;
+        figures.tap_dropped = self.dropped_for_observers;
+        figures.rejected = self.rejected;
+        figures.undecodable = self.undecodable;
+        figures.waiting = self.waiting as u64;
+        figures.peers = self.peers as u64;
+    }
+}
+
 /// Bytes moved, and when last.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Activity {

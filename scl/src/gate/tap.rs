@@ -7,10 +7,10 @@ use crate::tap_meta::{TapMeta, now_ns};
 use crate::transport::Tap;
 use bytes::Bytes;
 use scl_fork::ProcessOwned;
-use std::future::poll_fn;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, Weak};
-use std::task::{Context, Poll, Waker};
+use std::task::{Context, Waker};
+use tokio::runtime::Handle;
 
 /// The tap of one gate, shared by everything that the gate's messages pass through.
 pub(crate) struct GateTap {
@@ -46,16 +46,8 @@ impl GateTap {
             sequence: AtomicU64::new(0),
             dropped: AtomicU64::new(0),
         });
-        // Weak, so that the socket is gone with the gate, and not only when the runtime drops the task.
-        let driven = Arc::downgrade(&shared);
-        let task = tokio::spawn(poll_fn(move |cx| match driven.upgrade() {
-            Some(shared) => {
-                shared.drive(cx);
-                Poll::Pending
-            }
-            None => Poll::Ready(()),
-        }));
-        Self { shared: Some(ProcessOwned::new(shared)), _task: Some(AbortOnDrop::new(task.abort_handle())) }
+        let task = AbortOnDrop::drive(&Handle::current(), &shared, Shared::drive);
+        Self { shared: Some(ProcessOwned::new(shared)), _task: Some(task) }
     }
 
     /// Shows a message to the observers, if there are any.
@@ -85,9 +77,7 @@ impl GateTap {
 impl Shared {
     fn drive(&self, cx: &mut Context<'_>) {
         let mut end = lock(&self.end);
-        if !end.task.will_wake(cx.waker()) {
-            end.task = cx.waker().clone();
-        }
+        end.task.clone_from(cx.waker());
         // Before a new observer is told that it is connected, so that a message sent at once waits for the lock and is
         // shown.
         self.observed.store(true, Ordering::Release);

@@ -38,6 +38,11 @@ pub(super) fn skips(gate: &GateSpec) -> bool {
     gate.options.undecodable == Undecodable::Skip
 }
 
+/// What a call returns for a message that it has tried to decode; `None` if the message is skipped.
+pub(super) fn unless_skipped<R>(gate: &GateSpec, decoded: Result<R, RecvError>) -> Option<Result<R, RecvError>> {
+    if decoded.is_err() && skips(gate) { None } else { Some(decoded) }
+}
+
 /// Logs a message that is skipped, if it is the `first` of its peer, because a peer whose messages are undecodable
 /// sends many of them.
 pub(super) fn report(gate: &GateSpec, error: &RecvError, first: bool) {

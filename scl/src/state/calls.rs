@@ -148,7 +148,7 @@ impl ComponentState {
 
     /// Runs a task on the runtime of the ends, until it is done or dropped.
     pub(crate) fn spawn(&self, task: impl Future<Output = ()> + Send + 'static) -> AbortOnDrop {
-        AbortOnDrop::new(self.handle.spawn(task).abort_handle())
+        AbortOnDrop::spawn(&self.handle, task)
     }
 
     /// Gives the component's own runtime a turn if one is due, after a call that did not wait.

@@ -99,10 +99,7 @@ pub(super) fn start(
     let unwritten = || ComponentStats::initial(spec, std::process::id(), SystemTime::now(), Duration::ZERO);
     let (initial, writer) = stats.unzip();
     let monitor = Arc::new(Monitor::new(spec, initial.unwrap_or_else(unwritten)));
-    let task = writer.map(|writer| {
-        let task = handle.spawn(write_stats(Arc::downgrade(&monitor), writer));
-        AbortOnDrop::new(task.abort_handle())
-    });
+    let task = writer.map(|writer| AbortOnDrop::spawn(handle, write_stats(Arc::downgrade(&monitor), writer)));
     (monitor, task)
 }
 

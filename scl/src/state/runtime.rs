@@ -7,14 +7,14 @@
 //! wait for give the runtime a turn now and then, or late peers would never be accepted.
 
 use crate::error::{BlockingError, OpenError};
-use crate::sync::{is_thread_ending, lock};
+use crate::sync::{is_thread_ending, lock, unparks_this_thread};
 use std::future::poll_fn;
 use std::io;
 use std::pin::pin;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::task::{Context, Poll, Wake, Waker};
-use std::thread::{self, Thread};
+use std::task::{Context, Poll, Waker};
+use std::thread;
 use std::time::{Duration, Instant};
 use tokio::runtime::{Builder, EnterGuard, Handle, Runtime};
 use tokio::sync::Notify;
@@ -309,15 +309,7 @@ fn waker_of_driver(runtime: &Runtime) -> io::Result<Waker> {
 
 /// Waits on a plain thread while the runtime of the component runs elsewhere.
 pub(super) fn park_until<F: Future>(future: F) -> F::Output {
-    let mut future = pin!(future);
-    let waker = unparks_this_thread();
-    let mut cx = Context::from_waker(&waker);
-    loop {
-        if let Poll::Ready(ready) = future.as_mut().poll(&mut cx) {
-            return ready;
-        }
-        thread::park();
-    }
+    park_until_or(Duration::MAX, future).unwrap_or_else(|| unreachable!("no time is as long"))
 }
 
 /// The same, but no longer than a given time. The runtime may have ended, so its timers are of no use here.
@@ -335,19 +327,11 @@ pub(super) fn park_until_or<F: Future>(time: Duration, future: F) -> Option<F::O
     }
 }
 
-fn unparks_this_thread() -> Waker {
-    struct Unpark(Thread);
-    impl Wake for Unpark {
-        fn wake(self: Arc<Self>) {
-            self.0.unpark();
-        }
-    }
-    Arc::new(Unpark(thread::current())).into()
-}
-
-/// Makes the thread-local values that tokio needs in calls of this thread. A value that the thread makes after that is
-/// destroyed before them.
-pub(crate) fn prepare_thread() {
+/// Makes what calls to components need of the calling thread's thread-local values. For bindings whose programs make
+/// calls in destructors and at their exit: a thread-local value that the binding makes after this call is destroyed
+/// before those, so its destructor tells when calls have to be made on another thread.
+pub fn prepare_thread() {
+    // Tokio keeps thread-local values, which are destroyed after those that the thread makes later.
     if refuse_to_wait().is_ok()
         && let Ok(runtime) = Builder::new_current_thread().build()
     {

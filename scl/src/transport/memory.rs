@@ -9,7 +9,6 @@
 //! | `receive` | the receiving ends: subscribe and pull |
 //! | `catch_up` | waiting without a runtime for what senders hold back |
 //! | `request_reply` | the ends for requests and replies |
-//! | `round_robin` | several connections that take turns |
 //!
 //! No end needs a task, a thread or the operating system: an end that has to wait stores its waker where the other end
 //! finds it, and the other end uses it after it has released its lock.
@@ -19,7 +18,6 @@ mod lend;
 mod pipe;
 mod receive;
 mod request_reply;
-mod round_robin;
 mod send;
 mod switchboard;
 #[cfg(test)]
@@ -27,10 +25,10 @@ mod tests;
 
 use super::{Endpoint, Guarantees, Receiver, Replier, Requester, Sender, Transport, TransportError};
 use bytes::Bytes;
-use pipe::{PipeReader, PipeWriter, WriterTerms};
+use pipe::{EndTerms, PipeReader, PipeWriter};
 use request_reply::{ToReplier, ToRequester};
 use std::sync::Arc;
-use switchboard::{EndTerms, Switchboard};
+use switchboard::Switchboard;
 
 /// How many messages a connection holds that the receiver has not taken.
 const IN_FLIGHT: usize = 64;
@@ -63,13 +61,9 @@ const IN_FLIGHT_NEWEST_OF_TEST: usize = 1000;
 /// ```
 #[derive(Clone)]
 pub struct Memory {
-    endpoints: Arc<Endpoints>,
-}
-
-struct Endpoints {
-    publishing: Switchboard<PipeWriter<Bytes>, PipeReader<Bytes>>,
-    pulling: Switchboard<PipeReader<Bytes>, PipeWriter<Bytes>>,
-    replying: Switchboard<ToRequester, ToReplier>,
+    publishing: Arc<Switchboard<PipeWriter<Bytes>, PipeReader<Bytes>>>,
+    pulling: Arc<Switchboard<PipeReader<Bytes>, PipeWriter<Bytes>>>,
+    replying: Arc<Switchboard<ToRequester, ToReplier>>,
 }
 
 impl Memory {
@@ -87,13 +81,12 @@ impl Memory {
     /// `NEWEST`: how many messages are in flight to an end that wants only the newest one.
     fn holding<const NEWEST: usize>() -> Self {
         // Only the receiving end decides how much is in flight.
-        let publishing = Switchboard::new(|ends| message_pipe(ends.listener, ends.connector, NEWEST));
-        let pulling = Switchboard::new(|ends| {
-            let (writer, reader) = message_pipe(ends.connector, ends.listener, NEWEST);
+        let publishing = Switchboard::new(|listener, connector| message_pipe(listener, connector, NEWEST));
+        let pulling = Switchboard::new(|listener, connector| {
+            let (writer, reader) = message_pipe(connector, listener, NEWEST);
             (reader, writer)
         });
-        let replying = Switchboard::new(request_reply::connect);
-        Self { endpoints: Arc::new(Endpoints { publishing, pulling, replying }) }
+        Self { publishing, pulling, replying: Switchboard::new(request_reply::connect) }
     }
 }
 
@@ -103,7 +96,7 @@ fn message_pipe(
     in_flight_newest: usize,
 ) -> (PipeWriter<Bytes>, PipeReader<Bytes>) {
     let capacity = if receiving.newest_only { in_flight_newest } else { IN_FLIGHT };
-    pipe::pipe_of(capacity, WriterTerms { lossless: sending.lossless, latched: sending.latched })
+    pipe::pipe_of(capacity, sending)
 }
 
 impl Default for Memory {
@@ -119,27 +112,27 @@ impl Transport for Memory {
     }
 
     fn publish(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError> {
-        Ok(Box::new(send::Publisher::new(self.endpoints.publishing.listen(endpoint)?)))
+        Ok(Box::new(send::Publisher(self.publishing.listen(endpoint)?)))
     }
 
     fn subscribe(&self, endpoint: &Endpoint) -> Result<Box<dyn Receiver>, TransportError> {
-        Ok(Box::new(receive::Subscriber::new(self.endpoints.publishing.connect(endpoint), endpoint)))
+        Ok(Box::new(receive::Subscriber::new(self.publishing.connect(endpoint), endpoint)))
     }
 
     fn push(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError> {
-        Ok(Box::new(send::Pusher::new(self.endpoints.pulling.connect(endpoint))))
+        Ok(Box::new(send::Pusher::new(self.pulling.connect(endpoint))))
     }
 
     fn pull(&self, endpoint: &Endpoint) -> Result<Box<dyn Receiver>, TransportError> {
-        Ok(Box::new(receive::Puller::new(self.endpoints.pulling.listen(endpoint)?, endpoint)))
+        Ok(Box::new(receive::Puller::new(self.pulling.listen(endpoint)?, endpoint)))
     }
 
     fn request(&self, endpoint: &Endpoint) -> Result<Box<dyn Requester>, TransportError> {
-        Ok(Box::new(request_reply::MemoryRequester::new(self.endpoints.replying.connect(endpoint), endpoint)))
+        Ok(Box::new(request_reply::MemoryRequester::new(self.replying.connect(endpoint), endpoint)))
     }
 
     fn reply(&self, endpoint: &Endpoint) -> Result<Box<dyn Replier>, TransportError> {
-        Ok(Box::new(request_reply::MemoryReplier::new(self.endpoints.replying.listen(endpoint)?, endpoint)))
+        Ok(Box::new(request_reply::MemoryReplier::new(self.replying.listen(endpoint)?, endpoint)))
     }
 }
 

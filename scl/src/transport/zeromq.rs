@@ -2,7 +2,7 @@
 //!
 //! | role | socket | peers | file |
 //! |---|---|---|---|
-//! | publish | XPUB, accepts | SUB, XSUB | `publish.rs`, `link.rs` |
+//! | publish | XPUB, accepts | SUB, XSUB | `publish.rs`, `subscribers.rs`, `link.rs` |
 //! | subscribe | SUB, connects | PUB, XPUB | `subscribe.rs`, `inbound.rs` |
 //! | push | PUSH, connects | PULL | `push.rs`, `link.rs` |
 //! | pull | PULL, accepts | PUSH | `pull.rs`, `inbound.rs` |
@@ -20,7 +20,6 @@ mod credit;
 mod dialler;
 mod inbound;
 mod link;
-mod link_count;
 mod listener;
 mod memory_format;
 mod publish;
@@ -33,6 +32,7 @@ mod session;
 mod shared_memory;
 mod stream;
 mod subscribe;
+mod subscribers;
 mod tap;
 mod tap_reader;
 mod tcp_user;

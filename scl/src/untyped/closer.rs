@@ -1,7 +1,7 @@
 //! Ending the calls of a component from another thread.
 
-use crate::state::{ComponentHandle, ComponentState};
-use std::sync::{Arc, Weak};
+use crate::state::ComponentState;
+use std::sync::Weak;
 
 /// Ends the calls of a component and of its gates, wherever those are.
 ///
@@ -27,17 +27,13 @@ use std::sync::{Arc, Weak};
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub struct Closer {
     /// Weak, so that it does not keep the component open.
-    state: Weak<ComponentState>,
+    pub(super) state: Weak<ComponentState>,
 }
 
 impl Closer {
-    pub(super) fn of(handle: &ComponentHandle) -> Self {
-        Self { state: Arc::downgrade(&handle.0) }
-    }
-
     /// Ends all calls that wait, with [`BlockingError::Closed`](crate::BlockingError::Closed), and refuses later ones.
     /// It does not wait until they have returned. What was sent before can still be flushed, by closing the component.
     ///
@@ -46,11 +42,5 @@ impl Closer {
         if let Some(state) = self.state.upgrade().filter(|state| !state.is_inherited()) {
             state.end_calls();
         }
-    }
-}
-
-impl std::fmt::Debug for Closer {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Closer").finish_non_exhaustive()
     }
 }

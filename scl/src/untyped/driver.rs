@@ -1,23 +1,19 @@
 //! Waiting for futures from plain threads.
 
 use crate::error::BlockingError;
-use crate::state::{ComponentHandle, ComponentState};
-use std::sync::{Arc, Weak};
+use crate::state::ComponentState;
+use std::sync::Weak;
 use std::time::Duration;
 
 /// Waits for futures of a component's gates from a plain thread, in steps: for bindings to languages that have to look
 /// at something else now and then, for example at signals.
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub struct Driver {
     /// Weak, so that it does not keep the component open.
-    state: Weak<ComponentState>,
+    pub(super) state: Weak<ComponentState>,
 }
 
 impl Driver {
-    pub(super) fn of(handle: &ComponentHandle) -> Self {
-        Self { state: Arc::downgrade(&handle.0) }
-    }
-
     /// Waits until a future is ready, no longer than a given time. `None` if it is still pending then; the next call
     /// goes on with it.
     ///
@@ -45,11 +41,5 @@ impl Driver {
     pub fn wait_for<F: Future>(&self, future: F, time: Duration) -> Result<Option<F::Output>, BlockingError> {
         let state = self.state.upgrade().ok_or(BlockingError::Closed)?;
         state.block_on_for(time, future)
-    }
-}
-
-impl std::fmt::Debug for Driver {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Driver").finish_non_exhaustive()
     }
 }

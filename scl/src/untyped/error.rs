@@ -3,7 +3,6 @@
 use crate::error::{BlockingError, GateName, RecvError};
 use crate::spec::{ComponentSpec, GateKind};
 use crate::time::Rounded;
-use std::fmt;
 use std::time::Duration;
 use thiserror::Error;
 
@@ -46,7 +45,7 @@ pub enum GateError {
 #[non_exhaustive]
 pub enum WaitError {
     /// None of the gates received anything.
-    #[error("component `{component}` received nothing at {} within {}", Listed(gates), Rounded(*waited))]
+    #[error("component `{component}` received nothing at {} within {}", either(gates), Rounded(*waited))]
     Timeout {
         /// The component.
         component: &'static str,
@@ -69,18 +68,9 @@ pub enum WaitError {
 }
 
 /// Names of gates, for messages.
-struct Listed<'a>(&'a [GateName]);
-
-impl fmt::Display for Listed<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0.is_empty() {
-            return f.write_str("no gate");
-        }
-        for (index, gate) in self.0.iter().enumerate() {
-            write!(f, "{}`{gate}`", if index == 0 { "" } else { " or " })?;
-        }
-        Ok(())
-    }
+fn either(gates: &[GateName]) -> String {
+    let names: Vec<String> = gates.iter().map(|gate| format!("`{gate}`")).collect();
+    if names.is_empty() { "no gate".to_owned() } else { names.join(" or ") }
 }
 
 impl GateError {
@@ -95,20 +85,12 @@ impl GateError {
     }
 }
 
-/// Maximum number of gates that an error lists.
-const LISTED: usize = 10;
-
 fn advice(nearest: &Option<String>, known: &[String]) -> String {
-    if let Some(name) = nearest {
-        return format!("; did you mean `{name}`?");
-    }
-    let names: Vec<String> = known.iter().take(LISTED).map(|name| format!("`{name}`")).collect();
-    match known.len() {
-        0 => "; it has no gates".to_owned(),
-        count @ 1..=LISTED => {
-            format!("; {} {}", if count == 1 { "its gate is" } else { "its gates are" }, names.join(", "))
-        }
-        count => format!("; its gates are {} and {} more", names.join(", "), count - LISTED),
+    match (nearest, known) {
+        (Some(name), _) => format!("; did you mean `{name}`?"),
+        (None, []) => "; it has no gates".to_owned(),
+        (None, [only]) => format!("; its gate is `{only}`"),
+        (None, known) => format!("; its gates are {}", scl_text::list::listed(known)),
     }
 }
 

@@ -26,6 +26,20 @@ pub enum Gate {
     Pull(Pull<Bytes>),
 }
 
+/// The same for a gate of any kind.
+macro_rules! with_each {
+    ($any:ident, $gate:ident => $call:expr) => {
+        match $any {
+            Gate::Pub($gate) => $call,
+            Gate::Sub($gate) => $call,
+            Gate::Req($gate) => $call,
+            Gate::Rep($gate) => $call,
+            Gate::Push($gate) => $call,
+            Gate::Pull($gate) => $call,
+        }
+    };
+}
+
 impl Gate {
     pub(super) fn open(opener: &mut Opener, index: usize, kind: GateKind) -> Result<Self, OpenError> {
         use crate::codec::Opaque;
@@ -41,14 +55,7 @@ impl Gate {
 
     /// The gate as what all kinds have in common.
     pub(super) fn any(&self) -> &dyn AnyGate {
-        match self {
-            Gate::Pub(gate) => gate,
-            Gate::Sub(gate) => gate,
-            Gate::Req(gate) => gate,
-            Gate::Rep(gate) => gate,
-            Gate::Push(gate) => gate,
-            Gate::Pull(gate) => gate,
-        }
+        with_each!(self, gate => gate)
     }
 
     /// The gate as one that receives, or `None` for `pub`, `push` and `req`.
@@ -100,14 +107,7 @@ impl Gate {
 
     /// Returns true if all required peers are connected, or, for `rep` and `pull`, at least one peer.
     pub fn is_connected(&self) -> bool {
-        match self {
-            Gate::Pub(gate) => gate.is_connected(),
-            Gate::Sub(gate) => gate.is_connected(),
-            Gate::Req(gate) => gate.is_connected(),
-            Gate::Rep(gate) => gate.is_connected(),
-            Gate::Push(gate) => gate.is_connected(),
-            Gate::Pull(gate) => gate.is_connected(),
-        }
+        with_each!(self, gate => gate.is_connected())
     }
 
     /// How old the message is that a `sub` gate returned last, if its publisher had sent it before this gate was
@@ -121,14 +121,7 @@ impl Gate {
 
     /// Returns the gate's counts.
     pub fn stats(&self) -> GateStats {
-        match self {
-            Gate::Pub(gate) => gate.stats(),
-            Gate::Sub(gate) => gate.stats(),
-            Gate::Req(gate) => gate.stats(),
-            Gate::Rep(gate) => gate.stats(),
-            Gate::Push(gate) => gate.stats(),
-            Gate::Pull(gate) => gate.stats(),
-        }
+        with_each!(self, gate => gate.stats())
     }
 }
 

@@ -1,11 +1,11 @@
 //! Waiting, without a runtime, for what senders hold back.
 
+use crate::sync::unparks_this_thread;
 use crate::transport::Receiver;
 use bytes::Bytes;
 use std::collections::VecDeque;
-use std::sync::Arc;
-use std::task::{Context, Poll, Wake, Waker};
-use std::thread::{self, Thread};
+use std::task::{Context, Poll};
+use std::thread;
 use std::time::{Duration, Instant};
 
 /// Receives until `end` has caught up with its senders or the time is over, and returns the messages.
@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 /// A sender that uses this very thread cannot answer meanwhile.
 pub(super) fn catch_up(end: &mut dyn Receiver, within: Duration) -> VecDeque<Bytes> {
     let started = Instant::now();
-    let waker = Waker::from(Arc::new(Unpark(thread::current())));
+    let waker = unparks_this_thread();
     let mut cx = Context::from_waker(&waker);
     let mut fetched = VecDeque::new();
     end.forget_answers();
@@ -37,13 +37,5 @@ fn fetch(end: &mut dyn Receiver, cx: &mut Context<'_>, fetched: &mut VecDeque<By
             Poll::Ready(message) => fetched.push_back(message),
             Poll::Pending => return,
         }
-    }
-}
-
-struct Unpark(Thread);
-
-impl Wake for Unpark {
-    fn wake(self: Arc<Self>) {
-        self.0.unpark();
     }
 }

@@ -1,6 +1,6 @@
 //! A bounded queue between two ends, each of which notices when the other is dropped.
 
-use crate::sync::lock;
+use crate::sync::{keep_waker, lock};
 use std::cell::Cell;
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -10,20 +10,22 @@ use std::time::Instant;
 
 /// Creates a queue of at most `capacity` items.
 pub(super) fn pipe<T>(capacity: usize) -> (PipeWriter<T>, PipeReader<T>) {
-    pipe_of(capacity, WriterTerms::default())
+    pipe_of(capacity, EndTerms::default())
 }
 
-/// What the reader knows of its writer.
+/// What one end is like.
 #[derive(Clone, Copy, Default)]
-pub(super) struct WriterTerms {
-    /// It waits instead of dropping items.
+pub(super) struct EndTerms {
+    /// It wants only the newest message.
+    pub(super) newest_only: bool,
+    /// It waits instead of dropping messages.
     pub(super) lossless: bool,
-    /// It keeps its last item for readers that join.
+    /// It keeps its last message for those that join.
     pub(super) latched: bool,
 }
 
 /// The same, and the reader knows what its writer is like.
-pub(super) fn pipe_of<T>(capacity: usize, terms: WriterTerms) -> (PipeWriter<T>, PipeReader<T>) {
+pub(super) fn pipe_of<T>(capacity: usize, writer_terms: EndTerms) -> (PipeWriter<T>, PipeReader<T>) {
     let state = State {
         queue: VecDeque::new(),
         sent: 0,
@@ -37,7 +39,7 @@ pub(super) fn pipe_of<T>(capacity: usize, terms: WriterTerms) -> (PipeWriter<T>,
         writer: None,
         reader: None,
     };
-    let shared = Arc::new(Shared { state: Mutex::new(state), received: AtomicU64::new(0), capacity, terms });
+    let shared = Arc::new(Shared { state: Mutex::new(state), received: AtomicU64::new(0), capacity, writer_terms });
     (PipeWriter { shared: Arc::clone(&shared) }, PipeReader { shared, taken: Cell::new(0), latched: Cell::new(None) })
 }
 
@@ -58,7 +60,7 @@ struct Shared<T> {
     /// Number of items that the reader has taken and its caller does not keep for later.
     received: AtomicU64,
     capacity: usize,
-    terms: WriterTerms,
+    writer_terms: EndTerms,
 }
 
 struct State<T> {
@@ -101,7 +103,7 @@ impl<T> State<T> {
     fn refuse(&mut self, cx: &Context<'_>) {
         self.wants_room = true;
         self.holds_back = true;
-        keep(&mut self.writer, cx);
+        keep_waker(&mut self.writer, cx.waker());
     }
 }
 
@@ -181,7 +183,7 @@ impl<T> PipeWriter<T> {
     /// Returns true if the reader is there. Wakes the task when it is dropped.
     pub(super) fn poll_open(&self, cx: &Context<'_>) -> bool {
         let mut state = lock(&self.shared.state);
-        keep(&mut state.writer, cx);
+        keep_waker(&mut state.writer, cx.waker());
         !state.closed
     }
 
@@ -204,7 +206,7 @@ impl<T> PipeWriter<T> {
         let mut state = lock(&self.shared.state);
         if state.untaken > 0 {
             state.wants_empty = true;
-            keep(&mut state.writer, cx);
+            keep_waker(&mut state.writer, cx.waker());
         }
     }
 
@@ -226,7 +228,7 @@ impl<T> PipeReader<T> {
             if state.closed {
                 return Poll::Ready(None);
             }
-            keep(&mut state.reader, cx);
+            keep_waker(&mut state.reader, cx.waker());
             return Poll::Pending;
         };
         state.untaken -= 1;
@@ -254,7 +256,7 @@ impl<T> PipeReader<T> {
         }
         // The writer needs no waking: it was woken when the queue became empty, because it had been refused.
         state.question = Question::Asked;
-        keep(&mut state.reader, cx);
+        keep_waker(&mut state.reader, cx.waker());
         false
     }
 
@@ -267,12 +269,12 @@ impl<T> PipeReader<T> {
 
     /// Returns true if the writer waits instead of dropping items.
     pub(super) fn is_lossless(&self) -> bool {
-        self.shared.terms.lossless
+        self.shared.writer_terms.lossless
     }
 
     /// Returns true if the writer keeps its last item for readers that join.
     pub(super) fn is_latched(&self) -> bool {
-        self.shared.terms.latched
+        self.shared.writer_terms.latched
     }
 
     /// When an item was sent, if that was before this reader joined: the last one taken, or one that many before.
@@ -306,13 +308,6 @@ impl<T> Drop for PipeReader<T> {
         drop(state);
         drop(discarded);
         wake(writer);
-    }
-}
-
-/// Stores the task's waker, without cloning it if the same one is stored already.
-pub(super) fn keep(slot: &mut Option<Waker>, cx: &Context<'_>) {
-    if !slot.as_ref().is_some_and(|kept| kept.will_wake(cx.waker())) {
-        *slot = Some(cx.waker().clone());
     }
 }
 

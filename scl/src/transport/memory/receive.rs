@@ -2,9 +2,9 @@
 
 use super::catch_up::catch_up;
 use super::pipe::{PipeReader, PipeWriter};
-use super::round_robin::RoundRobin;
 use super::switchboard::{Connector, Listener};
 use crate::transport::origins::Origins;
+use crate::transport::round_robin::RoundRobin;
 use crate::transport::{Endpoint, Receiver};
 use bytes::Bytes;
 use std::collections::VecDeque;
@@ -134,7 +134,7 @@ impl Receiver for Puller {
             return Poll::Ready(message);
         }
         while let Poll::Ready(pipe) = self.listener.poll_connection(cx) {
-            self.pushers.add(Pusher { number: self.accepted, waiting: 0, pipe });
+            self.pushers.connections.push(Pusher { number: self.accepted, waiting: 0, pipe });
             self.accepted += 1;
         }
         let (max_size, waiting) = (self.inbound.max_size, &mut self.waiting);
@@ -150,39 +150,39 @@ impl Receiver for Puller {
     }
 
     fn peers(&self) -> usize {
-        let open = self.pushers.iter().filter(|pusher| pusher.pipe.is_open()).count();
+        let open = self.pushers.connections.iter().filter(|pusher| pusher.pipe.is_open()).count();
         open + self.listener.count(PipeReader::is_open)
     }
 
     fn note_waiting(&mut self, _: &mut Context<'_>, waiting: u64) -> bool {
-        let pushers = &mut self.pushers;
+        let pushers = &mut self.pushers.connections;
         self.waiting.keep_newest(waiting + self.inbound.fetched.len() as u64, |sender, count| {
             if let Some(pusher) = pushers.iter_mut().find(|pusher| pusher.number == sender) {
                 pusher.waiting -= count;
             }
         });
-        self.pushers.iter().for_each(|pusher| pusher.pipe.note_waiting(pusher.waiting));
+        self.pushers.connections.iter().for_each(|pusher| pusher.pipe.note_waiting(pusher.waiting));
         true
     }
 
     fn note_dropped(&mut self) {
         let sender = self.waiting.drop_newest();
-        if let Some(pusher) = self.pushers.iter_mut().find(|pusher| Some(pusher.number) == sender) {
+        if let Some(pusher) = self.pushers.connections.iter_mut().find(|pusher| Some(pusher.number) == sender) {
             pusher.waiting -= 1;
         }
     }
 
     fn is_lossless(&self) -> bool {
-        self.pushers.iter().any(|pusher| pusher.pipe.is_open() && pusher.pipe.is_lossless())
+        self.pushers.connections.iter().any(|pusher| pusher.pipe.is_open() && pusher.pipe.is_lossless())
     }
 
     fn forget_answers(&mut self) {
-        self.pushers.iter().for_each(|pusher| pusher.pipe.forget_answer());
+        self.pushers.connections.iter().for_each(|pusher| pusher.pipe.forget_answer());
     }
 
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         // Every pusher is asked, even if an earlier one is behind.
-        let behind = self.pushers.iter().filter(|pusher| !pusher.pipe.poll_caught_up(cx)).count();
+        let behind = self.pushers.connections.iter().filter(|pusher| !pusher.pipe.poll_caught_up(cx)).count();
         if behind > 0 { Poll::Pending } else { Poll::Ready(()) }
     }
 

@@ -1,9 +1,9 @@
 //! The ends for requests and replies.
 
 use super::IN_FLIGHT;
-use super::pipe::{PipeReader, PipeWriter, pipe};
-use super::round_robin::RoundRobin;
-use super::switchboard::{Connector, Listener, Terms};
+use super::pipe::{EndTerms, PipeReader, PipeWriter, pipe};
+use super::switchboard::{Connector, Listener};
+use crate::transport::round_robin::RoundRobin;
 use crate::transport::{Answer, Endpoint, IncomingRequest, Replier, ReplyPath, Requester, RequesterGone};
 use bytes::{BufMut, Bytes, BytesMut};
 use std::sync::Arc;
@@ -42,7 +42,7 @@ pub(super) struct ToReplier {
 
 /// Replies are not limited in number: each belongs to a request, and requesters discard old ones before the next
 /// request.
-pub(super) fn connect(_terms: Terms) -> (ToRequester, ToReplier) {
+pub(super) fn connect(_listener: EndTerms, _connector: EndTerms) -> (ToRequester, ToReplier) {
     let (request, requests) = pipe(IN_FLIGHT);
     let (reply, replies) = pipe(usize::MAX);
     let to_requester = ToRequester { requests, replies: Arc::new(Replies(reply)), envelopes: BytesMut::new() };
@@ -143,13 +143,13 @@ impl Replier for MemoryReplier {
     /// What was sent can be received even after this end is dropped.
     fn drive(&mut self, cx: &mut Context<'_>) -> bool {
         while let Poll::Ready(requester) = self.listener.poll_connection(cx) {
-            self.requesters.add(requester);
+            self.requesters.connections.push(requester);
         }
         true
     }
 
     fn peers(&self) -> usize {
-        let open = self.requesters.iter().filter(|requester| requester.is_open()).count();
+        let open = self.requesters.connections.iter().filter(|requester| requester.is_open()).count();
         open + self.listener.count(ToRequester::is_open)
     }
 }

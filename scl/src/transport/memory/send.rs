@@ -3,28 +3,20 @@
 use super::lend::Lender;
 use super::pipe::{PipeReader, PipeWriter};
 use super::switchboard::{Connector, Listener};
+use crate::transport::link_count::{LinkAlive, LinkCount};
 use crate::transport::{Disconnected, Driven, Frame, Link, Loan, Peer, PeerKind, Sender, Sent};
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::task::{Context, Poll, ready};
 use std::time::{Duration, Instant};
 
-pub(super) struct Publisher {
-    subscribers: Listener<PipeWriter<Bytes>, PipeReader<Bytes>>,
-}
-
-impl Publisher {
-    pub(super) fn new(subscribers: Listener<PipeWriter<Bytes>, PipeReader<Bytes>>) -> Self {
-        Self { subscribers }
-    }
-}
+pub(super) struct Publisher(pub(super) Listener<PipeWriter<Bytes>, PipeReader<Bytes>>);
 
 impl Sender for Publisher {
     fn poll_peer(&mut self, cx: &mut Context<'_>) -> Poll<Peer> {
         loop {
-            let subscriber = ready!(self.subscribers.poll_connection(cx));
+            let subscriber = ready!(self.0.poll_connection(cx));
             if subscriber.is_open() {
                 return Poll::Ready(peer(MemoryLink::new(subscriber, None)));
             }
@@ -34,18 +26,18 @@ impl Sender for Publisher {
 
 pub(super) struct Pusher {
     puller: Connector<PipeReader<Bytes>, PipeWriter<Bytes>>,
-    has_link: Arc<AtomicBool>,
+    links: Arc<LinkCount>,
 }
 
 impl Pusher {
     pub(super) fn new(puller: Connector<PipeReader<Bytes>, PipeWriter<Bytes>>) -> Self {
-        Self { puller, has_link: Arc::default() }
+        Self { puller, links: Arc::default() }
     }
 }
 
 impl Sender for Pusher {
     fn poll_peer(&mut self, cx: &mut Context<'_>) -> Poll<Peer> {
-        if self.has_link.load(Ordering::SeqCst) {
+        if self.links.count() > 0 {
             return Poll::Pending;
         }
         loop {
@@ -53,30 +45,13 @@ impl Sender for Pusher {
             if puller.is_open() {
                 // Once the link has been dropped, the same puller is connected to again.
                 self.puller.connect_again();
-                let only_link = OnlyLink::of(&self.has_link);
-                return Poll::Ready(peer(MemoryLink::new(puller, Some(only_link))));
+                return Poll::Ready(peer(MemoryLink::new(puller, Some(self.links.new_link()))));
             }
         }
     }
 
     fn refusal(&self) -> Option<String> {
         self.puller.refusal()
-    }
-}
-
-/// Lets a pusher know whether its link still exists.
-struct OnlyLink(Arc<AtomicBool>);
-
-impl OnlyLink {
-    fn of(has_link: &Arc<AtomicBool>) -> Self {
-        has_link.store(true, Ordering::SeqCst);
-        Self(Arc::clone(has_link))
-    }
-}
-
-impl Drop for OnlyLink {
-    fn drop(&mut self) {
-        self.0.store(false, Ordering::SeqCst);
     }
 }
 
@@ -87,12 +62,12 @@ fn peer(link: MemoryLink) -> Peer {
 struct MemoryLink {
     pipe: PipeWriter<Bytes>,
     lender: Lender,
-    _only_link: Option<OnlyLink>,
+    _alive: Option<LinkAlive>,
 }
 
 impl MemoryLink {
-    fn new(pipe: PipeWriter<Bytes>, only_link: Option<OnlyLink>) -> Self {
-        Self { pipe, lender: Lender::default(), _only_link: only_link }
+    fn new(pipe: PipeWriter<Bytes>, alive: Option<LinkAlive>) -> Self {
+        Self { pipe, lender: Lender::default(), _alive: alive }
     }
 
     fn sent(&self, sent: Result<(), Bytes>) -> Sent {

@@ -1,7 +1,7 @@
 //! Endpoints by name: one end listens, any number connect, in any order.
 
-use super::pipe::{keep, wake};
-use crate::sync::lock;
+use super::pipe::{EndTerms, wake};
+use crate::sync::{keep_waker, lock};
 use crate::transport::{Endpoint, PeerCheck, TransportError};
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex};
@@ -9,33 +9,12 @@ use std::task::{Context, Poll, Waker};
 
 /// The endpoints of one pattern. `L` is the listener's half of a connection, `C` the connector's.
 pub(super) struct Switchboard<L, C> {
-    endpoints: Arc<Endpoints<L, C>>,
-}
-
-struct Endpoints<L, C> {
     table: Mutex<Table<L, C>>,
     pair: Pair<L, C>,
 }
 
-/// Creates a connection, from what its ends are like.
-type Pair<L, C> = fn(Terms) -> (L, C);
-
-/// The two ends of a connection.
-pub(super) struct Terms {
-    pub(super) listener: EndTerms,
-    pub(super) connector: EndTerms,
-}
-
-/// What one end is like.
-#[derive(Clone, Copy)]
-pub(super) struct EndTerms {
-    /// It wants only the newest message.
-    pub(super) newest_only: bool,
-    /// It waits instead of dropping messages.
-    pub(super) lossless: bool,
-    /// It keeps its last message for those that join.
-    pub(super) latched: bool,
-}
+/// Creates a connection, from what its listener and its connector are like.
+type Pair<L, C> = fn(EndTerms, EndTerms) -> (L, C);
 
 struct Table<L, C> {
     by_name: HashMap<String, Registered<L, C>>,
@@ -67,26 +46,26 @@ struct Backlog<H> {
 }
 
 impl<L, C> Switchboard<L, C> {
-    pub(super) fn new(pair: Pair<L, C>) -> Self {
+    pub(super) fn new(pair: Pair<L, C>) -> Arc<Self> {
         let table = Table { by_name: HashMap::new(), listeners: 0 };
-        Self { endpoints: Arc::new(Endpoints { table: Mutex::new(table), pair }) }
+        Arc::new(Self { table: Mutex::new(table), pair })
     }
 
     /// Listens at an endpoint. Ends without a check are connected at once, so that neither end needs to be polled
     /// first.
-    pub(super) fn listen(&self, endpoint: &Endpoint) -> Result<Listener<L, C>, TransportError> {
-        let mut table = lock(&self.endpoints.table);
+    pub(super) fn listen(self: &Arc<Self>, endpoint: &Endpoint) -> Result<Listener<L, C>, TransportError> {
+        let mut table = lock(&self.table);
         table.listeners += 1;
         let listener = Registration::new(endpoint, table.listeners);
         let registered = table.by_name.entry(endpoint.name.to_string()).or_default();
         if registered.listener.is_some() {
-            let reason = "another end is already listening there; open each component once per `Memory`".to_owned();
-            return Err(TransportError::Refused { endpoint: endpoint.name.to_string(), reason });
+            let reason = "another end is already listening there; open each component once per `Memory`";
+            return Err(TransportError::refused(&endpoint.name, &reason));
         }
         let mut woken = Vec::new();
         for connector in &registered.connectors {
             if !connector.has_check {
-                let (to_connector, _nobody_waits_yet) = self.endpoints.connect(&listener, connector);
+                let (to_connector, _nobody_waits_yet) = self.pair_up(&listener, connector);
                 lock(&connector.backlog).connections.push_back(to_connector);
             }
             woken.push(lock(&connector.backlog).waiting.take());
@@ -95,18 +74,18 @@ impl<L, C> Switchboard<L, C> {
         registered.listener = Some(listener);
         drop(table);
         woken.into_iter().for_each(wake);
-        Ok(Listener { endpoints: Arc::clone(&self.endpoints), name: endpoint.name.to_string(), backlog })
+        Ok(Listener { switchboard: Arc::clone(self), name: endpoint.name.to_string(), backlog })
     }
 
     /// Connects to the listener at an endpoint, and to each new one that replaces it.
-    pub(super) fn connect(&self, endpoint: &Endpoint) -> Connector<L, C> {
+    pub(super) fn connect(self: &Arc<Self>, endpoint: &Endpoint) -> Connector<L, C> {
         let connector = Registration::new(endpoint, 0);
         let backlog = Arc::clone(&connector.backlog);
-        let mut table = lock(&self.endpoints.table);
+        let mut table = lock(&self.table);
         let registered = table.by_name.entry(endpoint.name.to_string()).or_default();
         let mut woken = None;
         if let Some(listener) = registered.listener.as_ref().filter(|_| !connector.has_check) {
-            let (to_connector, waker) = self.endpoints.connect(listener, &connector);
+            let (to_connector, waker) = self.pair_up(listener, &connector);
             woken = waker;
             lock(&backlog).connections.push_back(to_connector);
         }
@@ -114,7 +93,7 @@ impl<L, C> Switchboard<L, C> {
         drop(table);
         wake(woken);
         Connector {
-            endpoints: Arc::clone(&self.endpoints),
+            switchboard: Arc::clone(self),
             name: endpoint.name.to_string(),
             backlog,
             check: endpoint.check.clone(),
@@ -122,17 +101,23 @@ impl<L, C> Switchboard<L, C> {
             again: false,
         }
     }
-}
 
-impl<L, C> Endpoints<L, C> {
     /// Connects two ends; returns the connector's half, and the waker of the listener.
-    fn connect(&self, listener: &Registration<L>, connector: &Registration<C>) -> (C, Option<Waker>) {
-        let terms = Terms { listener: listener.terms, connector: connector.terms };
-        let (to_listener, to_connector) = (self.pair)(terms);
+    fn pair_up(&self, listener: &Registration<L>, connector: &Registration<C>) -> (C, Option<Waker>) {
+        let (to_listener, to_connector) = (self.pair)(listener.terms, connector.terms);
         lock(&connector.backlog).listener = listener.number;
         let mut backlog = lock(&listener.backlog);
         backlog.connections.push_back(to_listener);
         (to_connector, backlog.waiting.take())
+    }
+
+    fn remove(&self, name: &str, end: impl FnOnce(&mut Registered<L, C>)) {
+        let mut table = lock(&self.table);
+        let Some(registered) = table.by_name.get_mut(name) else { return };
+        end(registered);
+        if registered.listener.is_none() && registered.connectors.is_empty() {
+            table.by_name.remove(name);
+        }
     }
 }
 
@@ -158,7 +143,7 @@ impl<L, C> Default for Registered<L, C> {
 
 /// An end that listens at its endpoint until it is dropped.
 pub(super) struct Listener<L, C> {
-    endpoints: Arc<Endpoints<L, C>>,
+    switchboard: Arc<Switchboard<L, C>>,
     name: String,
     backlog: Arc<Mutex<Backlog<L>>>,
 }
@@ -170,7 +155,7 @@ impl<L, C> Listener<L, C> {
         if let Some(connection) = backlog.connections.pop_front() {
             return Poll::Ready(connection);
         }
-        keep(&mut backlog.waiting, cx);
+        keep_waker(&mut backlog.waiting, cx.waker());
         Poll::Pending
     }
 
@@ -182,7 +167,7 @@ impl<L, C> Listener<L, C> {
 
 impl<L, C> Drop for Listener<L, C> {
     fn drop(&mut self) {
-        self.endpoints.remove(&self.name, |registered| {
+        self.switchboard.remove(&self.name, |registered| {
             registered.listener.take_if(|listener| listener.belongs_to(&self.backlog));
         });
     }
@@ -190,7 +175,7 @@ impl<L, C> Drop for Listener<L, C> {
 
 /// An end that connects to whichever end listens at its endpoint, until it is dropped.
 pub(super) struct Connector<L, C> {
-    endpoints: Arc<Endpoints<L, C>>,
+    switchboard: Arc<Switchboard<L, C>>,
     name: String,
     backlog: Arc<Mutex<Backlog<C>>>,
     check: Option<PeerCheck>,
@@ -217,16 +202,16 @@ impl<L, C> Connector<L, C> {
 
     /// Returns true if there is a new connection, or a listener to connect to.
     fn finds_listener(&self, cx: &Context<'_>) -> bool {
-        let table = lock(&self.endpoints.table);
+        let table = lock(&self.switchboard.table);
         let mut backlog = lock(&self.backlog);
-        keep(&mut backlog.waiting, cx);
+        keep_waker(&mut backlog.waiting, cx.waker());
         let listener = table.by_name.get(&self.name).and_then(|registered| registered.listener.as_ref());
         !backlog.connections.is_empty()
             || listener.is_some_and(|listener| self.again || listener.number != backlog.listener)
     }
 
     fn take_or_connect(&mut self) -> Poll<C> {
-        let table = lock(&self.endpoints.table);
+        let table = lock(&self.switchboard.table);
         let connection = lock(&self.backlog).connections.pop_front();
         if let Some(connection) = connection {
             self.again = false;
@@ -236,7 +221,7 @@ impl<L, C> Connector<L, C> {
         let Some(registered) = table.by_name.get(&self.name) else { return Poll::Pending };
         let own = registered.connectors.iter().find(|connector| connector.belongs_to(&self.backlog));
         let Some((listener, own)) = registered.listener.as_ref().zip(own) else { return Poll::Pending };
-        let (connection, waker) = self.endpoints.connect(listener, own);
+        let (connection, waker) = self.switchboard.pair_up(listener, own);
         drop(table);
         wake(waker);
         self.again = false;
@@ -255,7 +240,7 @@ impl<L, C> Connector<L, C> {
 
     /// Why the check refused the end that is listening.
     pub(super) fn refusal(&self) -> Option<String> {
-        let table = lock(&self.endpoints.table);
+        let table = lock(&self.switchboard.table);
         let is_listening = table.by_name.get(&self.name).is_some_and(|registered| registered.listener.is_some());
         self.refusal.clone().filter(|_| is_listening)
     }
@@ -263,19 +248,8 @@ impl<L, C> Connector<L, C> {
 
 impl<L, C> Drop for Connector<L, C> {
     fn drop(&mut self) {
-        self.endpoints.remove(&self.name, |registered| {
+        self.switchboard.remove(&self.name, |registered| {
             registered.connectors.retain(|connector| !connector.belongs_to(&self.backlog));
         });
-    }
-}
-
-impl<L, C> Endpoints<L, C> {
-    fn remove(&self, name: &str, end: impl FnOnce(&mut Registered<L, C>)) {
-        let mut table = lock(&self.table);
-        let Some(registered) = table.by_name.get_mut(name) else { return };
-        end(registered);
-        if registered.listener.is_none() && registered.connectors.is_empty() {
-            table.by_name.remove(name);
-        }
     }
 }

@@ -8,7 +8,7 @@
 //! a limited number of times in a second; they take no place from those of this user.
 
 use super::TransportKind;
-use super::listener::{Accepted, BindError, Listener};
+use super::listener::{Accepted, Listener};
 use super::refusals::Refusals;
 use super::session::{Closed, Session};
 use super::shared_memory::Offer;
@@ -85,10 +85,7 @@ impl Acceptor {
         socket: SocketType,
         scl: SclReady,
     ) -> Result<Self, TransportError> {
-        let (listener, guard) = Listener::bind(dir, kind, &endpoint.name).map_err(|error| match error {
-            BindError::RuntimeDir(error) => error.into(),
-            BindError::Io(error) => refused(endpoint, &error),
-        })?;
+        let (listener, guard) = Listener::bind(dir, kind, &endpoint.name)?;
         Ok(Self {
             dir: Arc::clone(dir),
             kind,
@@ -102,7 +99,7 @@ impl Acceptor {
             guard,
             restored: Seen::default(),
             retry: Timer::new(),
-            reserve: Some(reserve().map_err(|error| refused(endpoint, &error))?),
+            reserve: Some(reserve().map_err(|error| TransportError::refused(&endpoint.name, &error))?),
             pause: Timer::new(),
             handshakes: VecDeque::new(),
             limit: Timer::new(),
@@ -329,10 +326,6 @@ pub(super) fn poll_handshake(session: &mut Session, cx: &mut Context<'_>) -> Pol
         Poll::Ready(Err(error)) => Poll::Ready(Err(error)),
         Poll::Pending => Poll::Pending,
     }
-}
-
-fn refused(endpoint: &Endpoint, error: &io::Error) -> TransportError {
-    TransportError::Refused { endpoint: endpoint.name.clone().into_owned(), reason: error.to_string() }
 }
 
 /// Whether the process, or the machine, has no free file descriptor.

@@ -170,30 +170,27 @@ impl Dialler {
             return Err(io::ErrorKind::PermissionDenied.into());
         }
         let stream = match address.ok_or(io::ErrorKind::NotFound)? {
-            Address::Ipc(path) => self.adopt_unix(connect_unix(&path)?)?,
+            Address::Ipc(path) => {
+                self.adopt(connect_unix(&path)?, |socket| UnixStream::from_std(socket.into()).map(Socket::Unix))?
+            }
             Address::Tcp(address) => {
                 let stream = connect_to_own_user(address).inspect_err(|error| {
                     if error.kind() == io::ErrorKind::PermissionDenied {
                         self.warn_once(&error.to_string());
                     }
                 })?;
-                self.adopt_tcp(stream)?
+                self.adopt(stream, |socket| TcpStream::from_std(socket.into()).map(Socket::Tcp))?
             }
         };
         let decoder = Decoder::new(self.socket, self.endpoint.max_size);
         Ok(Session::new(stream, decoder, &self.hello))
     }
 
-    fn adopt_unix(&self, descriptor: OwnedFd) -> io::Result<Stream> {
+    /// Without a runtime, the socket stays as it is.
+    fn adopt(&self, descriptor: OwnedFd, in_runtime: fn(OwnedFd) -> io::Result<Socket>) -> io::Result<Stream> {
         let Some(runtime) = &self.runtime else { return Ok(Stream::new(Socket::Plain(descriptor))) };
         let _inside = runtime.enter();
-        Ok(Stream::new(Socket::Unix(UnixStream::from_std(descriptor.into())?)))
-    }
-
-    fn adopt_tcp(&self, descriptor: OwnedFd) -> io::Result<Stream> {
-        let Some(runtime) = &self.runtime else { return Ok(Stream::new(Socket::Plain(descriptor))) };
-        let _inside = runtime.enter();
-        Ok(Stream::new(Socket::Tcp(TcpStream::from_std(descriptor.into())?)))
+        in_runtime(descriptor).map(Stream::new)
     }
 
     fn handle_failure(&mut self, error: &Closed) {

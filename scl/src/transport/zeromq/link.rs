@@ -1,13 +1,16 @@
 //! The sending side of a connection, of a publisher to one subscriber or of a pusher to its puller.
 
+mod reading;
+
 use super::burst::{Burst, GATHERED};
 use super::credit::SendCredit;
-use super::link_count::LinkAlive;
 use super::session::{Closed, Session};
 use super::shared_memory::{SampleOutcome, Sharing};
 use super::topics::Topics;
 use super::waiting_report::WaitingReport;
-use super::zmtp::{Command, FINISHED, FLUSH, Header, Item, PeerReady, ProtocolError, latched};
+use super::zmtp::{FLUSH, Header, PeerReady, latched};
+use crate::runtime_dir::SystemDir;
+use crate::transport::link_count::LinkAlive;
 use crate::transport::{Disconnected, Driven, Frame, Link, Loan, Resumed, Sent};
 use bytes::{BufMut, BytesMut};
 use std::collections::VecDeque;
@@ -62,19 +65,13 @@ enum State {
 }
 
 impl SendLink {
-    pub(super) fn new(
-        session: Session,
-        peer: &PeerReady,
-        topics: Option<Topics>,
-        sharing: Sharing,
-        alive: LinkAlive,
-    ) -> Self {
+    pub(super) fn new(dir: &SystemDir, session: Session, peer: &PeerReady, alive: LinkAlive) -> Self {
         let scl = peer.scl.unwrap_or_default();
         Self {
             session,
-            topics,
+            topics: None,
             credit: scl.window.map(SendCredit::new),
-            sharing,
+            sharing: Sharing::new(dir, peer),
             state: State::Open,
             detached: false,
             burst: Burst::new(),
@@ -87,9 +84,9 @@ impl SendLink {
         }
     }
 
-    /// Sets what the peer has said about itself.
-    pub(super) fn of_resumed(self, resumed: Option<Resumed>) -> Self {
-        Self { resumed, ..self }
+    /// For a subscriber: only what it has subscribed to is sent, and it says where it was before.
+    pub(super) fn subscribed(self, topics: Topics, resumed: Option<Resumed>) -> Self {
+        Self { topics: Some(topics), resumed, ..self }
     }
 
     /// Returns true if the peer can take a message.
@@ -114,61 +111,6 @@ impl SendLink {
 
     fn wants_everything(&self) -> bool {
         self.topics.as_ref().is_none_or(Topics::match_everything)
-    }
-
-    fn handle(&mut self, item: Item) -> Result<(), ProtocolError> {
-        match item {
-            Item::Command(Command::Acknowledged { taken, received }) => {
-                if let Some(credit) = &mut self.credit {
-                    credit.acknowledge(taken, received)?;
-                    self.sharing.acknowledge(taken);
-                }
-            }
-            Item::Command(Command::ShmOpen) => self.sharing.open(),
-            Item::Command(Command::CatchUp(number)) => self.waiting_report.ask(number),
-            Item::Command(Command::Finish) if self.state == State::Open => self.state = State::Finishing,
-            // Anything else that a peer sends here has no meaning.
-            item => {
-                if let (Some(topics), Some(subscription)) = (&mut self.topics, item.into_subscription()) {
-                    topics.handle(subscription)?;
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn try_drive(&mut self, cx: &mut Context<'_>) -> Result<(), Closed> {
-        // Without a runtime nothing interrupts a peer that never stops sending.
-        let mut reads = if self.detached { RAW_READS } else { usize::MAX };
-        loop {
-            while let Some(item) = self.session.buffered_item()? {
-                self.handle(item)?;
-            }
-            if reads == 0 || self.session.poll_fill(cx)?.is_pending() {
-                break;
-            }
-            reads -= 1;
-        }
-        if self.state == State::Finishing {
-            // Behind everything that was sent.
-            self.session.write(FINISHED)?;
-            self.state = State::Finished;
-        }
-        Ok(self.session.flush(cx)?)
-    }
-
-    /// Looks past what the runtime knows.
-    fn try_drive_raw(&mut self, cx: &Context<'_>) -> Result<(), Closed> {
-        let mut reads = RAW_READS;
-        while reads > 0 && self.session.fill_raw()? {
-            while let Some(item) = self.session.buffered_item()? {
-                self.handle(item)?;
-            }
-            reads -= 1;
-            // The runtime does not report what was read without it, and the task may wait for an acknowledgement.
-            cx.waker().wake_by_ref();
-        }
-        Ok(self.session.flush_raw()?)
     }
 
     /// Returns true if the peer can take a message, perhaps after a look past what the runtime knows.

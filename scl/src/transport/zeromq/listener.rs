@@ -3,7 +3,8 @@
 use super::TransportKind;
 use super::stream::{Socket, Stream};
 use super::tcp_user::UserChecks;
-use crate::runtime_dir::{self, OwnedPath, RuntimeDirError, SystemDir};
+use crate::runtime_dir::{self, OwnedPath, SystemDir};
+use crate::transport::TransportError;
 use rustix::net::{SocketFlags, accept_with};
 use std::io;
 use std::net::SocketAddr;
@@ -18,15 +19,20 @@ pub(super) enum Listener {
 
 impl Listener {
     /// Binds an endpoint. Called inside a runtime.
-    pub(super) fn bind(dir: &SystemDir, kind: TransportKind, endpoint: &str) -> Result<(Self, OwnedPath), BindError> {
+    pub(super) fn bind(
+        dir: &SystemDir,
+        kind: TransportKind,
+        endpoint: &str,
+    ) -> Result<(Self, OwnedPath), TransportError> {
+        let refused = |error| TransportError::refused(endpoint, &error);
         match kind {
             TransportKind::Ipc | TransportKind::Shm => {
                 let bound = runtime_dir::bind_ipc(dir, endpoint)?;
-                Ok((Self::Unix(UnixListener::from_std(bound.listener)?), bound.guard))
+                Ok((Self::Unix(UnixListener::from_std(bound.listener).map_err(refused)?), bound.guard))
             }
             TransportKind::Tcp => {
                 let bound = runtime_dir::bind_tcp(dir, endpoint)?;
-                Ok((Self::Tcp(TcpListener::from_std(bound.listener)?), bound.guard))
+                Ok((Self::Tcp(TcpListener::from_std(bound.listener).map_err(refused)?), bound.guard))
             }
         }
     }
@@ -89,13 +95,4 @@ impl Accepted {
         }
         Ok(self.stream)
     }
-}
-
-/// An endpoint could not be bound.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum BindError {
-    #[error(transparent)]
-    RuntimeDir(#[from] RuntimeDirError),
-    #[error(transparent)]
-    Io(#[from] io::Error),
 }

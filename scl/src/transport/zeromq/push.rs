@@ -2,11 +2,10 @@
 
 use super::dialler::Dialler;
 use super::link::SendLink;
-use super::link_count::LinkCount;
-use super::shared_memory::Sharing;
 use super::zmtp::{self, SocketType};
 use crate::runtime_dir::SystemDir;
-use crate::transport::{Endpoint, Peer, PeerKind, Sender};
+use crate::transport::link_count::LinkCount;
+use crate::transport::{Endpoint, Peer, Sender};
 use std::sync::Arc;
 use std::task::{Context, Poll, ready};
 
@@ -32,10 +31,8 @@ impl Sender for Pusher {
             return Poll::Pending;
         }
         let (session, ready) = ready!(self.dialler.poll_connected(cx));
-        let kind = if ready.scl.is_some() { PeerKind::Component } else { PeerKind::Foreign };
-        let sharing = Sharing::new(self.dialler.dir(), &ready);
-        let link = SendLink::new(session, &ready, None, sharing, self.links.new_link());
-        Poll::Ready(Peer { kind, link: Box::new(link) })
+        let link = SendLink::new(self.dialler.dir(), session, &ready, self.links.new_link());
+        Poll::Ready(Peer { kind: ready.kind(), link: Box::new(link) })
     }
 
     fn refusal(&self) -> Option<String> {

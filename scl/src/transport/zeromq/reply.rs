@@ -9,7 +9,8 @@ use super::session::{Closed, Session};
 use super::unread_limit::UnreadLimit;
 use super::zmtp::{Header, Item, Message, ProtocolError, SclReady, SocketType, bodies, refused};
 use crate::runtime_dir::SystemDir;
-use crate::sync::lock;
+use crate::sync::{keep_waker, lock};
+use crate::transport::round_robin::RoundRobin;
 use crate::transport::{Endpoint, IncomingRequest, Replier, ReplyPath, RequesterGone, TransportError};
 use bytes::Bytes;
 use std::sync::{Arc, Mutex};
@@ -17,8 +18,7 @@ use std::task::{Context, Poll, Waker, ready};
 
 pub(super) struct ReplyingEnd {
     acceptor: Acceptor,
-    requesters: Vec<Arc<Client>>,
-    turn: usize,
+    requesters: RoundRobin<Arc<Client>>,
     malformed: u64,
 }
 
@@ -40,58 +40,42 @@ struct Exchange {
 impl ReplyingEnd {
     pub(super) fn open(dir: &Arc<SystemDir>, kind: TransportKind, endpoint: &Endpoint) -> Result<Self, TransportError> {
         let acceptor = Acceptor::open(dir, kind, endpoint, SocketType::Router, SclReady::default())?;
-        Ok(Self { acceptor, requesters: Vec::new(), turn: 0, malformed: 0 })
+        Ok(Self { acceptor, requesters: RoundRobin::new(), malformed: 0 })
     }
 
     fn accept(&mut self, cx: &mut Context<'_>) {
-        while let Poll::Ready((session, ready)) = self.acceptor.poll_session(cx, self.requesters.len()) {
+        while let Poll::Ready((session, ready)) = self.acceptor.poll_session(cx, self.requesters.connections.len()) {
             let unread = UnreadLimit::of(ready.scl.and_then(|scl| scl.in_flight));
             let is_scl = ready.scl.is_some();
             let exchange = Exchange { session: Some(session), is_scl, unread, ahead: None, task: None };
-            self.requesters.push(Arc::new(Client(Mutex::new(exchange))));
+            self.requesters.connections.push(Arc::new(Client(Mutex::new(exchange))));
         }
-    }
-
-    /// Polls the requester whose turn it is.
-    fn poll_turn(&mut self, cx: &mut Context<'_>) -> Poll<IncomingRequest> {
-        while let Some(client) = self.requesters.get(self.turn) {
-            let mut exchange = lock(&client.0);
-            match exchange.poll_request(cx, &mut self.malformed) {
-                Poll::Ready(Ok((envelope, body))) => {
-                    drop(exchange);
-                    let path = Arc::clone(client);
-                    self.turn += 1;
-                    return Poll::Ready(IncomingRequest { body, envelope, path });
-                }
-                Poll::Ready(Err(error)) => {
-                    tracing::debug!(%error, "a requester left");
-                    exchange.session = None;
-                    drop(exchange);
-                    self.requesters.remove(self.turn);
-                }
-                Poll::Pending => break,
-            }
-        }
-        Poll::Pending
     }
 }
 
 impl Replier for ReplyingEnd {
     fn poll_request(&mut self, cx: &mut Context<'_>) -> Poll<IncomingRequest> {
         loop {
-            for _ in 0..=self.requesters.len() {
-                if self.turn >= self.requesters.len() {
-                    self.turn = 0;
-                }
-                if let Poll::Ready(request) = self.poll_turn(cx) {
-                    return Poll::Ready(request);
-                }
-                self.turn += 1;
+            let malformed = &mut self.malformed;
+            let polled = self.requesters.poll(|client| {
+                let mut exchange = lock(&client.0);
+                exchange.poll_request(cx, malformed).map(|request| match request {
+                    Ok((envelope, body)) => {
+                        Some(IncomingRequest { body, envelope, path: Arc::clone(client) as Arc<dyn ReplyPath> })
+                    }
+                    Err(error) => {
+                        exchange.lose(&error);
+                        None
+                    }
+                })
+            });
+            if polled.is_ready() {
+                return polled;
             }
-            let before = self.requesters.len();
+            let before = self.requesters.connections.len();
             self.accept(cx);
             // Those that were polled already will wake the task; the others must be polled as well.
-            if self.requesters.len() == before {
+            if self.requesters.connections.len() == before {
                 return Poll::Pending;
             }
         }
@@ -100,13 +84,12 @@ impl Replier for ReplyingEnd {
     fn drive(&mut self, cx: &mut Context<'_>) -> bool {
         self.accept(cx);
         let mut is_written = true;
-        self.requesters.retain(|client| {
+        self.requesters.connections.retain(|client| {
             let mut exchange = lock(&client.0);
             match exchange.drive(cx) {
                 Ok(written) => is_written &= written,
                 Err(error) => {
-                    tracing::debug!(%error, "a requester left");
-                    exchange.session = None;
+                    exchange.lose(&error);
                     return false;
                 }
             }
@@ -116,7 +99,7 @@ impl Replier for ReplyingEnd {
     }
 
     fn peers(&self) -> usize {
-        self.requesters.len()
+        self.requesters.connections.len()
     }
 
     fn malformed(&self) -> u64 {
@@ -125,7 +108,7 @@ impl Replier for ReplyingEnd {
 
     fn detach(&mut self) {
         self.acceptor.detach();
-        for client in &self.requesters {
+        for client in &self.requesters.connections {
             if let Some(session) = &mut lock(&client.0).session {
                 session.detach();
             }
@@ -136,17 +119,20 @@ impl Replier for ReplyingEnd {
 impl Drop for ReplyingEnd {
     fn drop(&mut self) {
         // Requests that are not answered yet must not keep connections open.
-        for client in &self.requesters {
+        for client in &self.requesters.connections {
             lock(&client.0).session = None;
         }
     }
 }
 
 impl Exchange {
+    fn lose(&mut self, error: &Closed) {
+        tracing::debug!(%error, "a requester left");
+        self.session = None;
+    }
+
     fn prepare(&mut self, cx: &mut Context<'_>) -> Result<&mut Session, Closed> {
-        if !self.task.as_ref().is_some_and(|task| task.will_wake(cx.waker())) {
-            self.task = Some(cx.waker().clone());
-        }
+        keep_waker(&mut self.task, cx.waker());
         let session = self.session.as_mut().ok_or(Closed::Eof)?;
         if !session.is_written() {
             session.flush(cx)?;

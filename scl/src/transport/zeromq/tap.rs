@@ -2,8 +2,8 @@
 
 use super::TransportKind;
 use super::acceptor::Acceptor;
-use super::publish::poll_subscribed;
 use super::session::{Closed, Session};
+use super::subscribers::{Subscriber, Subscribers};
 use super::topics::Topics;
 use super::zmtp::{COMMAND_LIMIT, Header, MORE, SclReady, SocketType};
 use crate::runtime_dir::SystemDir;
@@ -19,9 +19,7 @@ const MOST_WAITING: usize = 8192;
 const MOST_BYTES: usize = 16 << 20;
 
 pub(super) struct Tap {
-    acceptor: Acceptor,
-    /// Connections that have not subscribed to anything yet.
-    unsubscribed: Vec<Session>,
+    subscribers: Subscribers,
     observers: Vec<Observer>,
     /// The last message of a latched gate, encoded, with its payload.
     latched: Option<(Bytes, Bytes)>,
@@ -41,35 +39,20 @@ impl Tap {
     pub(super) fn open(dir: &Arc<SystemDir>, kind: TransportKind, endpoint: &Endpoint) -> Result<Self, TransportError> {
         let endpoint = Endpoint { max_size: COMMAND_LIMIT, ..endpoint.clone() };
         let acceptor = Acceptor::open(dir, kind, &endpoint, SocketType::XPub, SclReady::default())?;
-        let (unsubscribed, observers, encoded) = (Vec::new(), Vec::new(), BytesMut::new());
-        Ok(Self { acceptor, unsubscribed, observers, latched: None, encoded, dropped: 0 })
+        let (subscribers, observers, encoded) = (Subscribers::new(acceptor), Vec::new(), BytesMut::new());
+        Ok(Self { subscribers, observers, latched: None, encoded, dropped: 0 })
     }
 
     fn accept(&mut self, cx: &mut Context<'_>) {
-        loop {
-            let open = self.unsubscribed.len() + self.observers.len();
-            let Poll::Ready((session, _)) = self.acceptor.poll_session(cx, open) else { break };
-            self.unsubscribed.push(session);
-        }
-        let mut index = 0;
-        while let Some(session) = self.unsubscribed.get_mut(index) {
-            match poll_subscribed(session, &mut None, cx) {
-                Poll::Ready(Ok(topics)) => {
-                    let session = self.unsubscribed.swap_remove(index);
-                    let mut observer = Observer { session, topics, waiting: VecDeque::new(), bytes: 0 };
-                    if let Some((payload, message)) = &self.latched
-                        && observer.topics.matches(payload)
-                    {
-                        observer.queue(message.clone());
-                    }
-                    self.observers.push(observer);
-                }
-                Poll::Ready(Err(error)) => {
-                    tracing::debug!(%error, "an observer left");
-                    self.unsubscribed.swap_remove(index);
-                }
-                Poll::Pending => index += 1,
+        while let Poll::Ready(subscriber) = self.subscribers.poll_next(cx, self.observers.len()) {
+            let Subscriber { session, topics, .. } = subscriber;
+            let mut observer = Observer { session, topics, waiting: VecDeque::new(), bytes: 0 };
+            if let Some((payload, message)) = &self.latched
+                && observer.topics.matches(payload)
+            {
+                observer.queue(message.clone());
             }
+            self.observers.push(observer);
         }
     }
 

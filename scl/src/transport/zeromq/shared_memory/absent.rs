@@ -11,8 +11,7 @@ pub(in super::super) enum Offer {}
 
 impl Offer {
     pub(in super::super) fn open(_dir: &SystemDir, endpoint: &Endpoint) -> Result<Self, TransportError> {
-        let reason = "shared memory needs the feature `shm` of the crate `scl`".to_owned();
-        Err(TransportError::Refused { endpoint: endpoint.name.clone().into_owned(), reason })
+        Err(TransportError::refused(&endpoint.name, &"shared memory needs the feature `shm` of the crate `scl`"))
     }
 
     pub(in super::super) fn next(&self) -> ShmReady {

@@ -19,7 +19,7 @@ impl Offer {
     /// # Errors
     /// [`TransportError::Refused`], with what is needed, what there is, and what to change.
     pub(in super::super) fn open(dir: &SystemDir, endpoint: &Endpoint) -> Result<Self, TransportError> {
-        let refused = |reason| TransportError::Refused { endpoint: endpoint.name.clone().into_owned(), reason };
+        let refused = |reason: String| TransportError::refused(&endpoint.name, &reason);
         let memory = SharedMemory::open(dir.folder());
         let memory = memory.map_err(|error| refused(format!("no shared memory: {}", text_with_causes(&error))))?;
         let limits = Limits { queue: endpoint.queue, longest: endpoint.longest };

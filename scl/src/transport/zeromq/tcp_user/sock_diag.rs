@@ -3,6 +3,7 @@
 //! A lookup by both addresses costs some microseconds, however many sockets the machine has.
 
 use super::{Owner, Socket};
+use bytes::BufMut;
 use rustix::io::Errno;
 use rustix::net::netlink::{SOCK_DIAG, SocketAddrNetlink};
 use rustix::net::{AddressFamily, RecvFlags, SendFlags, SocketFlags, SocketType, recv, sendto, socket_with};
@@ -77,28 +78,23 @@ impl SockDiag {
 fn request(socket: Socket) -> [u8; REQUEST] {
     let mut request = [0; REQUEST];
     let mut rest = &mut request[..];
-    let mut put = |bytes: &[u8]| {
-        let (field, behind) = std::mem::take(&mut rest).split_at_mut(bytes.len());
-        field.copy_from_slice(bytes);
-        rest = behind;
-    };
-    put(&(REQUEST as u32).to_ne_bytes());
-    put(&BY_FAMILY.to_ne_bytes());
-    put(&NLM_F_REQUEST.to_ne_bytes());
+    rest.put_u32_ne(REQUEST as u32);
+    rest.put_u16_ne(BY_FAMILY);
+    rest.put_u16_ne(NLM_F_REQUEST);
     // A sequence number and a port, both not needed.
-    put(&[0; 8]);
+    rest.put_bytes(0, 8);
     let family = if socket.local.is_ipv4() { AddressFamily::INET } else { AddressFamily::INET6 };
-    put(&[family.as_raw() as u8, IPPROTO_TCP, 0, 0]);
+    rest.put_slice(&[family.as_raw() as u8, IPPROTO_TCP, 0, 0]);
     // Sockets in all states.
-    put(&u32::MAX.to_ne_bytes());
-    put(&socket.local.port().to_be_bytes());
-    put(&socket.remote.port().to_be_bytes());
-    put(&octets(socket.local.ip()));
-    put(&octets(socket.remote.ip()));
+    rest.put_u32_ne(u32::MAX);
+    rest.put_u16(socket.local.port());
+    rest.put_u16(socket.remote.port());
+    rest.put_slice(&octets(socket.local.ip()));
+    rest.put_slice(&octets(socket.remote.ip()));
     // Through any interface.
-    put(&0_u32.to_ne_bytes());
+    rest.put_u32_ne(0);
     // `INET_DIAG_NOCOOKIE`: whatever its cookie is.
-    put(&[0xff; 8]);
+    rest.put_bytes(0xff, 8);
     request
 }
 

@@ -39,7 +39,7 @@ async fn what_is_held_back_is_written_before_a_call_waits() {
     let stage = Stage::new(TransportKind::Ipc);
     let sender = stage.transport.publish(&super::stage::endpoint()).unwrap();
     let gate = GateName::new("sensor", "out");
-    let mut connection = Connection::new(sender, gate, &GATE, &GATE.connections[0], Changes::default());
+    let mut connection = Connection::new(sender, gate, &GATE, &GATE.connections[0], Changes::default(), None);
     let mut receiver = stage.subscriber();
     poll_fn(|cx| {
         connection.drive(cx);

@@ -96,27 +96,21 @@ impl Command {
         let (name, mut content) = split(body)?;
         Ok(match &*name {
             b"X-SCL-ACK" => {
-                let taken = number(content.split_to(content.len().min(8)))?;
-                let received = if content.is_empty() { taken } else { number(content)? };
+                let taken = number(&mut content)?;
+                let received = if content.is_empty() { taken } else { number(&mut content)? };
                 Self::Acknowledged { taken, received }
             }
             b"X-SCL-BEHIND" => Self::Behind,
-            b"X-SCL-CATCH-UP" => Self::CatchUp(number(content)?),
-            b"X-SCL-CAUGHT-UP" => Self::CaughtUp(number(content)?),
+            b"X-SCL-CATCH-UP" => Self::CatchUp(number(&mut content)?),
+            b"X-SCL-CAUGHT-UP" => Self::CaughtUp(number(&mut content)?),
             b"X-SCL-FINISH" => Self::Finish,
             b"X-SCL-FINISHED" => Self::Finished,
             b"X-SCL-FLUSH" => Self::Flush,
-            b"X-SCL-REFUSED" => Self::Refused(number(content)?),
-            b"X-SCL-LATCHED" => Self::Latched(number(content)?),
-            b"X-SCL-RESUME" => {
-                let end = number(content.split_to(content.len().min(8)))?;
-                Self::Resume(Resumed { end, taken: number(content)? })
-            }
+            b"X-SCL-REFUSED" => Self::Refused(number(&mut content)?),
+            b"X-SCL-LATCHED" => Self::Latched(number(&mut content)?),
+            b"X-SCL-RESUME" => Self::Resume(Resumed { end: number(&mut content)?, taken: number(&mut content)? }),
             b"X-SCL-SHM-OPEN" => Self::ShmOpen,
-            b"X-SCL-SAMPLE" => {
-                let sequence = number(content.split_to(content.len().min(8)))?;
-                Self::Sample { sequence, length: number(content)? }
-            }
+            b"X-SCL-SAMPLE" => Self::Sample { sequence: number(&mut content)?, length: number(&mut content)? },
             b"SUBSCRIBE" => Self::Subscription(Subscription::Add(content)),
             b"CANCEL" => Self::Subscription(Subscription::Cancel(content)),
             b"PING" => {
@@ -206,6 +200,6 @@ fn numbered<const LENGTH: usize>(name: &[u8], number: u64) -> [u8; LENGTH] {
 }
 
 /// What follows the number belongs to a later version.
-fn number(mut content: Bytes) -> Result<u64, ProtocolError> {
+fn number(content: &mut Bytes) -> Result<u64, ProtocolError> {
     content.try_get_u64().map_err(|_too_short| ProtocolError::MalformedCommand)
 }

@@ -3,7 +3,7 @@
 use super::super::memory_format::memory_format;
 use super::frame::{COMMAND, Header};
 use super::{ProtocolError, SocketType, greeting};
-use crate::transport::Window;
+use crate::transport::{PeerKind, Window};
 use bytes::Buf;
 
 /// The property that tells SCL's ends from other ZeroMQ programs.
@@ -21,6 +21,12 @@ pub(in crate::transport::zeromq) struct PeerReady {
     pub(in crate::transport::zeromq) scl: Option<SclReady>,
     /// The service in which both ends share memory, if one offers that and both can.
     pub(in crate::transport::zeromq) service: Option<ServiceId>,
+}
+
+impl PeerReady {
+    pub(in crate::transport::zeromq) fn kind(&self) -> PeerKind {
+        if self.scl.is_some() { PeerKind::Component } else { PeerKind::Foreign }
+    }
 }
 
 /// The value of the property `X-SCL`.

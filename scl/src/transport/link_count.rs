@@ -1,6 +1,6 @@
 //! How many links of a sender are alive.
 
-use crate::sync::lock;
+use crate::sync::{keep_waker, lock};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::task::{Context, Waker};
@@ -26,11 +26,9 @@ impl LinkCount {
         self.alive.load(Ordering::Acquire)
     }
 
+    #[cfg_attr(not(feature = "zeromq"), expect(dead_code, reason = "only that transport has to be woken"))]
     pub(super) fn wake_on_drop(&self, cx: &Context<'_>) {
-        let mut waker = lock(&self.waker);
-        if !waker.as_ref().is_some_and(|known| known.will_wake(cx.waker())) {
-            *waker = Some(cx.waker().clone());
-        }
+        keep_waker(&mut lock(&self.waker), cx.waker());
     }
 }
 

@@ -3,7 +3,7 @@
 use std::task::Poll;
 
 pub(super) struct RoundRobin<H> {
-    connections: Vec<H>,
+    pub(super) connections: Vec<H>,
     /// The connection to poll first.
     next: usize,
 }
@@ -11,18 +11,6 @@ pub(super) struct RoundRobin<H> {
 impl<H> RoundRobin<H> {
     pub(super) fn new() -> Self {
         Self { connections: Vec::new(), next: 0 }
-    }
-
-    pub(super) fn add(&mut self, connection: H) {
-        self.connections.push(connection);
-    }
-
-    pub(super) fn iter(&self) -> impl Iterator<Item = &H> {
-        self.connections.iter()
-    }
-
-    pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = &mut H> {
-        self.connections.iter_mut()
     }
 
     /// Polls each connection once, until one is ready with an item. Drops those that are ready with `None`.
