@@ -59,35 +59,20 @@ impl GateOptions {
 
     /// All of them, in the order of the JSON text.
     pub const ALL: [OptionField; 8] = [
-        OptionField { key: "max_size", json: "max_size", access: OptionAccess::Size(|options| &mut options.max_size) },
-        OptionField { key: "queue", json: "queue", access: OptionAccess::Number(|options| &mut options.queue) },
-        OptionField {
-            key: "when_full",
-            json: "when_full",
-            access: OptionAccess::Policy(|options| &mut options.when_full),
-        },
-        OptionField {
-            key: "backpressure",
-            json: "backpressure",
-            access: OptionAccess::Flag(|options| &mut options.backpressure),
-        },
-        OptionField { key: "latched", json: "latched", access: OptionAccess::Flag(|options| &mut options.latched) },
-        OptionField {
-            key: "timeout",
-            json: "timeout_ns",
-            access: OptionAccess::Duration(|options| &mut options.timeout),
-        },
-        OptionField {
-            key: "in_flight",
-            json: "in_flight",
-            access: OptionAccess::Number(|options| &mut options.in_flight),
-        },
-        OptionField {
-            key: "undecodable",
-            json: "undecodable",
-            access: OptionAccess::Undecodable(|options| &mut options.undecodable),
-        },
+        field("max_size", OptionAccess::Size(|options| &mut options.max_size)),
+        field("queue", OptionAccess::Number(|options| &mut options.queue)),
+        field("when_full", OptionAccess::Policy(|options| &mut options.when_full)),
+        field("backpressure", OptionAccess::Flag(|options| &mut options.backpressure)),
+        field("latched", OptionAccess::Flag(|options| &mut options.latched)),
+        OptionField { json: "timeout_ns", ..field("timeout", OptionAccess::Duration(|options| &mut options.timeout)) },
+        field("in_flight", OptionAccess::Number(|options| &mut options.in_flight)),
+        field("undecodable", OptionAccess::Undecodable(|options| &mut options.undecodable)),
     ];
+}
+
+/// A field with one name everywhere.
+const fn field(key: &'static str, access: OptionAccess) -> OptionField {
+    OptionField { key, json: key, access }
 }
 
 impl Default for GateOptions {

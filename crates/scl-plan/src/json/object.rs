@@ -1,6 +1,7 @@
 //! Reading JSON values whose errors say what was expected where.
 
 use crate::error::PlanError;
+use scl_text::list::quoted_list;
 use scl_text::suggest::closest_name;
 use serde_json::{Map, Value};
 use std::fmt::Display;
@@ -70,8 +71,8 @@ impl<'v> At<'v> {
     /// One of some words.
     pub(super) fn word<T: Copy>(&self, all: &[T], word: fn(T) -> &'static str) -> Result<T, PlanError> {
         let found = self.value.as_str().and_then(|text| all.iter().find(|&&one| word(one) == text));
-        let words = || all.iter().map(|&one| format!("`{}`", word(one))).collect::<Vec<_>>().join(", ");
-        found.copied().ok_or_else(|| self.wrong(&format!("one of {}", words())))
+        let words = all.iter().map(|&one| word(one));
+        found.copied().ok_or_else(|| self.wrong(&format!("one of {}", quoted_list(words))))
     }
 
     pub(super) fn list<T>(&self, read: impl Fn(At<'v>) -> Result<T, PlanError>) -> Result<Vec<T>, PlanError> {
