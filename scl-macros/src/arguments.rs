@@ -22,16 +22,11 @@ pub(crate) struct Arguments {
     pub(crate) testable: Option<bool>,
 }
 
-/// Arguments that cannot be parsed: the diagnostic and its span.
-pub(crate) struct BadArguments {
-    pub(crate) problem: Box<Diagnostic>,
-    pub(crate) span: Span,
-}
-
 impl Arguments {
-    /// Parses the tokens from the wrapper macro in `scl`: `$crate`, a comma, then the user's tokens.
-    pub(crate) fn parse(input: TokenStream) -> Result<Self, BadArguments> {
-        syn::parse2(input).map_err(|error| BadArguments { problem: Box::new(diagnose(&error)), span: error.span() })
+    /// Parses the tokens from the wrapper macro in `scl`: `$crate`, a comma, then the user's tokens. What cannot be
+    /// parsed is a problem at a place.
+    pub(crate) fn parse(input: TokenStream) -> Result<Self, (Box<Diagnostic>, Span)> {
+        syn::parse2(input).map_err(|error| (Box::new(diagnose(&error)), error.span()))
     }
 }
 
@@ -150,8 +145,8 @@ mod tests {
             (r#"scl, "a", max_size = "-1B""#, "the size `-1B` is out of range"),
         ];
         for (input, message) in cases {
-            let Err(bad) = Arguments::parse(input.parse().unwrap()) else { panic!("accepted {input}") };
-            assert_eq!((bad.problem.code(), bad.problem.message.as_str()), ("SCL0005", message), "{input}");
+            let Err((problem, _)) = Arguments::parse(input.parse().unwrap()) else { panic!("accepted {input}") };
+            assert_eq!((problem.code(), problem.message.as_str()), ("SCL0005", message), "{input}");
         }
     }
 }

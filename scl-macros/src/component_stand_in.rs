@@ -4,16 +4,15 @@
 //! module has the component, nothing refers to this type. Otherwise its use is the one error: what follows from it has
 //! an erroneous type, so rustc says no more.
 
+use crate::expand::{escape_braces, on_unimplemented};
 use crate::known_components::{self, KnownTopology};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote, quote_spanned};
+use scl_text::list::{listed, quoted_list};
 use scl_topology::external::UNKNOWN_IN_CODE;
 use scl_topology::suggest::similar;
 use syn::spanned::Spanned;
 use syn::{Ident, Type};
-
-/// The components that a text lists; more are counted.
-const MOST: usize = 10;
 
 /// The stand-in; nothing for a path of several parts, which may lead anywhere.
 pub(crate) fn expand_stand_in(component: &Type) -> TokenStream {
@@ -25,14 +24,13 @@ pub(crate) fn expand_stand_in(component: &Type) -> TokenStream {
         let unknown = Ident::new(&broken.unknown_type, component.span());
         return quote!(#[allow(dead_code)] type #name = #unknown;);
     }
-    let Words { message, notes } = words(&name.to_string(), &topologies);
-    let (message, notes) = (escape_braces(&message), notes.iter().map(|note| escape_braces(note)));
+    let (message, notes) = words(&name.to_string(), &topologies);
+    let report = on_unimplemented(&escape_braces(&message), "not a component of the topology", &notes);
     let not_found = format_ident!("__scl_component_not_found", span = component.span());
-    let label = "not a component of the topology";
     quote_spanned! { component.span() =>
         #[allow(non_camel_case_types, dead_code)]
         struct #not_found;
-        #[diagnostic::on_unimplemented(message = #message, label = #label #(, note = #notes)*)]
+        #report
         #[allow(dead_code)]
         trait __SclComponent { type Type; }
         #[allow(dead_code)]
@@ -54,17 +52,8 @@ pub(crate) fn expand_stand_in(component: &Type) -> TokenStream {
     }
 }
 
-/// rustc reads braces as format parameters.
-fn escape_braces(text: &str) -> String {
-    text.replace('{', "{{").replace('}', "}}")
-}
-
-struct Words {
-    message: String,
-    notes: Vec<String>,
-}
-
-fn words(name: &str, topologies: &[KnownTopology]) -> Words {
+/// A message and its notes.
+fn words(name: &str, topologies: &[KnownTopology]) -> (String, Vec<String>) {
     let code = UNKNOWN_IN_CODE.code;
     let all = || topologies.iter().flat_map(|topology| topology.components.iter().map(move |it| (topology, it)));
     if let Some((topology, component)) = all().find(|(_, it)| it.rust_name == name && !it.included) {
@@ -73,26 +62,18 @@ fn words(name: &str, topologies: &[KnownTopology]) -> Words {
             component.name, topology.path
         );
         let entry = component.name.replace('-', "_");
-        return Words { message, notes: vec![format!("add `{entry}` to `only`, or leave `only` out")] };
+        return (message, vec![format!("add `{entry}` to `only`, or leave `only` out")]);
     }
     let message = format!("[{code}] cannot find the component `{name}`");
     let names: Vec<&str> = all().filter(|(_, it)| it.included).map(|(_, it)| it.rust_name.as_str()).collect();
     if names.is_empty() {
         let note = "`scl::topology!` makes one struct of each component: `user_interface` becomes `UserInterface`";
-        return Words { message, notes: vec![note.to_owned()] };
+        return (message, vec![note.to_owned()]);
     }
-    let mut notes = Vec::new();
-    if let Some(near) = similar(name, names.iter().copied()).first() {
-        notes.push(format!("did you mean `{near}`?"));
-    }
-    let shown: Vec<String> = names.iter().take(MOST).map(|name| format!("`{name}`")).collect();
-    let more = match names.len().saturating_sub(MOST) {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
-    let files: Vec<String> = topologies.iter().map(|topology| format!("`{}`", topology.path)).collect();
-    notes.push(format!("components of {}: {}{more}", files.join(", "), shown.join(", ")));
-    Words { message, notes }
+    let near = similar(name, names.iter().copied()).first().map(|near| format!("did you mean `{near}`?"));
+    let files = quoted_list(topologies.iter().map(|topology| &topology.path));
+    let components = format!("components of {files}: {}", listed(names));
+    (message, near.into_iter().chain([components]).collect())
 }
 
 #[cfg(test)]
@@ -134,9 +115,9 @@ mod tests {
             ),
         ];
         for (name, topologies, message, notes) in cases {
-            let found = words(name, topologies);
-            assert!(found.message.contains(message), "{}", found.message);
-            assert!(found.notes.join(" / ").starts_with(notes), "{}", found.notes.join(" / "));
+            let (found, found_notes) = words(name, topologies);
+            assert!(found.contains(message), "{found}");
+            assert!(found_notes.join(" / ").starts_with(notes), "{}", found_notes.join(" / "));
         }
     }
 }

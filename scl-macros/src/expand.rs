@@ -23,12 +23,13 @@ mod type_agreement;
 mod types;
 mod unopened;
 
-use crate::arguments::{Arguments, BadArguments};
+use crate::arguments::Arguments;
 use crate::known_components;
 use crate::locate::{self, Surroundings};
 use context::Context;
 use proc_macro2::TokenStream;
 use quote::quote;
+pub(crate) use rustc_notes::{escape_braces, on_unimplemented};
 #[cfg(all(test, feature = "protobuf"))]
 pub(crate) use schemas::generate_messages;
 use scl_loader::no_panic;
@@ -37,7 +38,7 @@ use scl_loader::no_panic;
 pub(crate) fn expand_topology(input: TokenStream, surroundings: &Surroundings) -> TokenStream {
     let arguments = match Arguments::parse(input) {
         Ok(arguments) => arguments,
-        Err(BadArguments { problem, span }) => return problems::expand_bad_arguments(&problem, span),
+        Err((problem, span)) => return problems::expand_bad_arguments(&problem, span),
     };
     let request = locate::locate(&arguments, surroundings);
     let mut loaded = scl_loader::load(&request);

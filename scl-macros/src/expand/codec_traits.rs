@@ -10,7 +10,7 @@ use super::codec_type::codec_type;
 use super::context::Context;
 use super::found_types::expand_stand_in_codecs;
 use super::kinds::{gate_struct, opener_method};
-use super::rustc_notes::{escape_braces, note_with_excerpt};
+use super::rustc_notes::{note_with_excerpt, on_unimplemented};
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 use scl_topology::topology::{Codec, Gate, GateId, GateKind, Payload, Topology, TypeName};
@@ -148,12 +148,8 @@ impl CodecTrait<'_> {
             ),
             Payload::Bytes => return TokenStream::new(),
         };
-        let label = escape_braces(&label);
-        let remedy = escape_braces(&remedy(self.codec));
         let declaration = note_with_excerpt(context, "the gate is declared here", gate.span());
-        quote! {
-            #[diagnostic::on_unimplemented(message = #message, label = #label, note = #remedy, note = #declaration)]
-        }
+        on_unimplemented(&message, &label, &[remedy(self.codec), declaration])
     }
 }
 

@@ -1,6 +1,7 @@
 //! The documentation of generated items, which editors show on hover.
 
 use super::context::Context;
+use scl_text::list::quoted_list;
 use scl_topology::grammar::OPTIONS;
 use scl_topology::model::{ComponentModel, GateModel};
 use scl_topology::topology::{Codec, Component, Gate, GateId, GateKind, Payload, Topology};
@@ -77,8 +78,7 @@ impl GateDoc {
     }
 
     fn peers(&self) -> String {
-        let peers: Vec<String> = self.peers.iter().map(|peer| format!("`{peer}`")).collect();
-        if peers.is_empty() { "no peer".to_owned() } else { peers.join(", ") }
+        if self.peers.is_empty() { "no peer".to_owned() } else { quoted_list(&self.peers) }
     }
 }
 

@@ -22,10 +22,11 @@
 use super::codec_type::codec_type;
 use super::context::Context;
 use super::problems::unknown_type_name;
-use super::rustc_notes::{escape_braces, note_with_excerpt};
+use super::rustc_notes::{escape_braces, note_with_excerpt, on_unimplemented};
 use super::types::{Lookup, Lookups, Start, path, segment};
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
+use scl_text::list::quoted_list;
 use scl_topology::external::TYPE_NOT_FOUND;
 use scl_topology::topology::{Codec, Component, Payload, Topology, TypeName};
 use std::collections::{BTreeMap, BTreeSet};
@@ -94,13 +95,8 @@ fn expand_scopes(lookup: &Lookup, not_found: &Ident, span: Span) -> Option<(Toke
         let name = segment(name, span)?;
         Some(quote!(pub mod #name { #inner }))
     })?;
-    Some((
-        modules,
-        quote!(
-            use self::*;
-        ),
-        path(parts, span)?,
-    ))
+    let import = quote! { use self::*; };
+    Some((modules, import, path(parts, span)?))
 }
 
 /// What rustc checks where components are opened: that their types were found.
@@ -199,20 +195,17 @@ fn trait_name(index: usize) -> Ident {
 
 fn expand_report(context: &Context<'_>, name: &TypeName, gates: &[String]) -> TokenStream {
     let code = TYPE_NOT_FOUND.code;
-    let message =
-        escape_braces(&format!("[{code}] cannot find the Rust type `{}`", context.types.shown(name.dotted())));
-    let label = escape_braces(&used_by(gates));
-    let remedy = escape_braces(&remedy(context, name.dotted()));
+    let message = format!("[{code}] cannot find the Rust type `{}`", context.types.shown(name.dotted()));
     let place = note_with_excerpt(context, "the type is named here", name.span());
-    quote!(#[diagnostic::on_unimplemented(message = #message, label = #label, note = #remedy, note = #place)])
+    on_unimplemented(&escape_braces(&message), &used_by(gates), &[remedy(context, name.dotted()), place])
 }
 
 fn used_by(gates: &[String]) -> String {
-    let shown: Vec<String> = gates.iter().take(MOST_GATES).map(|gate| format!("`{gate}`")).collect();
-    match (gates.len(), gates.len().saturating_sub(MOST_GATES)) {
-        (1, _) => format!("used by the gate {}", shown.join(", ")),
-        (_, 0) => format!("used by the gates {}", shown.join(", ")),
-        (_, more) => format!("used by the gates {} and {more} more", shown.join(", ")),
+    let shown = quoted_list(gates.iter().take(MOST_GATES));
+    match gates.len() {
+        1 => format!("used by the gate {shown}"),
+        0..=MOST_GATES => format!("used by the gates {shown}"),
+        all => format!("used by the gates {shown} and {} more", all - MOST_GATES),
     }
 }
 

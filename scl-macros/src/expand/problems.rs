@@ -79,14 +79,11 @@ fn unknown_components(context: &Context<'_>) -> Vec<Diagnostic> {
 }
 
 fn unknown_component(context: &Context<'_>, wanted: &str) -> Diagnostic {
-    let components = context.loaded.model.components.iter();
-    let names: Vec<&str> = components.map(|component| component.name.value.as_str()).collect();
-    let mut problem = UNKNOWN_COMPONENT
-        .without_place(format!("`only` names the component `{wanted}`, which is not in `{}`", context.path));
-    if let Some(near) = similar(wanted, names.iter().copied()).first() {
-        problem = problem.help(format!("did you mean `{near}`?"));
-    }
-    problem
+    let names = context.loaded.model.components.iter().map(|component| component.name.value.as_str());
+    let near = similar(wanted, names).first().map(|near| format!("did you mean `{near}`?"));
+    UNKNOWN_COMPONENT
+        .without_place(format!("`only` names the component `{wanted}`, which is not in `{}`", context.path))
+        .helps(near)
 }
 
 fn compile_error(text: &str, span: Span) -> TokenStream {

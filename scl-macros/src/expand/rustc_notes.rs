@@ -1,15 +1,24 @@
 //! Text for `#[diagnostic::on_unimplemented]`.
 
 use super::context::Context;
+use proc_macro2::TokenStream;
+use quote::quote;
 use scl_topology::source::{Sources, Span};
+
+/// The attribute with what rustc says where a trait is not implemented. The message may have the trait's parameters in
+/// braces.
+pub(crate) fn on_unimplemented(message: &str, label: &str, notes: &[String]) -> TokenStream {
+    let (label, notes) = (escape_braces(label), notes.iter().map(|note| escape_braces(note)));
+    quote!(#[diagnostic::on_unimplemented(message = #message, label = #label #(, note = #notes)*)])
+}
 
 /// A note that shows a line of the topology file below `heading`.
 pub(super) fn note_with_excerpt(context: &Context<'_>, heading: &str, span: Span) -> String {
-    escape_braces(&format!("{heading}\n{}", excerpt(&context.loaded.sources, span)))
+    format!("{heading}\n{}", excerpt(&context.loaded.sources, span))
 }
 
 /// Escapes the braces of a text, which rustc would read as format parameters.
-pub(super) fn escape_braces(text: &str) -> String {
+pub(crate) fn escape_braces(text: &str) -> String {
     text.replace('{', "{{").replace('}', "}}")
 }
 

@@ -5,7 +5,7 @@
 
 use super::context::Context;
 use super::gate_types::message_type;
-use super::rustc_notes::{escape_braces, note_with_excerpt};
+use super::rustc_notes::{escape_braces, note_with_excerpt, on_unimplemented};
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use scl_topology::topology::{Connection, GateKind, Payload, Topology, TypeName};
@@ -59,8 +59,8 @@ fn expand_agreement(
     };
     let shown = |name: &TypeName| context.types.shown(name.dotted());
     let label = format!("`{}` {}, `{}` {}", shown(at_source), phrases[0], shown(at_sink), phrases[1]);
-    let label = escape_braces(&label);
     let declaration = note_with_excerpt(context, "they are connected here", connection.span());
+    let report = on_unimplemented(&message, &label, &[declaration]);
     let lookups = context.types.lookups();
     let stand_in = lookups.stand_in(at_source).or(lookups.stand_in(at_sink));
     let (sent, received) = (message_type(context, at_source.dotted()), message_type(context, at_sink.dotted()));
@@ -68,7 +68,7 @@ fn expand_agreement(
     quote_spanned! { context.span =>
         #[allow(dead_code, private_interfaces, clippy::all, clippy::pedantic)]
         const _: () = {
-            #[diagnostic::on_unimplemented(message = #message, label = #label, note = #declaration)]
+            #report
             trait SameTypeAs<Other> {}
             impl<Same> SameTypeAs<Same> for Same {}
             struct Connection<Sent, Received>(::core::marker::PhantomData<(Sent, Received)>);

@@ -93,9 +93,14 @@ fn named_types(loaded: &Loaded, includes: impl Fn(&str) -> bool) -> BTreeSet<Str
         let payloads = included.flat_map(|component| component.gates()).map(|&id| topology.gate(id).payload());
         return payloads.flat_map(Payload::types).map(|name| name.dotted().to_owned()).collect();
     }
+    written_types(loaded).map(str::to_owned).collect()
+}
+
+/// The types that gates name, as they are written.
+pub(super) fn written_types(loaded: &Loaded) -> impl Iterator<Item = &str> {
     let gates = loaded.model.components.iter().flat_map(|component| &component.gates);
     let payloads = gates.filter_map(|gate| gate.payload.as_ref());
-    payloads.flat_map(|payload| payload.value.split("->")).map(|dotted| dotted.trim().to_owned()).collect()
+    payloads.flat_map(|payload| payload.value.split("->")).map(str::trim)
 }
 
 /// `a::b::C`, or `None` if a segment is not an identifier.

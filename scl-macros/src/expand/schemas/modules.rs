@@ -13,6 +13,7 @@ use prost_build::{Config, Module};
 use prost_types::FileDescriptorProto;
 use quote::{format_ident, quote, quote_spanned};
 use scl_loader::{BUG, no_panic};
+use scl_text::list::quoted_list;
 use std::collections::BTreeMap;
 
 // The generator strips leading underscores, so these names have none.
@@ -154,8 +155,8 @@ fn with_imports_inside(context: &Context<'_>, body: TokenTree) -> TokenTree {
 }
 
 fn refused(context: &Context<'_>, error: &str) -> TokenStream {
-    let schemas = context.loaded.model.schemas.iter().map(|schema| format!("`{}`", schema.value)).collect::<Vec<_>>();
-    let (path, schemas) = (&context.path, schemas.join(", "));
+    let schemas = quoted_list(context.loaded.model.schemas.iter().map(|schema| &schema.value));
+    let path = &context.path;
     let problem = format!("[SCL0406] cannot generate Rust from {schemas} of `{path}`: {error}\n = note: {BUG}");
     let error = quote_spanned! { context.span => ::core::compile_error! { #problem } };
     // A file with errors has declared the unknown type with the first of them.

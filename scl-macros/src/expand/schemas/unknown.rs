@@ -5,6 +5,7 @@
 use super::super::context::Context;
 use super::super::names::identifier;
 use super::super::problems::expand_unknown_type;
+use super::super::types::written_types;
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote};
 use scl_loader::rust::names::{snake_case, upper_camel_case};
@@ -36,7 +37,8 @@ pub(super) fn expand_stand_ins(context: &Context<'_>) -> TokenStream {
             root.declare(package.iter().copied().chain(path.iter().map(String::as_str)));
         }
     }
-    for dotted in gate_types(context).filter(|dotted| dotted.contains('.') && !starts_with_crate(context, dotted)) {
+    // Types that gates name may be those of a schema that could not even be read.
+    for dotted in written_types(loaded).filter(|dotted| dotted.contains('.') && !starts_with_crate(context, dotted)) {
         root.declare(dotted.split('.'));
     }
     if context.for_editor {
@@ -57,13 +59,6 @@ pub(super) fn expand_stand_ins(context: &Context<'_>) -> TokenStream {
         #[allow(unused_imports)]
         pub use #hidden::*;
     }
-}
-
-/// The types that gates name, which may be those of a schema that could not even be read.
-fn gate_types<'a>(context: &'a Context<'_>) -> impl Iterator<Item = &'a str> {
-    let gates = context.loaded.model.components.iter().flat_map(|component| &component.gates);
-    let payloads = gates.filter_map(|gate| gate.payload.as_ref());
-    payloads.flat_map(|payload| payload.value.split("->")).map(str::trim)
 }
 
 fn starts_with_crate(context: &Context<'_>, dotted: &str) -> bool {
