@@ -18,7 +18,9 @@ mod wait;
 use crate::clash::{Declaration, Origin};
 use crate::output::File;
 use crate::system::{Component, System};
+use component_functions::component_functions;
 use content::Content;
+use function::Function;
 use std::collections::BTreeMap;
 
 /// The scope of everything but members of structs.
@@ -27,24 +29,15 @@ const C: &str = "C";
 /// The names that the header declares, and those of the messages that it uses.
 pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
     let mut found = Vec::new();
-    let mut declare = |scope: &str, name: String, origin: Origin| {
-        found.push(Declaration { scope: scope.to_owned(), name, origin });
-    };
+    let mut declare = |scope: &str, name, origin| found.push(Declaration::new(scope, name, origin));
     for message in messages(system) {
         protobuf_c::declared(&message.dotted).into_iter().for_each(|name| declare(C, name, Origin::message(&message)));
     }
     for component in system.components_and_counterparts() {
         let prefix = prefix(system, component);
-        declare(C, prefix.clone(), Origin::component(component));
-        for call in ["open", "test", "ready", "close", "wait"] {
-            let is_declared = match call {
-                "open" => component.counterpart_of.is_none(),
-                "test" => component.counterpart.is_some(),
-                _ => true,
-            };
-            if is_declared {
-                declare(C, format!("{prefix}_{call}"), Origin::component(component));
-            }
+        let functions = component_functions(system, component).into_iter().map(|function| function.name);
+        for name in [prefix.clone()].into_iter().chain(functions).chain([format!("{prefix}_wait")]) {
+            declare(C, name, Origin::component(component));
         }
         for gate in &component.gates {
             let origin = Origin::gate(component, gate);
@@ -65,6 +58,14 @@ pub(crate) fn files(system: &System) -> Vec<File> {
         File { name: format!("{name}_scl.h"), text: header::text(system) },
         File { name: format!("{name}_scl.c"), text: source::text(system) },
     ]
+}
+
+/// All functions of a component and its gates.
+fn functions(system: &System, component: &Component) -> Vec<Function> {
+    let prefix = prefix(system, component);
+    let of_gates = component.gates.iter().flat_map(|of| gate::functions(&prefix, of));
+    let functions = component_functions(system, component).into_iter().chain(of_gates);
+    functions.chain(wait::function(&prefix, component)).collect()
 }
 
 /// What the names of a component begin with: `rover_sensor`.

@@ -18,6 +18,12 @@ pub(crate) struct Declaration {
     pub(crate) origin: Origin,
 }
 
+impl Declaration {
+    pub(crate) fn new(scope: impl Into<String>, name: impl Into<String>, origin: Origin) -> Self {
+        Self { scope: scope.into(), name: name.into(), origin }
+    }
+}
+
 /// What a name stands for.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(crate) struct Origin {

@@ -10,7 +10,6 @@ use crate::output::File;
 use crate::system::{Component, Gate, MessageUse, System};
 use crate::writer::Writer;
 use messages::Messages;
-use scl_plan::GateKind;
 use scl_topology::diagnostic::Diagnostic;
 
 /// Namespaces that a system must not become: those of the standard library and of SCL itself.
@@ -23,24 +22,17 @@ const OF_COMPONENTS: [&str; 5] = ["close", "fd", "handle", "name", "ready"];
 pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
     let namespace = namespace(system);
     let inside = format!("the C++ namespace `{namespace}`");
-    let component = |component: &Component| Declaration {
-        scope: inside.clone(),
-        name: component.class_name.clone(),
-        origin: Origin::component(component),
-    };
+    let component =
+        |component: &Component| Declaration::new(&inside, &component.class_name, Origin::component(component));
     let mut declarations = messages::declarations(system, &namespace, &inside);
     declarations.extend(system.components_and_counterparts().map(component));
     for component in system.components_and_counterparts() {
         let scope = format!("the C++ struct `{namespace}::{}`", component.class_name);
         if component.counterpart.is_some() {
-            let origin = Origin::generated("function `test`");
-            declarations.push(Declaration { scope: scope.clone(), name: "test".to_owned(), origin });
+            declarations.push(Declaration::new(&scope, "test", Origin::generated("function `test`")));
         }
-        declarations.extend(component.gates.iter().map(|gate| Declaration {
-            scope: scope.clone(),
-            name: member(gate),
-            origin: Origin::gate(component, gate),
-        }));
+        let gate = |gate| Declaration::new(&scope, member(gate), Origin::gate(component, gate));
+        declarations.extend(component.gates.iter().map(gate));
     }
     declarations
 }
@@ -55,39 +47,27 @@ pub(crate) fn files(system: &System) -> Vec<File> {
     let messages = Messages::of(system);
     let namespace = namespace(system);
     let mut out = Writer::new("    ");
-    out.line(format!("// {}", system.header()));
-    out.line("#pragma once");
-    out.blank();
-    out.line("#include <scl.hpp>");
-    let gates = || system.gates();
-    if gates().any(|gate| carries_messages(gate) && gate.plan.codec == "json") {
-        out.line("#include <scl/json.hpp>");
+    out.line(format!("// {}\n#pragma once\n\n#include <scl.hpp>", system.header()));
+    let gates = || system.gates().filter(|gate| carries_messages(gate));
+    for codec in ["json", "protobuf"] {
+        if gates().any(|gate| gate.plan.codec == codec) {
+            out.line(format!("#include <scl/{codec}.hpp>"));
+        }
     }
-    if gates().any(|gate| carries_messages(gate) && gate.plan.codec == "protobuf") {
-        out.line("#include <scl/protobuf.hpp>");
-    }
-    let headers = messages.headers(
-        gates().filter(|gate| carries_messages(gate)).flat_map(|gate| &gate.types).filter(|used| used.in_schemas),
-    );
+    let headers = messages.headers(gates().flat_map(|gate| &gate.types).filter(|used| used.in_schemas));
     if !headers.is_empty() {
         out.blank();
         headers.iter().for_each(|header| out.line(format!("#include \"{header}\"")));
     }
-    out.blank();
-    out.line(format!("namespace {namespace} {{"));
-    out.blank();
-    out.line("namespace scl_generated {");
-    out.blank();
+    out.line(format!("\nnamespace {namespace} {{\n\nnamespace scl_generated {{\n"));
     out.line("/// What the programs need of the topology file, as `scl plan` prints it.");
     out.line(format!("inline constexpr ::std::string_view plan = {};", plan_text::literal(&system.plan_json())));
-    out.blank();
-    out.line("} // namespace scl_generated");
+    out.line("\n} // namespace scl_generated");
     for component in system.components_and_counterparts() {
         out.blank();
         write_component(&mut out, component, &messages);
     }
-    out.blank();
-    out.line(format!("}} // namespace {namespace}"));
+    out.line(format!("\n}} // namespace {namespace}"));
     vec![File { name: format!("{}.scl.hpp", system.snake_name()), text: out.finish() }]
 }
 
@@ -112,29 +92,25 @@ fn write_component(out: &mut Writer, component: &Component, messages: &Messages)
 /// The functions that open the component.
 fn write_opening(out: &mut Writer, component: &Component) {
     let (class, name) = (&component.class_name, &component.name);
+    let for_test =
+        format!("explicit {class}(::scl::TestEnd&& end) : ::scl::Component(::std::move(end), \"{name}\") {{}}");
     if let Some(tested) = &component.counterpart_of {
-        out.line(format!("/// For the function `test` of the component `{tested}`."));
-        out.line(format!(
-            "explicit {class}(::scl::TestEnd&& end) : ::scl::Component(::std::move(end), \"{name}\") {{}}"
-        ));
+        out.line(format!("/// For the function `test` of the component `{tested}`.\n{for_test}"));
         return;
     }
     out.line("/// Opens the component. Throws `scl::Taken` if it is already running.");
     out.line(format!("explicit {class}(const ::scl::Options& options = {{}})"));
     out.line(format!("    : ::scl::Component(scl_generated::plan, \"{name}\", options) {{}}"));
     if let Some(peer) = component.counterpart.as_deref().map(|peer| &peer.class_name) {
-        out.blank();
-        out.line(
-            "/// Opens the component for a unit test, together with the other ends of its gates, without processes,",
-        );
-        out.line("/// sockets or files.");
-        out.block(format!("static ::std::pair<{class}, {peer}> test() {{"), "}", |out| {
-            out.line(format!("return ::scl::open_test<{class}, {peer}>(scl_generated::plan, \"{name}\");"));
-        });
-        out.blank();
-        out.line("/// For `test`.");
         out.line(format!(
-            "explicit {class}(::scl::TestEnd&& end) : ::scl::Component(::std::move(end), \"{name}\") {{}}"
+            "\n\
+             /// Opens the component for a unit test, together with the other ends of its gates, without processes,\n\
+             /// sockets or files.\n\
+             static ::std::pair<{class}, {peer}> test() {{\n    \
+                 return ::scl::open_test<{class}, {peer}>(scl_generated::plan, \"{name}\");\n\
+             }}\n\n\
+             /// For `test`.\n\
+             {for_test}"
         ));
     }
 }
@@ -157,23 +133,16 @@ fn member(gate: &Gate) -> String {
 
 /// `::scl::Sub<::rover::Measurement>`.
 fn gate_type(gate: &Gate, messages: &Messages) -> String {
-    let class = match gate.plan.kind {
-        GateKind::Pub => "Pub",
-        GateKind::Sub => "Sub",
-        GateKind::Req => "Req",
-        GateKind::Rep => "Rep",
-        GateKind::Push => "Push",
-        GateKind::Pull => "Pull",
-    };
-    let is_exchange = matches!(gate.plan.kind, GateKind::Req | GateKind::Rep);
+    let kind = gate.plan.kind;
     let mut arguments: Vec<String> = gate.types.iter().map(|used| message_type(gate, used, messages)).collect();
     if arguments.is_empty() {
-        arguments = vec![BYTES.to_owned(); if is_exchange { 2 } else { 1 }];
+        arguments = vec![BYTES.to_owned(); if kind.exchanges() { 2 } else { 1 }];
     }
     if gate.plan.codec == "json" && carries_messages(gate) {
         arguments.push("::scl::Json".to_owned());
     }
-    format!("::scl::{class}<{}>", arguments.join(", "))
+    // `Debug` prints the name of the variant, which is that of the class.
+    format!("::scl::{kind:?}<{}>", arguments.join(", "))
 }
 
 const BYTES: &str = "::scl::Bytes";
@@ -193,11 +162,9 @@ fn carries_messages(gate: &Gate) -> bool {
 }
 
 fn peers(gate: &Gate) -> String {
-    let peers: Vec<_> =
-        gate.plan.connections.iter().map(|it| format!("`{}.{}`", it.peer_component, it.peer_gate)).collect();
-    match peers.as_slice() {
-        [] => "Not connected.".to_owned(),
-        peers => format!("Connected to {}.", peers.join(", ")),
+    match gate.plan.connections.is_empty() {
+        true => "Not connected.".to_owned(),
+        false => format!("Connected to {}.", gate.quoted_peers()),
     }
 }
 

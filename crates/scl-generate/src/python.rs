@@ -29,20 +29,17 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
     let schema = Schema::of(system);
     let names = Names::of(system, &schema);
     let scope = format!("module `{}`", module_name(system));
-    let declare = |name: &str, origin| Declaration { scope: scope.clone(), name: name.to_owned(), origin };
+    let declare = |name: &str, origin| Declaration::new(&scope, name, origin);
     let mut found: Vec<Declaration> =
         names::OWN.iter().map(|name| declare(name, Origin::generated(format!("`{name}` of the module")))).collect();
     for component in system.components_and_counterparts() {
         let class = names::class(component);
+        let inside = format!("class `{class}`");
         if component.counterpart.is_some() {
-            let origin = Origin::generated("method `test`");
-            found.push(Declaration { scope: format!("class `{class}`"), name: "test".to_owned(), origin });
+            found.push(Declaration::new(&inside, "test", Origin::generated("method `test`")));
         }
-        found.extend(component.gates.iter().map(|gate| Declaration {
-            scope: format!("class `{class}`"),
-            name: names::gate(gate),
-            origin: Origin::gate(component, gate),
-        }));
+        let gate = |gate| Declaration::new(&inside, names::gate(gate), Origin::gate(component, gate));
+        found.extend(component.gates.iter().map(gate));
         found.push(declare(&class, Origin::component(component)));
     }
     let used: Vec<_> = system.gates().flat_map(|gate| &gate.types).collect();

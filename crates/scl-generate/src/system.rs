@@ -3,6 +3,7 @@
 use prost_types::FileDescriptorSet;
 use scl_loader::Loaded;
 use scl_plan::{GatePlan, Plan, SystemPlan};
+use scl_text::list::quoted_list;
 use scl_topology::source::Span;
 use scl_topology::topology::{self, Topology};
 use std::path::Path;
@@ -168,6 +169,16 @@ impl Component {
 }
 
 impl Gate {
+    /// The gates at the other ends of its connections: `controller.sensor`.
+    pub(crate) fn peers(&self) -> impl Iterator<Item = String> {
+        self.plan.connections.iter().map(|it| format!("{}.{}", it.peer_component, it.peer_gate))
+    }
+
+    /// The same as a list in a comment.
+    pub(crate) fn quoted_peers(&self) -> String {
+        quoted_list(self.peers())
+    }
+
     fn of(gate: &topology::Gate, plan: &GatePlan) -> Self {
         let types = gate.payload().types().into_iter().map(|name| MessageUse {
             dotted: name.dotted().to_owned(),

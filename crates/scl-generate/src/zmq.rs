@@ -2,7 +2,7 @@
 
 use crate::output::File;
 use crate::system::{Component, Gate, System};
-use scl_plan::{GateKind, Payload};
+use scl_plan::Payload;
 use serde::{Serialize, Serializer};
 
 /// The version of the format. It grows when a field changes its meaning or goes; new fields may come.
@@ -56,7 +56,7 @@ struct GateEntry<'a> {
     payload: Option<PayloadEntry<'a>>,
     codec: &'a str,
     contract: &'a str,
-    zmq_socket_type: &'static str,
+    zmq_socket_type: String,
     zmq_method: &'static str,
     zmq_endpoints: Vec<String>,
     zmq_tap: Option<String>,
@@ -104,18 +104,18 @@ impl<'a> GateEntry<'a> {
             Some(endpoint) => vec![endpoint],
             None => plan.connections.iter().map(|connection| connection.endpoint.as_str()).collect(),
         };
-        let peers = plan.connections.iter().map(|it| format!("{}.{}", it.peer_component, it.peer_gate));
         Self {
             kind: plan.kind.word(),
             doc: gate.doc.as_deref(),
             payload: payload(&plan.payload),
             codec: &plan.codec,
             contract: &plan.contract,
-            zmq_socket_type: socket_type(plan.kind),
+            // The socket of a plain program in the place of a component.
+            zmq_socket_type: plan.kind.word().to_ascii_uppercase(),
             zmq_method: if plan.kind.listens() { "bind" } else { "connect" },
             zmq_endpoints: endpoints.into_iter().map(address).collect(),
             zmq_tap: plan.tap.as_deref().map(address),
-            peers: peers.collect(),
+            peers: gate.peers().collect(),
             queue: plan.options.queue,
             when_full: plan.options.when_full.word(),
             max_size: plan.options.max_size,
@@ -129,18 +129,6 @@ fn payload(payload: &Payload) -> Option<PayloadEntry<'_>> {
         Payload::Bytes => None,
         Payload::Message(message) => Some(PayloadEntry::Message { message }),
         Payload::Exchange { request, reply } => Some(PayloadEntry::Exchange { request, reply }),
-    }
-}
-
-/// The socket of a plain program in the place of a component.
-fn socket_type(kind: GateKind) -> &'static str {
-    match kind {
-        GateKind::Pub => "PUB",
-        GateKind::Sub => "SUB",
-        GateKind::Req => "REQ",
-        GateKind::Rep => "REP",
-        GateKind::Push => "PUSH",
-        GateKind::Pull => "PULL",
     }
 }
 

@@ -23,7 +23,7 @@ mod unreadable;
 pub use no_panic::{BUG, no_panic};
 pub use request::{LookedIn, Request};
 #[cfg(feature = "protobuf")]
-pub use schemas::{Descriptors, files_for};
+pub use schemas::{Descriptors, files_for, walk};
 pub use schemas::{Outline, Schemas, rust};
 
 use scl_topology::check::{Facts, check};

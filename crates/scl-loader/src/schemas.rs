@@ -29,6 +29,8 @@ mod place;
 pub mod rust;
 #[cfg(not(feature = "protobuf"))]
 mod switched_off;
+#[cfg(feature = "protobuf")]
+pub mod walk;
 
 #[cfg(feature = "protobuf")]
 pub(crate) use compile::compile;

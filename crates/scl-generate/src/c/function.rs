@@ -13,12 +13,18 @@ pub(super) struct Function {
     /// `scl_status` or `void`.
     pub(super) result: &'static str,
     pub(super) name: String,
-    pub(super) parameters: Vec<String>,
+    /// As in C, with commas between them.
+    pub(super) parameters: String,
     /// Lines of C.
-    pub(super) body: Vec<String>,
+    pub(super) body: String,
 }
 
 impl Function {
+    /// A function that returns a status; `owner` is what its name begins with.
+    pub(super) fn new(owner: &str, call: &str, doc: &'static str, parameters: String, body: String) -> Self {
+        Self { doc, result: "scl_status", name: format!("{owner}_{call}"), parameters, body }
+    }
+
     /// The comment and the prototype.
     pub(super) fn declare(&self, out: &mut Writer) {
         if !self.doc.is_empty() {
@@ -31,15 +37,13 @@ impl Function {
     pub(super) fn define(&self, out: &mut Writer) {
         out.blank();
         out.line(self.signature());
-        out.block("{", "}", |out| self.body.iter().for_each(|line| out.line(line)));
+        out.block("{", "}", |out| out.line(&self.body));
     }
 
     /// A macro in front of the function that checks the types of its pointers, of which compilers may say nothing.
     pub(super) fn check(&self, out: &mut Writer) {
-        let arguments: Vec<(&str, String)> = self.parameters.iter().map(|parameter| checked(parameter)).collect();
-        let names: Vec<&str> = arguments.iter().map(|(name, _)| *name).collect();
-        out.line(format!("#define {name}({}) \\", names.join(", "), name = self.name));
-        let checks: Vec<String> = arguments.into_iter().map(|(_, check)| check).collect();
+        let (names, checks): (Vec<&str>, Vec<String>) = self.parameters.split(", ").map(checked).unzip();
+        out.line(format!("#define {}({}) \\", self.name, names.join(", ")));
         let line = format!("    {}({})", self.name, checks.join(", "));
         match line.len() < LINE {
             true => out.line(line),
@@ -49,12 +53,12 @@ impl Function {
 
     fn signature(&self) -> String {
         let start = format!("{} {}(", self.result, self.name);
-        let line = format!("{start}{})", self.parameters.join(", "));
+        let line = format!("{start}{})", self.parameters);
         if line.len() < LINE {
             return line;
         }
         let separator = format!(",\n{}", " ".repeat(start.len()));
-        format!("{start}{})", self.parameters.join(&separator))
+        format!("{start}{})", self.parameters.replace(", ", &separator))
     }
 }
 

@@ -19,13 +19,13 @@ pub(super) fn request_struct(prefix: &str, gate: &Gate) -> Option<String> {
 }
 
 /// The members of that struct.
-pub(super) fn request_members(gate: &Gate) -> Vec<String> {
+pub(super) fn request_members(gate: &Gate) -> String {
     let [request, _] = Content::both(gate);
     let content = match request {
-        Content::Struct { name, .. } => vec![format!("{name} *message;")],
-        Content::Bytes => vec!["const void *data;".to_owned(), "size_t size;".to_owned()],
+        Content::Struct { name, .. } => format!("{name} *message;"),
+        Content::Bytes => "const void *data;\nsize_t size;".to_owned(),
     };
-    content.into_iter().chain(["scl_request *handle;".to_owned()]).collect()
+    format!("{content}\nscl_request *handle;")
 }
 
 /// All names that a gate declares.
@@ -38,18 +38,14 @@ pub(super) fn declared(prefix: &str, gate: &Gate) -> Vec<String> {
 pub(super) fn functions(prefix: &str, gate: &Gate) -> Vec<Function> {
     let maker = Maker { prefix, gate };
     let [first, second] = Content::both(gate);
-    let functions = match gate.plan.kind {
-        GateKind::Pub | GateKind::Push => vec![Some(maker.send(&first))],
+    match gate.plan.kind {
+        GateKind::Pub | GateKind::Push => vec![maker.send(&first)],
         GateKind::Sub | GateKind::Pull => {
-            vec![Some(maker.recv(&first)), Some(maker.latest(&first)), maker.free(&first)]
+            [maker.recv(&first), maker.latest(&first)].into_iter().chain(maker.free(&first)).collect()
         }
-        GateKind::Req => vec![Some(maker.call(&first, &second)), maker.free(&second)],
-        GateKind::Rep => {
-            let reply = maker.reply(&first, &second);
-            vec![Some(maker.take_request(&first)), Some(reply), Some(maker.free_request(&first))]
-        }
-    };
-    functions.into_iter().flatten().collect()
+        GateKind::Req => [maker.call(&first, &second)].into_iter().chain(maker.free(&second)).collect(),
+        GateKind::Rep => vec![maker.take_request(&first), maker.reply(&first, &second), maker.free_request(&first)],
+    }
 }
 
 struct Maker<'a> {
@@ -59,104 +55,104 @@ struct Maker<'a> {
 
 impl Maker<'_> {
     fn send(&self, content: &Content) -> Function {
-        let sent = Sent::of(content, "message");
+        let [parameters, arguments] = sent(content, "message");
         let call = if content.is_struct() { "send_message" } else { "scl_send" };
-        let body = vec![format!("return {call}({}, {}, timeout_ns);", self.handle(), sent.arguments)];
-        let parameters = [vec![self.itself()], sent.parameters, vec![TIMEOUT.to_owned()]].concat();
-        self.function("send", "", parameters, body)
+        let body = format!("return {call}({}, {arguments}, timeout_ns);", self.handle());
+        self.function("send", "", format!("{}, {parameters}, {TIMEOUT}", self.itself()), body)
     }
 
     fn recv(&self, content: &Content) -> Function {
-        let parameters = vec![self.itself(), received(content, "message"), TIMEOUT.to_owned()];
+        let handle = self.handle();
         let body = match content {
             Content::Struct { prefix, .. } => {
-                format!("return recv_message({}, &{prefix}__descriptor, message, timeout_ns);", self.handle())
+                format!("return recv_message({handle}, &{prefix}__descriptor, message, timeout_ns);")
             }
-            Content::Bytes => format!("return scl_recv({}, timeout_ns, message);", self.handle()),
+            Content::Bytes => format!("return scl_recv({handle}, timeout_ns, message);"),
         };
-        self.function("recv", "", parameters, vec![body])
+        let parameters = format!("{}, {}, {TIMEOUT}", self.itself(), received(content, "message"));
+        self.function("recv", "", parameters, body)
     }
 
     fn latest(&self, content: &Content) -> Function {
+        let handle = self.handle();
         let body = match content {
             Content::Struct { prefix, .. } => {
-                format!("return latest_message({}, &{prefix}__descriptor, message);", self.handle())
+                format!("return latest_message({handle}, &{prefix}__descriptor, message);")
             }
-            Content::Bytes => format!("return scl_latest({}, message);", self.handle()),
+            Content::Bytes => format!("return scl_latest({handle}, message);"),
         };
         let doc = "The newest message, or SCL_NOTHING; older ones are discarded.";
-        self.function("latest", doc, vec![self.itself(), received(content, "message")], vec![body])
+        self.function("latest", doc, format!("{}, {}", self.itself(), received(content, "message")), body)
     }
 
     fn call(&self, request: &Content, reply: &Content) -> Function {
-        let sent = Sent::of(request, "request");
-        let results = vec![received(reply, "reply"), TIMEOUT.to_owned()];
-        let parameters = [vec![self.itself()], sent.parameters, results].concat();
+        let [sent, arguments] = sent(request, "request");
+        let parameters = format!("{}, {sent}, {}, {TIMEOUT}", self.itself(), received(reply, "reply"));
         let call = if request.is_struct() { "call_with_message" } else { "scl_call" };
-        let (handle, arguments) = (self.handle(), sent.arguments);
+        let handle = self.handle();
         let body = match reply {
-            Content::Bytes => vec![format!("return {call}({handle}, {arguments}, timeout_ns, reply);")],
-            Content::Struct { prefix, .. } => vec![
-                format!("scl_gate *gate = {handle};"),
-                "scl_message *bytes = NULL;".to_owned(),
-                "scl_message **result = reply == NULL ? NULL : &bytes;".to_owned(),
-                format!("scl_status status = {call}(gate, {arguments}, timeout_ns, result);"),
-                format!("return unpack(gate, &{prefix}__descriptor, status, bytes, reply);"),
-            ],
+            Content::Bytes => format!("return {call}({handle}, {arguments}, timeout_ns, reply);"),
+            Content::Struct { prefix, .. } => format!(
+                "scl_gate *gate = {handle};\n\
+                 scl_message *bytes = NULL;\n\
+                 scl_message **result = reply == NULL ? NULL : &bytes;\n\
+                 scl_status status = {call}(gate, {arguments}, timeout_ns, result);\n\
+                 return unpack(gate, &{prefix}__descriptor, status, bytes, reply);"
+            ),
         };
         self.function("call", "Sends a request and waits for its reply.", parameters, body)
     }
 
     fn take_request(&self, content: &Content) -> Function {
         let handle = self.handle();
-        let mut body = refuse_null("request");
-        body.push("memset(request, 0, sizeof *request);".to_owned());
-        match content {
-            Content::Struct { prefix, .. } => body.push(format!(
+        let take = match content {
+            Content::Struct { prefix, .. } => format!(
                 "return take_message({handle}, &{prefix}__descriptor, &request->message, &request->handle, timeout_ns);"
-            )),
-            Content::Bytes => body.extend([
-                format!("scl_status status = scl_take_request({handle}, timeout_ns, &request->handle);"),
-                "request->data = scl_request_data(request->handle, &request->size);".to_owned(),
-                "return status;".to_owned(),
-            ]),
-        }
+            ),
+            Content::Bytes => format!(
+                "scl_status status = scl_take_request({handle}, timeout_ns, &request->handle);\n\
+                 request->data = scl_request_data(request->handle, &request->size);\n\
+                 return status;"
+            ),
+        };
+        let body = format!("{}\nmemset(request, 0, sizeof *request);\n{take}", refuse_null("request"));
         let doc = "On success, the request belongs to the caller, who answers it or frees it.";
-        let parameters = vec![self.itself(), self.request_parameter(), TIMEOUT.to_owned()];
+        let parameters = format!("{}, {}, {TIMEOUT}", self.itself(), self.request_parameter());
         self.function("take_request", doc, parameters, body)
     }
 
     fn reply(&self, request: &Content, reply: &Content) -> Function {
-        let sent = Sent::of(reply, "reply");
+        let [sent, arguments] = sent(reply, "reply");
         let call = if reply.is_struct() { "reply_with_message" } else { "scl_reply" };
-        let mut body = refuse_null("request");
-        body.push(format!("scl_status status = {call}(request->handle, {});", sent.arguments));
-        body.push("if (status != SCL_ARGUMENT) {".to_owned());
-        body.extend(clear_request(request));
-        body.extend(["}", "return status;"].map(str::to_owned));
+        let body = format!(
+            "{}\n\
+             scl_status status = {call}(request->handle, {arguments});\n\
+             if (status != SCL_ARGUMENT) {{\n{}\n}}\n\
+             return status;",
+            refuse_null("request"),
+            clear_request(request)
+        );
         let doc = "Answers and frees the request, which stays as it is only after SCL_ARGUMENT.";
-        self.function("reply", doc, [vec![self.request_parameter()], sent.parameters].concat(), body)
+        self.function("reply", doc, format!("{}, {sent}", self.request_parameter()), body)
     }
 
     fn free_request(&self, request: &Content) -> Function {
-        let mut body = vec!["if (request != NULL) {".to_owned(), "    scl_request_free(request->handle);".to_owned()];
-        body.extend(clear_request(request));
-        body.push("}".to_owned());
+        let clear = clear_request(request);
+        let body = format!("if (request != NULL) {{\n    scl_request_free(request->handle);\n{clear}\n}}");
         let doc = "Frees a request that is not to be answered.";
-        Function { result: "void", ..self.function("free", doc, vec![self.request_parameter()], body) }
+        Function { result: "void", ..self.function("free", doc, self.request_parameter(), body) }
     }
 
     /// Frees a message that was received; bytes are freed with `scl_message_free`.
     fn free(&self, content: &Content) -> Option<Function> {
         let Content::Struct { name, .. } = content else { return None };
-        let body = vec![free_unpacked("message")];
         let doc = "Frees a message that was received; NULL is allowed.";
-        Some(Function { result: "void", ..self.function("free", doc, vec![format!("{name} *message")], body) })
+        let function = self.function("free", doc, format!("{name} *message"), free_unpacked("message"));
+        Some(Function { result: "void", ..function })
     }
 
-    fn function(&self, call: &str, doc: &'static str, parameters: Vec<String>, body: Vec<String>) -> Function {
-        let name = format!("{}_{}_{call}", self.prefix, self.gate.snake_name);
-        Function { doc, result: "scl_status", name, parameters, body }
+    fn function(&self, call: &str, doc: &'static str, parameters: String, body: String) -> Function {
+        Function::new(&format!("{}_{}", self.prefix, self.gate.snake_name), call, doc, parameters, body)
     }
 
     fn itself(&self) -> String {
@@ -173,25 +169,13 @@ impl Maker<'_> {
     }
 }
 
-/// What a function sends.
-struct Sent {
-    parameters: Vec<String>,
-    /// What the library, or a helper for messages, gets of them.
-    arguments: String,
-}
-
-impl Sent {
-    fn of(content: &Content, name: &str) -> Self {
-        match content {
-            Content::Struct { name: message, prefix } => Self {
-                parameters: vec![format!("const {message} *{name}")],
-                arguments: format!("(const ProtobufCMessage *){name}, &{prefix}__descriptor"),
-            },
-            Content::Bytes => Self {
-                parameters: vec!["const void *data".to_owned(), "size_t size".to_owned()],
-                arguments: "data, size".to_owned(),
-            },
+/// The parameters of what a function sends, and what the library, or a helper for messages, gets of them.
+fn sent(content: &Content, name: &str) -> [String; 2] {
+    match content {
+        Content::Struct { name: message, prefix } => {
+            [format!("const {message} *{name}"), format!("(const ProtobufCMessage *){name}, &{prefix}__descriptor")]
         }
+        Content::Bytes => ["const void *data, size_t size", "data, size"].map(str::to_owned),
     }
 }
 
@@ -203,9 +187,8 @@ fn received(content: &Content, name: &str) -> String {
     }
 }
 
-pub(super) fn refuse_null(parameter: &str) -> Vec<String> {
-    let refusal = format!("    return scl_fail(SCL_ARGUMENT, \"`{parameter}` is NULL\");");
-    vec![format!("if ({parameter} == NULL) {{"), refusal, "}".to_owned()]
+pub(super) fn refuse_null(parameter: &str) -> String {
+    format!("if ({parameter} == NULL) {{\n    return scl_fail(SCL_ARGUMENT, \"`{parameter}` is NULL\");\n}}")
 }
 
 /// Frees a struct; NULL is allowed. Only messages that are not nested have a function of their own for that.
@@ -214,10 +197,10 @@ fn free_unpacked(message: &str) -> String {
 }
 
 /// Frees what a request's struct refers to besides its handle, so that it can neither leak nor be used again.
-fn clear_request(request: &Content) -> Vec<String> {
-    let message = match request {
-        Content::Struct { .. } => Some(format!("    {}", free_unpacked("request->message"))),
-        Content::Bytes => None,
-    };
-    message.into_iter().chain(["    memset(request, 0, sizeof *request);".to_owned()]).collect()
+fn clear_request(request: &Content) -> String {
+    let clear = "    memset(request, 0, sizeof *request);";
+    match request {
+        Content::Struct { .. } => format!("    {}\n{clear}", free_unpacked("request->message")),
+        Content::Bytes => clear.to_owned(),
+    }
 }

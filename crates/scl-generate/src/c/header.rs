@@ -1,7 +1,7 @@
 //! `<system>_scl.h`.
 
 use super::component_functions::component_functions;
-use super::{content, gate, messages, prefix, protobuf_c, source, wait};
+use super::{content, functions, gate, messages, prefix, protobuf_c, source, wait};
 use crate::comment;
 use crate::system::{Component, Gate, System};
 use crate::writer::Writer;
@@ -87,9 +87,8 @@ fn write_gate(prefix: &str, component: &Component, of: &Gate, out: &mut Writer) 
         }
     }
     if let Some(name) = gate::request_struct(prefix, of) {
-        out.block(format!("typedef struct {name} {{"), &format!("}} {name};"), |out| {
-            gate::request_members(of).iter().for_each(|member| out.line(member));
-        });
+        let end = format!("}} {name};");
+        out.block(format!("typedef struct {name} {{"), &end, |out| out.line(gate::request_members(of)));
     }
     gate::functions(prefix, of).iter().for_each(|function| function.declare(out));
 }
@@ -107,10 +106,7 @@ fn write_checks(system: &System, out: &mut Writer) {
     out.line("/* Compilers without an option for it, or with -w, take pointers of another type in silence; these macros do not. */");
     out.line(format!("#if defined(SCL_POINTER) && !defined({})", source::own_macro(system)));
     for component in system.components_and_counterparts() {
-        let prefix = prefix(system, component);
-        component_functions(system, component).iter().for_each(|function| function.check(out));
-        component.gates.iter().flat_map(|of| gate::functions(&prefix, of)).for_each(|function| function.check(out));
-        wait::function(&prefix, component).iter().for_each(|function| function.check(out));
+        functions(system, component).iter().for_each(|function| function.check(out));
     }
     out.line("#endif\n");
 }

@@ -1,6 +1,7 @@
 //! The names that `protoc-c` gives to messages and files.
 
-use prost_types::{DescriptorProto, FileDescriptorSet};
+use prost_types::{FileDescriptorProto, FileDescriptorSet};
+use scl_loader::walk::{full_name, messages};
 
 /// The struct of a message: `rover.GpsFix` becomes `Rover__GpsFix`.
 pub(super) fn type_name(dotted: &str) -> String {
@@ -27,23 +28,11 @@ pub(super) fn declared(dotted: &str) -> Vec<String> {
 
 /// The header of a schema file that declares a message: `proto/rover.proto` becomes `proto/rover.pb-c.h`.
 pub(super) fn header_of(files: &FileDescriptorSet, dotted: &str) -> Option<String> {
-    let declares = |package: &str, messages: &[DescriptorProto]| {
-        let inner = match package {
-            "" => Some(dotted),
-            _ => dotted.strip_prefix(package).and_then(|rest| rest.strip_prefix('.')),
-        };
-        inner.is_some_and(|inner| is_nested(messages, inner))
-    };
-    let file = files.file.iter().find(|file| declares(file.package(), &file.message_type))?;
+    let declares = |file: &&FileDescriptorProto| messages(file).iter().any(|(path, _)| full_name(file, path) == dotted);
+    let file = files.file.iter().find(declares)?;
     let name = file.name();
     let stem = name.strip_suffix(".protodevel").or_else(|| name.strip_suffix(".proto")).unwrap_or(name);
     Some(format!("{stem}.pb-c.h"))
-}
-
-fn is_nested(messages: &[DescriptorProto], dotted: &str) -> bool {
-    let (first, rest) = dotted.split_once('.').map_or((dotted, None), |(first, rest)| (first, Some(rest)));
-    let message = messages.iter().find(|message| message.name() == first);
-    message.is_some_and(|message| rest.is_none_or(|rest| is_nested(&message.nested_type, rest)))
 }
 
 fn parts(dotted: &str, convert: fn(&str) -> String) -> String {

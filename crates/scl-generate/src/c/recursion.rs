@@ -1,26 +1,23 @@
 //! Which messages can contain themselves, so that a frame decides how deep they are nested.
 
-use prost_types::{DescriptorProto, FileDescriptorSet};
+use prost_types::FileDescriptorSet;
+use scl_loader::walk::{full_name, messages};
 use std::collections::{HashMap, HashSet};
 
 /// Returns true if one of the messages, or one that it contains at any depth, can contain itself.
-pub(super) fn is_any_recursive<'a>(files: &FileDescriptorSet, messages: impl Iterator<Item = &'a str>) -> bool {
-    let mut contained = HashMap::new();
+pub(super) fn is_any_recursive<'a>(files: &FileDescriptorSet, names: impl Iterator<Item = &'a str>) -> bool {
+    // By full names with a dot at the start: the messages that each message has fields of.
+    let mut contained: HashMap<String, Vec<&str>> = HashMap::new();
     for file in &files.file {
-        let package = if file.package().is_empty() { String::new() } else { format!(".{}", file.package()) };
-        file.message_type.iter().for_each(|message| collect(message, &package, &mut contained));
+        // Names of enums are among those of the fields; they contain nothing.
+        contained.extend(messages(file).into_iter().map(|(path, message)| {
+            let fields: Vec<&str> = message.field.iter().filter_map(|field| field.type_name.as_deref()).collect();
+            (format!(".{}", full_name(file, &path)), fields)
+        }));
     }
     let mut done = HashSet::new();
-    let mut names = messages.map(|dotted| format!(".{dotted}"));
+    let mut names = names.map(|dotted| format!(".{dotted}"));
     names.any(|name| reaches_itself(&name, &contained, &mut done))
-}
-
-/// The messages that each message has fields of, by full names with a dot at the start.
-fn collect<'a>(message: &'a DescriptorProto, outer: &str, contained: &mut HashMap<String, Vec<&'a str>>) {
-    let name = format!("{outer}.{}", message.name());
-    message.nested_type.iter().for_each(|nested| collect(nested, &name, contained));
-    // Names of enums are among them, which contain nothing.
-    contained.insert(name, message.field.iter().filter_map(|field| field.type_name.as_deref()).collect());
 }
 
 /// Walks without recursion, because schemas come from outside, too.

@@ -1,10 +1,9 @@
 //! `<system>_scl.c`.
 
-use super::component_functions::component_functions;
 use super::literal::literal;
-use super::{gate, helpers, messages, prefix, wait};
+use super::{functions, helpers, messages};
 use crate::comment;
-use crate::system::{Component, System};
+use crate::system::System;
 use crate::writer::Writer;
 
 /// The source.
@@ -21,7 +20,8 @@ pub(super) fn text(system: &System) -> String {
     });
     write_plan(system, &mut out);
     helpers::needed(system).into_iter().for_each(|helper| out.line(format!("\n{helper}")));
-    system.components_and_counterparts().for_each(|component| write_component(system, component, &mut out));
+    let functions = system.components_and_counterparts().flat_map(|component| functions(system, component));
+    functions.for_each(|function| function.define(&mut out));
     out.finish()
 }
 
@@ -48,13 +48,4 @@ fn write_plan(system: &System, out: &mut Writer) {
         out.line(format!("    {}{end}", literal(line)));
     }
     out.line("#if defined(__GNUC__)\n#pragma GCC diagnostic pop\n#endif");
-}
-
-fn write_component(system: &System, component: &Component, out: &mut Writer) {
-    let prefix = prefix(system, component);
-    component_functions(system, component).iter().for_each(|function| function.define(out));
-    for gate in &component.gates {
-        gate::functions(&prefix, gate).iter().for_each(|function| function.define(out));
-    }
-    wait::function(&prefix, component).iter().for_each(|function| function.define(out));
 }

@@ -26,22 +26,15 @@ pub(super) fn function(prefix: &str, component: &Component) -> Option<Function> 
     if gates.is_empty() {
         return None;
     }
-    let members: Vec<String> = gates.iter().map(|gate| format!("self->gates.{}", member(gate))).collect();
-    let mut body = refuse_null("self");
-    body.push("scl_gate *const all[] = {".to_owned());
-    body.extend(members.iter().map(|member| format!("    {member},")));
-    body.push("};".to_owned());
-    body.push("return wait_for(self->component, all, sizeof all / sizeof *all, gates, timeout_ns, ready);".to_owned());
-    Some(Function {
-        doc: "Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells where.",
-        result: "scl_status",
-        name: format!("{prefix}_wait"),
-        parameters: vec![
-            format!("{prefix} *self"),
-            "uint64_t gates".to_owned(),
-            "int64_t timeout_ns".to_owned(),
-            "uint64_t *ready".to_owned(),
-        ],
-        body,
-    })
+    let (refuse, members) = (refuse_null("self"), gates.iter().map(|gate| member(gate)));
+    let all: String = members.map(|member| format!("    self->gates.{member},\n")).collect();
+    let body = format!(
+        "{refuse}\n\
+         scl_gate *const all[] = {{\n{all}}};\n\
+         return wait_for(self->component, all, sizeof all / sizeof *all, gates, timeout_ns, ready);"
+    );
+    let doc =
+        "Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells where.";
+    let parameters = format!("{prefix} *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready");
+    Some(Function::new(prefix, "wait", doc, parameters, body))
 }

@@ -3,6 +3,7 @@
 use crate::clash::{Declaration, Origin};
 use crate::system::{MessageUse, System};
 use prost_types::{DescriptorProto, FileDescriptorProto};
+use scl_loader::walk::{full_name, is_map_entry, messages};
 use scl_topology::diagnostic::Diagnostic;
 use scl_topology::external::UNWRITABLE_NAME;
 use scl_topology::keywords::CPP;
@@ -22,11 +23,11 @@ impl Messages {
     pub(super) fn of(system: &System) -> Self {
         let mut messages = HashMap::new();
         for file in files(system) {
-            for_each_message(file, &mut |path, _message| {
-                let scope: String = package(file).iter().map(|part| format!("::{part}")).collect();
-                let cpp_type = format!("{scope}::{}", class_name(path));
-                messages.insert(dotted(file, path), Message { cpp_type, header: header(file.name()) });
-            });
+            let scope: String = package(file).map(|part| format!("::{part}")).collect();
+            messages.extend(types(file).map(|(path, _)| {
+                let cpp_type = format!("{scope}::{}", class_name(&path));
+                (full_name(file, &path), Message { cpp_type, header: header(file.name()) })
+            }));
         }
         Self(messages)
     }
@@ -45,37 +46,33 @@ impl Messages {
 /// components, and beside its namespace.
 pub(super) fn declarations(system: &System, namespace: &str, inside: &str) -> Vec<Declaration> {
     let outside = "the global C++ namespace";
-    let mut found = vec![Declaration {
-        scope: outside.to_owned(),
-        name: namespace.to_owned(),
-        origin: Origin::generated(format!("namespace `{namespace}`")),
-    }];
+    let origin_of_system = Origin::generated(format!("namespace `{namespace}`"));
+    let mut found = vec![Declaration::new(outside, namespace, origin_of_system)];
     for file in files(system) {
-        let package = package(file);
-        let scope = match package.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+        let scope = match package(file).collect::<Vec<_>>().as_slice() {
             [] => outside,
             [only] if *only == namespace => inside,
             [first, second, ..] if *first == namespace => {
                 let origin = Origin::generated(format!("package `{}`", file.package()));
-                found.push(Declaration { scope: inside.to_owned(), name: (*second).to_owned(), origin });
+                found.push(Declaration::new(inside, *second, origin));
                 continue;
             }
             _ => continue,
         };
-        let mut declare = |name: String, origin| found.push(Declaration { scope: scope.to_owned(), name, origin });
-        for_each_message(file, &mut |path, message| {
-            let dotted = dotted(file, path);
-            declare(class_name(path), origin(system, &dotted));
+        let mut declare = |name: String, origin| found.push(Declaration::new(scope, name, origin));
+        for (path, message) in types(file) {
+            let dotted = full_name(file, &path);
+            declare(class_name(&path), origin(system, &dotted));
             for inner in &message.enum_type {
-                let path = [path, &[inner.name()]].concat();
+                let path = [path.as_slice(), &[inner.name()]].concat();
                 declare(class_name(&path), Origin::other_message(&dotted));
             }
-        });
+        }
         for outer in &file.enum_type {
             let name = protoc_identifier(outer.name());
-            declare(name, Origin::generated(format!("enum `{}`", dotted_name(file, outer.name()))));
+            declare(name, Origin::generated(format!("enum `{}`", full_name(file, &[outer.name()]))));
             for value in &outer.value {
-                let origin = Origin::generated(format!("enum value `{}`", dotted_name(file, value.name())));
+                let origin = Origin::generated(format!("enum value `{}`", full_name(file, &[value.name()])));
                 declare(protoc_identifier(value.name()), origin);
             }
         }
@@ -94,32 +91,13 @@ fn files(system: &System) -> impl Iterator<Item = &FileDescriptorProto> {
     system.descriptors.iter().flat_map(|set| &set.file)
 }
 
-/// Calls a function with the names of each message from the outermost, and the message. Entries of maps are left out.
-fn for_each_message<'f>(file: &'f FileDescriptorProto, call: &mut dyn FnMut(&[&'f str], &'f DescriptorProto)) {
-    fn visit<'f>(
-        path: &mut Vec<&'f str>,
-        message: &'f DescriptorProto,
-        call: &mut dyn FnMut(&[&'f str], &'f DescriptorProto),
-    ) {
-        path.push(message.name());
-        call(path, message);
-        let is_entry = |inner: &&DescriptorProto| inner.options.as_ref().is_some_and(|options| options.map_entry());
-        message.nested_type.iter().filter(|inner| !is_entry(inner)).for_each(|inner| visit(path, inner, call));
-        path.pop();
-    }
-    file.message_type.iter().for_each(|message| visit(&mut Vec::new(), message, call));
+/// The messages of a file without the entries of maps.
+fn types(file: &FileDescriptorProto) -> impl Iterator<Item = (Vec<&str>, &DescriptorProto)> {
+    messages(file).into_iter().filter(|(_, message)| !is_map_entry(message))
 }
 
-fn package(file: &FileDescriptorProto) -> Vec<String> {
-    file.package().split('.').filter(|part| !part.is_empty()).map(str::to_owned).collect()
-}
-
-fn dotted(file: &FileDescriptorProto, path: &[&str]) -> String {
-    dotted_name(file, &path.join("."))
-}
-
-fn dotted_name(file: &FileDescriptorProto, name: &str) -> String {
-    if file.package().is_empty() { name.to_owned() } else { format!("{}.{name}", file.package()) }
+fn package(file: &FileDescriptorProto) -> impl Iterator<Item = &str> {
+    file.package().split('.').filter(|part| !part.is_empty())
 }
 
 /// A nested message is a class beside the outer one, named by both.
@@ -154,10 +132,12 @@ pub(super) fn unwritable(system: &System) -> Vec<Diagnostic> {
     let gates = system.components.iter().flat_map(|component| &component.gates);
     let used = gates.flat_map(|gate| &gate.types).filter(|used| used.in_schemas && told.insert(used.dotted.as_str()));
     used.filter_map(|used| {
-        let (package, path) = files(system).find_map(|file| Some((package(file), path_in(file, &used.dotted)?)))?;
-        let is_reserved = |part: &&String| part.as_str() == "NULL" || CPP.contains(&part.as_str());
         let message = &used.dotted;
-        let headline = if let Some(part) = package.iter().find(is_reserved) {
+        let found = files(system).flat_map(|file| types(file).map(move |(path, _)| (file, path)));
+        let (file, path) = found.into_iter().find(|(file, path)| full_name(file, path) == *message)?;
+        let path = path.join("_");
+        let is_reserved = |part: &&str| *part == "NULL" || CPP.contains(part);
+        let headline = if let Some(part) = package(file).find(is_reserved) {
             format!("`{part}` in the package of `{message}` is reserved in C++, and protoc does not escape it there")
         } else if ESCAPED_BY_SOME.contains(&path.as_str()) {
             format!(
@@ -169,17 +149,6 @@ pub(super) fn unwritable(system: &System) -> Vec<Diagnostic> {
         Some(UNWRITABLE_NAME.at(headline, used.span, "carried by a gate").help("rename it in the schema"))
     })
     .collect()
-}
-
-/// The name of a message in its file, if it declares it.
-fn path_in(file: &FileDescriptorProto, message: &str) -> Option<String> {
-    let mut found = None;
-    for_each_message(file, &mut |path, _| {
-        if dotted(file, path) == message {
-            found = Some(path.join("_"));
-        }
-    });
-    found
 }
 
 fn header(proto: &str) -> String {

@@ -39,14 +39,8 @@ fn arguments(component: &Component) -> Vec<Doc> {
 
 fn annotation(gate: &Gate, names: &Names, imports: &Imports) -> Doc {
     let kind = gate.plan.kind;
-    let class = match kind {
-        GateKind::Pub => "_scl.Pub",
-        GateKind::Sub => "_scl.Sub",
-        GateKind::Req => "_scl.Req",
-        GateKind::Rep => "_scl.Rep",
-        GateKind::Push => "_scl.Push",
-        GateKind::Pull => "_scl.Pull",
-    };
+    // `Debug` prints the name of the variant, which is that of the class.
+    let class = format!("_scl.{kind:?}");
     let types = match gate.types.as_slice() {
         [] => bytes(kind, names, imports),
         types => types.iter().map(|used| message(gate, used, names, imports)).collect(),

@@ -75,9 +75,7 @@ fn sentence(gate: &Gate) -> String {
         Payload::Message(name) => format!("`{name}`"),
         Payload::Exchange { request, reply } => format!("`{request}` -> `{reply}`"),
     };
-    let peers = gate.plan.connections.iter().map(|it| format!("`{}.{}`", it.peer_component, it.peer_gate));
-    let peers: Vec<String> = peers.collect();
-    let peers = if peers.is_empty() { "no peer".to_owned() } else { peers.join(", ") };
+    let peers = if gate.plan.connections.is_empty() { "no peer".to_owned() } else { gate.quoted_peers() };
     gate.plan.kind.sentence(&message, &peers)
 }
 

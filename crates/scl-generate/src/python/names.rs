@@ -4,7 +4,7 @@ use super::Imports;
 use super::schema::{Schema, SchemaFile};
 use crate::identifier;
 use crate::system::{Component, Gate, System};
-use prost_types::DescriptorProto;
+use scl_loader::walk;
 use scl_topology::keywords::PYTHON_BUILTINS;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
@@ -83,13 +83,12 @@ pub(super) struct Names {
     /// By full name with a dot at its start, of messages and enums at any depth.
     types: HashMap<String, TypeName>,
     /// Names in the module, with their full names without a dot at the start.
-    messages: BTreeMap<String, String>,
-    enums: BTreeMap<String, String>,
+    pub(super) messages: BTreeMap<String, String>,
+    pub(super) enums: BTreeMap<String, String>,
     /// Attributes of classes, which hide names of the module inside of the class.
     attributes: BTreeSet<String>,
 }
 
-#[derive(Clone)]
 struct TypeName {
     /// `Everything.Inner`, or of well-known types `timestamp_pb2.Timestamp`.
     path: String,
@@ -124,53 +123,36 @@ impl Names {
             }
             identifier::python(name)
         };
-        for message in &file.file.message_type {
-            let (path, full_name) = (in_module(message.name()), file.full_name(message.name()));
-            if !is_well_known {
-                self.messages.insert(path.clone(), full_name[1..].to_owned());
+        let mut add = |path: &[&str], top_level: &mut BTreeMap<String, String>| {
+            let Some((first, inner)) = path.split_first() else { return };
+            let name = in_module(first);
+            let full_name = file.full_name(&path.join("."));
+            if inner.is_empty() && !is_well_known {
+                top_level.insert(name.clone(), full_name[1..].to_owned());
             }
-            self.add_message(message, &full_name, path, is_well_known);
-        }
-        for declared in &file.file.enum_type {
-            let (path, full_name) = (in_module(declared.name()), file.full_name(declared.name()));
-            if !is_well_known {
-                self.enums.insert(path.clone(), full_name[1..].to_owned());
-            }
+            let path = inner.iter().fold(name, |path, inner| format!("{path}.{}", identifier::python(inner)));
             self.types.insert(full_name, TypeName { path, is_well_known });
-        }
-    }
-
-    fn add_message(&mut self, message: &DescriptorProto, full_name: &str, path: String, is_well_known: bool) {
-        for nested in &message.nested_type {
-            let inner = format!("{path}.{}", identifier::python(nested.name()));
-            self.add_message(nested, &format!("{full_name}.{}", nested.name()), inner, is_well_known);
-        }
-        for declared in &message.enum_type {
-            let inner = format!("{path}.{}", identifier::python(declared.name()));
-            self.types.insert(format!("{full_name}.{}", declared.name()), TypeName { path: inner, is_well_known });
+        };
+        file.file.enum_type.iter().for_each(|declared| add(&[declared.name()], &mut self.enums));
+        for (path, message) in walk::messages(file.file) {
+            add(&path, &mut self.messages);
+            for declared in &message.enum_type {
+                add(&[path.as_slice(), &[declared.name()]].concat(), &mut self.enums);
+            }
             if !is_well_known {
-                self.attributes.insert(declared.name().to_owned());
-                self.attributes.extend(declared.value.iter().map(|value| value.name().to_owned()));
+                let values = message.enum_type.iter().flat_map(|declared| &declared.value).map(|value| value.name());
+                let enums = message.enum_type.iter().map(|declared| declared.name());
+                let nested = message.nested_type.iter().map(|nested| nested.name());
+                let fields = message.field.iter().map(|field| field.name());
+                let names = fields.chain(nested).chain(enums).chain(values);
+                self.attributes.extend(names.map(str::to_owned));
             }
         }
-        if !is_well_known {
-            self.attributes.extend(message.field.iter().map(|field| field.name().to_owned()));
-            self.attributes.extend(message.nested_type.iter().map(|nested| nested.name().to_owned()));
-        }
-        self.types.insert(full_name.to_owned(), TypeName { path, is_well_known });
     }
 
     /// The messages and enums of the module, with their full names.
     pub(super) fn top_level(&self) -> impl Iterator<Item = (&str, &str)> {
         self.messages.iter().chain(&self.enums).map(|(name, full_name)| (name.as_str(), full_name.as_str()))
-    }
-
-    pub(super) fn messages(&self) -> &BTreeMap<String, String> {
-        &self.messages
-    }
-
-    pub(super) fn enums(&self) -> &BTreeMap<String, String> {
-        &self.enums
     }
 
     /// The name of a top-level message or enum; `full_name` starts with a dot.
@@ -182,12 +164,13 @@ impl Names {
     pub(super) fn reference(&self, full_name: &str, imports: &Imports) -> String {
         // Every reference was resolved when the schemas were compiled.
         let Some(found) = self.types.get(full_name) else { return imports.of("typing", "Any") };
-        if found.is_well_known {
-            let module = found.path.split('.').next().unwrap_or_default();
-            return format!("{}{}", imports.of("google.protobuf", module), &found.path[module.len()..]);
-        }
         let head = found.path.split('.').next().unwrap_or_default();
-        if self.is_hidden(head) { format!("{}{}", alias(head), &found.path[head.len()..]) } else { found.path.clone() }
+        let shown = match found.is_well_known {
+            true => imports.of("google.protobuf", head),
+            false if self.is_hidden(head) => alias(head),
+            false => head.to_owned(),
+        };
+        shown + &found.path[head.len()..]
     }
 
     /// Whether an annotation in a class would mean something else: an attribute of the class, or what Python has

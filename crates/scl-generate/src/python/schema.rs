@@ -2,19 +2,11 @@
 
 use crate::system::System;
 use prost_types::FileDescriptorProto;
-use scl_loader::files_for;
+use scl_loader::{files_for, walk};
 use std::collections::{BTreeSet, HashMap};
 
 /// The path of a declaration inside its file, as in `google.protobuf.SourceCodeInfo`.
 pub(super) type Path = Vec<i32>;
-
-/// Fields of `FileDescriptorProto`, `DescriptorProto` and `EnumDescriptorProto` in paths.
-pub(super) const FILE_MESSAGE: i32 = 4;
-pub(super) const FILE_ENUM: i32 = 5;
-pub(super) const MESSAGE_FIELD: i32 = 2;
-pub(super) const MESSAGE_NESTED: i32 = 3;
-pub(super) const MESSAGE_ENUM: i32 = 4;
-pub(super) const ENUM_VALUE: i32 = 2;
 
 /// The files, each after the files that it imports.
 pub(super) struct Schema<'s> {
@@ -71,10 +63,7 @@ impl<'s> SchemaFile<'s> {
 
     /// The name with the package, and a dot at its start as references have it.
     pub(super) fn full_name(&self, name: &str) -> String {
-        match self.file.package() {
-            "" => format!(".{name}"),
-            package => format!(".{package}.{name}"),
-        }
+        format!(".{}", walk::full_name(self.file, &[name]))
     }
 }
 

@@ -1,8 +1,8 @@
 //! The part of the compiled schemas that describes some messages, as bytes that a program can carry.
 
-use super::Schemas;
+use super::{Schemas, walk};
 use prost::Message;
-use prost_types::{DescriptorProto, FileDescriptorProto, FileDescriptorSet};
+use prost_types::{FileDescriptorProto, FileDescriptorSet};
 use scl_topology::fingerprint;
 use std::collections::BTreeSet;
 
@@ -42,16 +42,7 @@ pub fn files_for<'a>(
 }
 
 fn declares_any(file: &FileDescriptorProto, messages: &BTreeSet<&str>) -> bool {
-    file.message_type.iter().any(|message| declares(message, file.package(), messages))
-}
-
-/// Whether the message or one that is nested in it is wanted.
-fn declares(message: &DescriptorProto, outer: &str, wanted: &BTreeSet<&str>) -> bool {
-    let name = match outer {
-        "" => message.name().to_owned(),
-        _ => format!("{outer}.{}", message.name()),
-    };
-    wanted.contains(name.as_str()) || message.nested_type.iter().any(|nested| declares(nested, &name, wanted))
+    walk::messages(file).iter().any(|(path, _)| messages.contains(walk::full_name(file, path).as_str()))
 }
 
 /// The names of these files and of all files that they import, directly or not.

@@ -5,6 +5,7 @@ use crate::python::{docs, names};
 use crate::writer::Writer;
 use prost_types::field_descriptor_proto::{Label, Type};
 use prost_types::{DescriptorProto, FieldDescriptorProto};
+use scl_loader::walk::is_map_entry;
 
 /// A field with its types.
 pub(super) struct Field<'a> {
@@ -26,7 +27,7 @@ impl<'a> Field<'a> {
         messages: &Messages<'_>,
         message: &DescriptorProto,
         field: &'a FieldDescriptorProto,
-        scope: Scope<'_>,
+        scope: &Scope<'_>,
     ) -> Self {
         let is_message = matches!(field.r#type(), Type::Message | Type::Group);
         let is_repeated = field.label() == Label::Repeated;
@@ -61,11 +62,10 @@ impl<'a> Field<'a> {
     }
 
     pub(super) fn write(&self, messages: &Messages<'_>, comment: Option<&str>, is_first: &mut bool, out: &mut Writer) {
+        separate(is_first, out);
         if !names::is_attribute(self.name) {
-            separate(is_first, out);
             out.line(format!("# {0}: no attribute of Python, so `getattr(message, \"{0}\")`", self.name));
         } else if self.is_changed_in_place {
-            separate(is_first, out);
             out.line(format!("@{}", messages.names.builtin("property", messages.imports)));
             match comment {
                 None => out.line(format!("def {}(self) -> {}: ...", self.name, self.read)),
@@ -79,7 +79,6 @@ impl<'a> Field<'a> {
                 }
             }
         } else {
-            separate(is_first, out);
             out.line(format!("{}: {}", self.name, self.read));
             if let Some(comment) = comment {
                 docs::write(comment, out);
@@ -90,7 +89,7 @@ impl<'a> Field<'a> {
 
 fn map_entry<'m>(message: &'m DescriptorProto, field: &FieldDescriptorProto) -> Option<&'m DescriptorProto> {
     let last = field.type_name().rsplit('.').next()?;
-    let is_entry = |it: &&DescriptorProto| it.name() == last && it.options.as_ref().is_some_and(|it| it.map_entry());
+    let is_entry = |it: &&DescriptorProto| it.name() == last && is_map_entry(it);
     (field.r#type() == Type::Message).then(|| message.nested_type.iter().find(is_entry))?
 }
 

@@ -12,7 +12,7 @@ pub(super) fn write(
     messages: &Messages<'_>,
     message: &DescriptorProto,
     fields: &[Field<'_>],
-    scope: Scope<'_>,
+    scope: &Scope<'_>,
     is_first: &mut bool,
     out: &mut Writer,
 ) {

@@ -1,7 +1,11 @@
 //! Every name that prost's generator writes for the schemas, with the scope that it must be unique in.
 
 use super::names::{snake_case, upper_camel_case, variant};
-use super::paths::{dotted, is_map_entry, package_parts};
+use super::paths::package_parts;
+use crate::schemas::walk::{
+    ENUM_VALUE, FILE_ENUM, FILE_MESSAGE, FILE_PACKAGE, MESSAGE_ENUM, MESSAGE_FIELD, MESSAGE_NESTED, MESSAGE_ONEOF,
+    NAME, dotted, is_map_entry,
+};
 use prost_types::field_descriptor_proto::{Label, Type};
 use prost_types::{DescriptorProto, EnumDescriptorProto, FieldDescriptorProto, FileDescriptorProto};
 use scl_topology::model::Model;
@@ -33,17 +37,6 @@ pub(super) enum Origin<'f> {
 
 /// The scope of the components, and of what is generated beside them.
 const ROOT: &str = "in the module that calls the macro";
-
-// Fields of `FileDescriptorProto`, `DescriptorProto` and `EnumDescriptorProto` in paths.
-pub(super) const FILE_PACKAGE: i32 = 2;
-const FILE_MESSAGE: i32 = 4;
-const FILE_ENUM: i32 = 5;
-const MESSAGE_FIELD: i32 = 2;
-const MESSAGE_NESTED: i32 = 3;
-const MESSAGE_ENUM: i32 = 4;
-const MESSAGE_ONEOF: i32 = 8;
-const ENUM_VALUE: i32 = 2;
-const NAME: i32 = 1;
 
 /// The components, and the counterparts that the macro generates beside them.
 pub(super) fn of_components(model: &Model) -> impl Iterator<Item = Declared<'static>> {

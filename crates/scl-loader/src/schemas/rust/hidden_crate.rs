@@ -1,10 +1,10 @@
 //! SCL0418: a package whose Rust module hides a crate.
 
-use super::declared::FILE_PACKAGE;
 use super::names::snake_case;
 use super::paths::package_parts;
 use crate::request::Request;
 use crate::schemas::place::Places;
+use crate::schemas::walk::FILE_PACKAGE;
 use prost_types::FileDescriptorProto;
 use scl_topology::diagnostic::Diagnostic;
 use scl_topology::external::HIDDEN_CRATE;
