@@ -1,22 +1,22 @@
 //! Names of the topology as identifiers of other languages: keywords get a trailing underscore, as `protoc` does it.
 
-use scl_topology::keywords::{CPP, PYTHON};
+use scl_topology::keywords::{is_cpp, is_python};
 
 /// Keywords of C that are not keywords of C++, and macros that gcc defines unless told to follow the standard.
 const C_ONLY: [&str; 6] = ["errno", "linux", "restrict", "typeof", "typeof_unqual", "unix"];
 
 /// An identifier of C and C++. Both languages escape the keywords of both, so that a C header works in C++.
 pub(crate) fn c_family(name: &str) -> String {
-    escaped(name, &[&CPP, &C_ONLY])
+    escaped(name, is_cpp(name) || C_ONLY.contains(&name))
 }
 
 /// An identifier of Python.
 pub(crate) fn python(name: &str) -> String {
-    escaped(name, &[&PYTHON])
+    escaped(name, is_python(name))
 }
 
-fn escaped(name: &str, keywords: &[&[&str]]) -> String {
-    if keywords.iter().any(|words| words.contains(&name)) { format!("{name}_") } else { name.to_owned() }
+fn escaped(name: &str, is_keyword: bool) -> String {
+    if is_keyword { format!("{name}_") } else { name.to_owned() }
 }
 
 #[cfg(test)]

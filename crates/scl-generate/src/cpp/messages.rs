@@ -6,7 +6,7 @@ use prost_types::{DescriptorProto, FileDescriptorProto};
 use scl_loader::walk::{full_name, is_map_entry, messages};
 use scl_topology::diagnostic::Diagnostic;
 use scl_topology::external::UNWRITABLE_NAME;
-use scl_topology::keywords::CPP;
+use scl_topology::keywords::is_cpp;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// The messages of the schemas by their dotted names.
@@ -121,7 +121,7 @@ const ESCAPED_BY_SOME: [&str; 10] = [
 
 /// A name as protoc writes it. It knows no macros but `NULL`.
 fn protoc_identifier(name: &str) -> String {
-    let is_escaped = name == "NULL" || CPP.contains(&name) && !ESCAPED_BY_SOME.contains(&name);
+    let is_escaped = name == "NULL" || is_cpp(name) && !ESCAPED_BY_SOME.contains(&name);
     if is_escaped { format!("{name}_") } else { name.to_owned() }
 }
 
@@ -136,7 +136,7 @@ pub(super) fn unwritable(system: &System) -> Vec<Diagnostic> {
         let found = files(system).flat_map(|file| types(file).map(move |(path, _)| (file, path)));
         let (file, path) = found.into_iter().find(|(file, path)| full_name(file, path) == *message)?;
         let path = path.join("_");
-        let is_reserved = |part: &&str| *part == "NULL" || CPP.contains(part);
+        let is_reserved = |part: &&str| *part == "NULL" || is_cpp(part);
         let headline = if let Some(part) = package(file).find(is_reserved) {
             format!("`{part}` in the package of `{message}` is reserved in C++, and protoc does not escape it there")
         } else if ESCAPED_BY_SOME.contains(&path.as_str()) {

@@ -5,7 +5,6 @@ use super::schema::{Schema, SchemaFile};
 use crate::identifier;
 use crate::system::{Component, Gate, System};
 use scl_loader::walk;
-use scl_topology::keywords::PYTHON_BUILTINS;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// Names that the module has besides components and messages.
@@ -17,31 +16,31 @@ pub(super) const OF_COMPONENTS: &[&str] =
     &["close", "fileno", "gates", "name", "ready", "ready_async", "system", "wait"];
 
 /// Names of `google.protobuf.message.Message`: fields of these names are reached by `getattr` only.
-const OF_MESSAGES: &[&str] = &[
-    "ByteSize",
-    "Clear",
-    "ClearExtension",
-    "ClearField",
-    "CopyFrom",
-    "DESCRIPTOR",
-    "DiscardUnknownFields",
-    "Extensions",
-    "FindInitializationErrors",
-    "FromString",
-    "HasExtension",
-    "HasField",
-    "IsInitialized",
-    "ListFields",
-    "MergeFrom",
-    "MergeFromString",
-    "ParseFromString",
-    "RegisterExtension",
-    "SerializePartialToString",
-    "SerializeToString",
-    "SetInParent",
-    "UnknownFields",
-    "WhichOneof",
-];
+const OF_MESSAGES: &str = "ByteSize Clear ClearExtension ClearField CopyFrom DESCRIPTOR DiscardUnknownFields \
+                           Extensions FindInitializationErrors FromString HasExtension HasField IsInitialized \
+                           ListFields MergeFrom MergeFromString ParseFromString RegisterExtension \
+                           SerializePartialToString SerializeToString SetInParent UnknownFields WhichOneof";
+
+/// What every module of Python has without an import.
+const PYTHON_BUILTINS: &str = "ArithmeticError AssertionError AttributeError BaseException BaseExceptionGroup \
+                               BlockingIOError BrokenPipeError BufferError BytesWarning ChildProcessError \
+                               ConnectionAbortedError ConnectionError ConnectionRefusedError ConnectionResetError \
+                               DeprecationWarning EOFError Ellipsis EncodingWarning EnvironmentError Exception \
+                               ExceptionGroup FileExistsError FileNotFoundError FloatingPointError FutureWarning \
+                               GeneratorExit IOError ImportError ImportWarning IndentationError IndexError \
+                               InterruptedError IsADirectoryError KeyError KeyboardInterrupt LookupError MemoryError \
+                               ModuleNotFoundError NameError NotADirectoryError NotImplemented NotImplementedError \
+                               OSError OverflowError PendingDeprecationWarning PermissionError ProcessLookupError \
+                               RecursionError ReferenceError ResourceWarning RuntimeError RuntimeWarning \
+                               StopAsyncIteration StopIteration SyntaxError SyntaxWarning SystemError SystemExit \
+                               TabError TimeoutError TypeError UnboundLocalError UnicodeDecodeError UnicodeEncodeError \
+                               UnicodeError UnicodeTranslateError UnicodeWarning UserWarning ValueError Warning \
+                               ZeroDivisionError abs aiter all anext any ascii bin bool breakpoint bytearray bytes \
+                               callable chr classmethod compile complex delattr dict dir divmod enumerate eval exec \
+                               filter float format frozenset getattr globals hasattr hash help hex id input int \
+                               isinstance issubclass iter len list locals map max memoryview min next object oct open \
+                               ord pow print property range repr reversed round set setattr slice sorted staticmethod \
+                               str sum super tuple type vars zip";
 
 /// Names of `builtins` that annotations use.
 const BUILTINS: &[&str] = &["bool", "bytes", "classmethod", "float", "int", "list", "property", "str", "tuple"];
@@ -67,7 +66,7 @@ pub(super) fn gate(gate: &Gate) -> String {
 /// Whether a field can be written as an attribute.
 pub(super) fn is_attribute(field: &str) -> bool {
     // Python rewrites names that start with two underscores inside of classes.
-    identifier::python(field) == field && !OF_MESSAGES.contains(&field) && !field.starts_with("__")
+    identifier::python(field) == field && !has_word(OF_MESSAGES, field) && !field.starts_with("__")
 }
 
 /// Methods of enums: values of these names are reached by `Value` only.
@@ -176,7 +175,7 @@ impl Names {
     /// Whether an annotation in a class would mean something else: an attribute of the class, or what Python has
     /// itself, which mypy takes for a name that the module declares further down.
     fn is_hidden(&self, name: &str) -> bool {
-        self.attributes.contains(name) || PYTHON_BUILTINS.contains(&name)
+        self.attributes.contains(name) || has_word(PYTHON_BUILTINS, name)
     }
 
     /// Hidden names of the module, and the name by which annotations reach them.
@@ -196,6 +195,10 @@ impl Names {
     }
 }
 
+fn has_word(words: &str, name: &str) -> bool {
+    words.split(' ').any(|word| word == name)
+}
+
 fn alias(name: &str) -> String {
     format!("_type_{name}")
 }
@@ -209,4 +212,19 @@ fn ambiguous_names<'s>(schema: &Schema<'s>) -> HashSet<&'s str> {
         messages.chain(file.enum_type.iter().map(|it| it.name()))
     });
     names.filter(|name| !seen.insert(*name)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{OF_MESSAGES, PYTHON_BUILTINS};
+
+    #[test]
+    fn names_are_listed_once() {
+        for words in [OF_MESSAGES, PYTHON_BUILTINS] {
+            let mut sorted: Vec<&str> = words.split(' ').collect();
+            sorted.sort_unstable();
+            sorted.dedup();
+            assert_eq!(sorted.len(), words.split(' ').count());
+        }
+    }
 }

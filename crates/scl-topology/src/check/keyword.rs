@@ -3,7 +3,7 @@
 
 use super::named::{Noun, is_well_formed, names};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
-use crate::keywords::{CPP, PYTHON};
+use crate::keywords::{is_cpp, is_python};
 use crate::model::Model;
 use crate::rust_name::{component_type, gate_field, is_keyword, is_unescapable};
 use crate::source::Spanned;
@@ -145,11 +145,8 @@ fn check_foreign(model: &Model, problems: &mut Diagnostics) {
 /// `spelling` is the name in the case of a field, a module or a class.
 fn find_foreign(noun: Noun, name: &Spanned<String>, spelling: &str) -> Option<Diagnostic> {
     let start = format!("{} name `{}`", noun.word(), name.value);
-    let languages: Vec<&str> = [("C++", &CPP[..]), ("Python", &PYTHON)]
-        .iter()
-        .filter(|(_, words)| words.contains(&spelling))
-        .map(|it| it.0)
-        .collect();
+    let languages = [("C++", is_cpp(spelling)), ("Python", is_python(spelling))];
+    let languages: Vec<&str> = languages.into_iter().filter(|(_, has_it)| *has_it).map(|(name, _)| name).collect();
     let headline = match languages.as_slice() {
         // Those at the start are an error of their own.
         [] if spelling.trim_start_matches('_').contains("__") => {
