@@ -1,6 +1,7 @@
 //! Circles in a graph of components, for the rules about the graph as a whole. Takes linear time.
 
 use super::draft::Draft;
+use crate::source::Span;
 use crate::work;
 use std::collections::{HashMap, HashSet, VecDeque};
 
@@ -135,6 +136,11 @@ impl Graph {
         }
         knot
     }
+}
+
+/// The connection that makes a step, as it is written.
+pub(super) fn place(draft: &Draft<'_>, step: &Step) -> Span {
+    draft.links[step.link].model.span
 }
 
 /// The components of a circle, for a headline: `` `a` -> `b` -> `a` ``.

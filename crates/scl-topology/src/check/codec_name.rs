@@ -1,6 +1,7 @@
 //! SCL0407: a word that is no codec. Sets the codecs that gates name themselves.
 
 use super::draft::Draft;
+use super::named::is_word;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::rust_name::{is_keyword, is_unescapable};
 use crate::source::Spanned;
@@ -47,9 +48,6 @@ fn codec_of(word: &str) -> Option<Codec> {
 
 fn is_rust_path(text: &str) -> bool {
     let path = text.strip_prefix("::").unwrap_or(text);
-    let is_word = |word: &str| {
-        word.starts_with(super::named::may_start) && word.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
-    };
     text.contains("::") && path.split("::").all(is_word) && keyword_in(text).is_none()
 }
 

@@ -7,13 +7,13 @@ mod tests;
 
 pub(super) use report::drop_messages;
 
-use super::circles::Step;
+use super::circles::{Step, place};
 use super::draft::Draft;
 use super::feedback::PUSHES;
 use super::waits::{self, Call, Wait};
 use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::topology::GateKind;
-use report::{HEADLINE, is_request, kind, place, report, waiting};
+use report::{HEADLINE, is_request, kind, report, waiting};
 use std::collections::HashSet;
 
 /// SCL0707.

@@ -148,6 +148,34 @@ impl<'m> Draft<'m> {
         links.filter_map(|(index, link)| link.flow.map(|(source, sink)| (index, source, sink)))
     }
 
+    /// By gate: its connections whose ends fit, with the gate at the other end.
+    pub(super) fn links_by_gate(&self) -> Vec<Vec<(usize, usize)>> {
+        let mut links = vec![Vec::new(); self.gates.len()];
+        for (link, source, sink) in self.flows() {
+            links[source].push((link, sink));
+            links[sink].push((link, source));
+        }
+        links
+    }
+
+    /// Whether the kind of a gate fits that at the other end of a connection, as far as both are known.
+    pub(super) fn fits(&self, [link, end]: [usize; 2], gate: usize) -> bool {
+        let other = self.links[link].ends[1 - end].and_then(|other| self.gates[other].kind);
+        match (other, self.gates[gate].kind) {
+            (Some(other), Some(kind)) => kind == other.opposite(),
+            _ => true,
+        }
+    }
+
+    /// A gate in quotes with its kind, if that is known: `` `commands` (rep)``.
+    pub(super) fn name_and_kind(&self, gate: usize) -> String {
+        let model = self.gates[gate].model;
+        match model.kind.value.as_str() {
+            "" => format!("`{}`", model.name.value),
+            kind => format!("`{}` ({kind})", model.name.value),
+        }
+    }
+
     /// Where a connection writes a gate.
     pub(super) fn end_span(&self, link: usize, gate: usize) -> Span {
         let link = &self.links[link];

@@ -1,10 +1,9 @@
 //! SCL0301: two components of one name. SCL0302: two gates of one name in a component. A connection could not say which
 //! it means.
 
+use super::named::{Name, with_first};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::model::Model;
-use crate::source::Spanned;
-use std::collections::HashMap;
 
 /// SCL0301.
 pub(crate) const COMPONENT: Rule = Rule {
@@ -53,14 +52,10 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     }
 }
 
-type Name = Spanned<String>;
-
 /// The names that an earlier one equals, each after the first.
-fn repeated<'m>(names: impl Iterator<Item = &'m Name>) -> Vec<(&'m Name, &'m Name)> {
-    let mut first = HashMap::new();
-    let pairs = names.map(|name| (*first.entry(name.value.as_str()).or_insert(name), name));
+fn repeated<'m>(names: impl Iterator<Item = &'m Name>) -> impl Iterator<Item = (&'m Name, &'m Name)> {
     // Compared by place in the model: a name is its own first declaration.
-    pairs.filter(|(first, name)| !std::ptr::eq(*first, *name)).collect()
+    with_first(names, |name| name).filter(|(first, name)| !std::ptr::eq(*first, *name))
 }
 
 fn report(rule: &'static Rule, headline: String, first: &Name, second: &Name) -> Diagnostic {

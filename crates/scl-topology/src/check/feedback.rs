@@ -1,10 +1,9 @@
 //! Messages that come back to the component that sent them. SCL0708: work that is lost on the way. SCL0709, a lint.
 
-use super::circles::{self, Circle, Graph, Step};
+use super::circles::{self, Circle, Graph, Step, place};
 use super::draft::Draft;
 use super::waits;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
-use crate::source::Span;
 use crate::topology::GateKind;
 
 /// SCL0708.
@@ -100,10 +99,6 @@ fn messages(draft: &Draft<'_>, Circle { steps, .. }: &Circle) -> Diagnostic {
     LOOP.at(headline, place(draft, &steps[0]), "").labels(others).note(
         "fine for a control loop; a component that sends at once for each message it receives would flood the system",
     )
-}
-
-fn place(draft: &Draft<'_>, step: &Step) -> Span {
-    draft.links[step.link].model.span
 }
 
 #[cfg(test)]

@@ -49,7 +49,7 @@ pub(crate) const TAKEN_OVER: Rule = Rule {
 };
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
-    let peers = peers(draft);
+    let peers = draft.links_by_gate();
     take_over_types(draft, &peers);
     take_over_codecs(draft, &peers);
     for gate in 0..draft.gates.len() {
@@ -65,22 +65,13 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     }
 }
 
-fn peers(draft: &Draft<'_>) -> Vec<Vec<usize>> {
-    let mut peers = vec![Vec::new(); draft.gates.len()];
-    for (_, source, sink) in draft.flows() {
-        peers[source].push(sink);
-        peers[sink].push(source);
-    }
-    peers
-}
-
 /// Types spread from the gates that have one, breadth first, so that each gate gets that of its nearest peer, and of
 /// several the first in the file.
-fn take_over_types(draft: &mut Draft<'_>, peers: &[Vec<usize>]) {
+fn take_over_types(draft: &mut Draft<'_>, peers: &[Vec<(usize, usize)>]) {
     let is_typed = |gate: &usize| !matches!(draft.gates[*gate].payload, None | Some(Payload::Bytes));
     let mut reached: VecDeque<usize> = (0..draft.gates.len()).filter(is_typed).collect();
     while let Some(gate) = reached.pop_front() {
-        for &peer in &peers[gate] {
+        for &(_, peer) in &peers[gate] {
             if draft.gates[peer].payload == Some(Payload::Bytes) {
                 draft.gates[peer].payload = draft.gates[gate].payload.clone();
                 draft.gates[peer].payload_from = Some(draft.gates[gate].payload_from.unwrap_or(gate));
@@ -90,11 +81,11 @@ fn take_over_types(draft: &mut Draft<'_>, peers: &[Vec<usize>]) {
     }
 }
 
-fn take_over_codecs(draft: &mut Draft<'_>, peers: &[Vec<usize>]) {
-    let mut reached: VecDeque<usize> =
-        (0..draft.gates.len()).filter(|&gate| draft.gates[gate].codec.is_some()).collect();
+fn take_over_codecs(draft: &mut Draft<'_>, peers: &[Vec<(usize, usize)>]) {
+    let has_codec = |gate: &usize| draft.gates[*gate].codec.is_some();
+    let mut reached: VecDeque<usize> = (0..draft.gates.len()).filter(has_codec).collect();
     while let Some(gate) = reached.pop_front() {
-        for &peer in &peers[gate] {
+        for &(_, peer) in &peers[gate] {
             if draft.gates[peer].codec.is_none() && !draft.gates[peer].codec_broken {
                 draft.gates[peer].codec = draft.gates[gate].codec.clone();
                 reached.push_back(peer);

@@ -41,7 +41,7 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
 
 /// What the name must not contain, in words.
 fn forbidden(name: &str) -> Option<String> {
-    if name.is_empty() || has_foreign_letter(name) {
+    if name.is_empty() || name.chars().any(is_foreign) {
         return None;
     }
     match name.chars().find(|&letter| !is_allowed(letter)) {
@@ -108,10 +108,6 @@ const TRANSLITERATIONS: [(&str, &str); 22] = [
     ("µμ", "u"),
 ];
 
-fn has_foreign_letter(name: &str) -> bool {
-    name.chars().any(is_foreign)
-}
-
 fn is_foreign(letter: char) -> bool {
     !letter.is_ascii() && letter.is_alphabetic()
 }
@@ -123,12 +119,12 @@ fn foreign_letter(noun: Noun, name: &Spanned<String>, letter: char) -> Diagnosti
         noun.word(),
         name.value
     );
-    let found = LETTER.at(&*headline, name.span, "allowed: a-z A-Z 0-9 _ -").about(&*headline);
-    let found = match retyped(&name.value) {
-        Some(ascii) => found.help(format!("write `{ascii}`")),
-        None => found.help("write the name in ASCII letters"),
-    };
-    found.note("names are ASCII, so that the file, the socket paths and all language bindings agree")
+    let help = retyped(&name.value).map_or("write the name in ASCII letters".to_owned(), |it| format!("write `{it}`"));
+    LETTER
+        .at(&*headline, name.span, "allowed: a-z A-Z 0-9 _ -")
+        .about(&*headline)
+        .help(help)
+        .note("names are ASCII, so that the file, the socket paths and all language bindings agree")
 }
 
 /// The name in ASCII, if each of its letters has a usual replacement.
@@ -172,11 +168,10 @@ const ORDINALS: [(&str, &str); 9] = [
 fn wrong_start(noun: Noun, name: &Spanned<String>, first: char) -> Diagnostic {
     let headline = format!("a {} name must start with a letter", noun.word());
     let start = if first == '-' { "starts with a hyphen" } else { "starts with a digit" };
-    let found = START.at(headline, name.span, start);
-    match alternatives(&name.value) {
-        Some(ways) => found.help(format!("for example {ways}")),
-        None => found.help("put a word before it"),
-    }
+    let ways = alternatives(&name.value);
+    START
+        .at(headline, name.span, start)
+        .help(ways.map_or("put a word before it".to_owned(), |it| format!("for example {it}")))
 }
 
 /// `2nd_sensor` could be `second_sensor` or `sensor_2`.

@@ -2,6 +2,14 @@
 
 use crate::model::Model;
 use crate::source::Spanned;
+use std::collections::HashMap;
+use std::hash::Hash;
+
+/// A name and its place.
+pub(super) type Name = Spanned<String>;
+
+/// The longest name of a component or gate, in characters.
+pub(super) const LONGEST_NAME: usize = 64;
 
 /// What a name names, as messages say it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,7 +30,7 @@ impl Noun {
 }
 
 /// Every name that the file declares.
-pub(super) fn names(model: &Model) -> impl Iterator<Item = (Noun, &Spanned<String>)> {
+pub(super) fn names(model: &Model) -> impl Iterator<Item = (Noun, &Name)> {
     let system = model.system.iter().map(|name| (Noun::System, name));
     let declared = model.components.iter().flat_map(|component| {
         let gates = component.gates.iter().map(|gate| (Noun::Gate, &gate.name));
@@ -34,6 +42,20 @@ pub(super) fn names(model: &Model) -> impl Iterator<Item = (Noun, &Spanned<Strin
 /// Whether the rules of spelling hold, so that the rules of meaning may look at the name.
 pub(super) fn is_well_formed(name: &str) -> bool {
     name.chars().all(is_allowed) && !name.contains("--") && name.starts_with(may_start)
+}
+
+/// Whether it is a word of ASCII letters, digits and `_` that does not start with a digit.
+pub(super) fn is_word(word: &str) -> bool {
+    word.starts_with(may_start) && word.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
+}
+
+/// Each name with the first one that has the same key, which may be itself.
+pub(super) fn with_first<'m, K: Eq + Hash>(
+    names: impl Iterator<Item = &'m Name>,
+    key: impl Fn(&'m str) -> K,
+) -> impl Iterator<Item = (&'m Name, &'m Name)> {
+    let mut first = HashMap::new();
+    names.map(move |name| (*first.entry(key(&name.value)).or_insert(name), name))
 }
 
 pub(super) fn is_allowed(letter: char) -> bool {

@@ -2,7 +2,7 @@
 //! shortened instead, see [`resolve`](crate::resolve).
 
 use super::draft::Draft;
-use super::named::is_well_formed;
+use super::named::{LONGEST_NAME, is_well_formed};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::resolve::{CONTRACT_LENGTH, TAP};
 use crate::socket_paths::SocketPaths;
@@ -24,14 +24,12 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-/// Names longer than this have an error of their own.
-const LONGEST_NAME: usize = 64;
-
 pub(super) fn check(draft: &Draft<'_>, paths: &SocketPaths, system: &str, problems: &mut Diagnostics) {
     let folder = paths.folder(system);
     for (at, gate) in draft.gates.iter().enumerate() {
         let Some(ending) = gate.kind.and_then(longest_ending) else { continue };
         let names = [draft.component_name(at), &gate.model.name.value];
+        // Longer names have an error of their own.
         if gate.duplicate || names.iter().any(|name| name.len() > LONGEST_NAME || !is_well_formed(name)) {
             continue;
         }

@@ -2,8 +2,9 @@
 //! of every other gate.
 
 use super::draft::{Draft, DraftGate};
+use super::named;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
-use crate::source::Spanned;
+use crate::source::{Span, Spanned};
 use crate::topology::{GateKind, Payload, TypeName};
 
 /// SCL0403.
@@ -64,7 +65,7 @@ fn read_payload(
         let span = if parts.len() == 1 { written.span } else { draft.part(written.span, part, at > 0) };
         match fault(part) {
             None => types.push(TypeName { dotted: (*part).to_owned(), span, in_schemas: false }),
-            Some(fault) => problems.push(no_type(part, span, &fault)),
+            Some(fault) => problems.push(no_type(part, span, fault)),
         }
     }
     if types.len() != parts.len() {
@@ -90,6 +91,7 @@ fn fit(kind: GateKind, types: Vec<TypeName>) -> Option<Payload> {
 fn misfit(gate: &DraftGate<'_>, kind: GateKind, written: &Spanned<String>, parts: &[&str]) -> Diagnostic {
     let name = &gate.model.name.value;
     let word = kind.word();
+    let given = format!("{} types are given", parts.len());
     match (kind, parts) {
         (GateKind::Req | GateKind::Rep, [only]) => {
             let takes = match kind {
@@ -103,11 +105,10 @@ fn misfit(gate: &DraftGate<'_>, kind: GateKind, written: &Spanned<String>, parts
         }
         (GateKind::Req | GateKind::Rep, _) => {
             let headline = format!("a `{word}` gate has two types, a request and its reply");
-            WRONG_NUMBER_OF_TYPES.at(headline, written.span, format!("{} types are given", parts.len())).help(format!(
-                "write `{name}: {{{word}: {} -> {}}}`",
-                parts[0],
-                parts[parts.len() - 1]
-            ))
+            let (first, last) = (parts[0], parts[parts.len() - 1]);
+            WRONG_NUMBER_OF_TYPES
+                .at(headline, written.span, given)
+                .help(format!("write `{name}: {{{word}: {first} -> {last}}}`"))
         }
         _ => {
             let (does, meant) = match kind {
@@ -116,7 +117,7 @@ fn misfit(gate: &DraftGate<'_>, kind: GateKind, written: &Spanned<String>, parts
             };
             let headline = format!("a `{word}` gate {does}; did you mean `{meant}`?");
             WRONG_NUMBER_OF_TYPES
-                .at(headline, written.span, format!("{} types are given", parts.len()))
+                .at(headline, written.span, given)
                 .help(format!("write `{name}: {{{word}: {}}}`", parts[0]))
                 .help(format!("or `{name}: {{{meant}: {}}}`", written.value.trim()))
         }
@@ -124,24 +125,15 @@ fn misfit(gate: &DraftGate<'_>, kind: GateKind, written: &Spanned<String>, parts
 }
 
 /// Why a text is no type name, and what to write instead.
-struct Fault {
-    label: &'static str,
-    help: String,
-}
-
-fn fault(text: &str) -> Option<Fault> {
-    let is_word = |word: &str| {
-        word != "_"
-            && word.starts_with(super::named::may_start)
-            && word.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
-    };
+fn fault(text: &str) -> Option<(&'static str, String)> {
+    let is_word = |word: &str| word != "_" && named::is_word(word);
     if text.split('.').all(is_word) {
         return None;
     }
     let dotted = text.trim_start_matches("::").replace("::", ".");
     let owned = text.trim_start_matches('&').trim_start_matches("mut ").trim();
     let owned = if owned == "str" { "String" } else { owned };
-    let (label, help) = match text {
+    Some(match text {
         "" => ("nothing stands here", "write a type, for example `Status`".to_owned()),
         _ if text.starts_with('&') => ("a reference", format!("use an owned type: `{owned}`")),
         _ if dotted != text && dotted.split('.').all(is_word) => ("a Rust path", format!("write `{dotted}`")),
@@ -154,16 +146,15 @@ fn fault(text: &str) -> Option<Fault> {
             ("a part between the dots is empty", "write each part of the name".to_owned())
         }
         _ => ("not a dotted name", "write a name such as `uav.Measurement`".to_owned()),
-    };
-    Some(Fault { label, help })
+    })
 }
 
-fn no_type(text: &str, span: crate::source::Span, fault: &Fault) -> Diagnostic {
+fn no_type(text: &str, span: Span, (label, help): (&str, String)) -> Diagnostic {
     let headline = match text {
         "" => "a message type is missing".to_owned(),
         _ => format!("`{text}` cannot be a message type"),
     };
-    NO_TYPE_NAME.at(headline, span, fault.label).help(&*fault.help).note(
+    NO_TYPE_NAME.at(headline, span, label).help(help).note(
         "a message type is a dotted name, such as `uav.Measurement`: words of letters, digits and `_`, joined by `.`",
     )
 }

@@ -111,7 +111,7 @@ const MANY: u32 = 32;
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     let threshold = control::threshold(draft.model, &MANY_PEERS).unwrap_or(MANY);
-    for (gate, links) in links_by_gate(draft).into_iter().enumerate() {
+    for (gate, links) in draft.links_by_gate().into_iter().enumerate() {
         let Some(kind) = draft.gates[gate].kind else { continue };
         match kind {
             _ if links.len() < 2 => {}
@@ -125,16 +125,6 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
             problems.push(many_peers(draft, gate, kind, count, threshold));
         }
     }
-}
-
-/// The connections of each gate, with the gate at the other end.
-fn links_by_gate(draft: &Draft<'_>) -> Vec<Vec<(usize, usize)>> {
-    let mut links = vec![Vec::new(); draft.gates.len()];
-    for (link, source, sink) in draft.flows() {
-        links[source].push((link, sink));
-        links[sink].push((link, source));
-    }
-    links
 }
 
 fn several_publishers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) -> Diagnostic {

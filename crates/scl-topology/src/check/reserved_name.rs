@@ -1,7 +1,7 @@
 //! SCL0311: names that the framework keeps for itself, so that it can grow without breaking a file. SCL0312: a name
 //! that leaves no room for the others in a socket path.
 
-use super::named::{Noun, names};
+use super::named::{LONGEST_NAME, Noun, names};
 use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::model::Model;
 
@@ -32,9 +32,6 @@ pub(crate) const TOO_LONG: Rule = Rule {
 +    gates: []
 ",
 };
-
-/// The longest name of a component or gate, in characters.
-const LONGEST_NAME: usize = 64;
 
 /// The longest name of a system: at least 41 bytes of a socket path remain for the names of gates.
 const LONGEST_SYSTEM: usize = 40;

@@ -43,14 +43,8 @@ pub(super) fn check(draft: &Draft<'_>, room: usize, problems: &mut Diagnostics) 
 /// The numbers that share a name with an earlier one.
 fn twins(names: Vec<(String, usize)>) -> Vec<(String, usize, usize)> {
     let mut first: HashMap<String, usize> = HashMap::new();
-    let mut found = Vec::new();
-    for (name, number) in names {
-        match first.get(&name) {
-            Some(&other) => found.push((name, other, number)),
-            None => drop(first.insert(name, number)),
-        }
-    }
-    found
+    let pairs = names.into_iter().map(|(name, number)| (*first.entry(name.clone()).or_insert(number), name, number));
+    pairs.filter(|(first, _, number)| first != number).map(|(first, name, number)| (name, first, number)).collect()
 }
 
 #[cfg(test)]

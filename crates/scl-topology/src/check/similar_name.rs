@@ -1,11 +1,10 @@
 //! SCL0308 and SCL0309: names that differ in the file and would be one in Rust. SCL0310: names that only letter case
 //! and `_` tell apart.
 
-use super::named::is_well_formed;
+use super::named::{Name, is_well_formed, with_first};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::model::Model;
 use crate::rust_name::{component_type, gate_field};
-use crate::source::Spanned;
 use std::collections::HashMap;
 
 /// SCL0308.
@@ -81,26 +80,14 @@ fn check_peers(model: &Model, problems: &mut Diagnostics) {
     }
 }
 
-type Name = Spanned<String>;
-
 /// The names that meet an earlier, different name in Rust. Equal names are another rule's.
 fn collisions<'m>(
     names: impl Iterator<Item = &'m Name>,
     rust: fn(&str) -> String,
-) -> Vec<(&'m Name, &'m Name, String)> {
-    let mut first: HashMap<String, &Name> = HashMap::new();
-    let mut found = Vec::new();
-    for name in names.filter(|name| is_well_formed(&name.value)) {
-        let rust = rust(&name.value);
-        match first.get(&rust) {
-            Some(other) if other.value != name.value => found.push((*other, name, rust)),
-            Some(_) => {}
-            None => {
-                first.insert(rust, name);
-            }
-        }
-    }
-    found
+) -> impl Iterator<Item = (&'m Name, &'m Name, String)> {
+    let names = names.filter(|name| is_well_formed(&name.value));
+    let different = with_first(names, rust).filter(|(first, name)| first.value != name.value);
+    different.map(move |(first, name)| (first, name, rust(&name.value)))
 }
 
 fn collision(rule: &'static Rule, headline: String, [first, second]: [&Name; 2], rust: &str) -> Diagnostic {
@@ -138,14 +125,10 @@ fn check_names<'m>(
     rust: fn(&str) -> String,
     problems: &mut Diagnostics,
 ) {
-    let mut first: HashMap<String, &Name> = HashMap::new();
-    for name in names.filter(|name| is_well_formed(&name.value)) {
-        let other = *first.entry(folded(&name.value)).or_insert(name);
-        // Names that are one in Rust are an error already.
-        if rust(&other.value) != rust(&name.value) {
-            problems.push(differ_in_case(plural, other, name));
-        }
-    }
+    let names = names.filter(|name| is_well_formed(&name.value));
+    // Names that are one in Rust are an error already.
+    let alike = with_first(names, folded).filter(|(first, name)| rust(&first.value) != rust(&name.value));
+    problems.extend(alike.map(|(first, name)| differ_in_case(plural, first, name)));
 }
 
 fn folded(name: &str) -> String {

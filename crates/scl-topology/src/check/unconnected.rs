@@ -142,10 +142,7 @@ fn is_open(draft: &Draft<'_>, gate: usize) -> bool {
 fn lonely_component(draft: &Draft<'_>, component: &DraftComponent<'_>, open: &[usize]) -> Diagnostic {
     let name = &component.model.name;
     let headline = format!("component `{}` is not connected to anything", name.value);
-    let gates: Vec<String> = open
-        .iter()
-        .map(|&gate| format!("`{}` ({})", draft.gates[gate].model.name.value, draft.gates[gate].model.kind.value))
-        .collect();
+    let gates: Vec<String> = open.iter().map(|&gate| draft.name_and_kind(gate)).collect();
     LONELY_COMPONENT
         .at(headline, name.span, format!("{} gates, 0 connections", component.gates.len()))
         .help("connect it or remove it")

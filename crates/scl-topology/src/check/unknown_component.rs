@@ -94,7 +94,6 @@ pub(super) fn swap(draft: &Draft<'_>, headline: String, span: Span, [component, 
 /// Similar components that have the gate; without such, those that have a similar gate. Of equally similar ones those
 /// whose gate fits the other end and is unconnected.
 fn meant(draft: &Draft<'_>, link: usize, end: usize, [component, gate]: [&str; 2]) -> Vec<String> {
-    let other = draft.links[link].ends[1 - end].and_then(|other| draft.gates[other].kind);
     let near = nearest(component, draft.component_names.iter().copied());
     let has_similar = |other: &str| {
         let gates = draft.gates_of(other).map(|at| draft.gates[at].model.name.value.as_str());
@@ -104,14 +103,8 @@ fn meant(draft: &Draft<'_>, link: usize, end: usize, [component, gate]: [&str; 2
     if best.is_empty() {
         best = near.into_iter().filter(|other| has_similar(other)).collect();
     }
-    let found = |name: &str| draft.gate(name, gate).map(|at| &draft.gates[at]);
-    let fits = |name: &str| match (other, found(name).and_then(|gate| gate.kind)) {
-        (Some(other), Some(kind)) => kind == other.opposite(),
-        _ => true,
-    };
-    let is_open = |name: &str| found(name).is_none_or(|gate| !gate.named);
-    keep_if_any(&mut best, fits);
-    keep_if_any(&mut best, is_open);
+    keep_if_any(&mut best, |name| draft.gate(name, gate).is_none_or(|gate| draft.fits([link, end], gate)));
+    keep_if_any(&mut best, |name| draft.gate(name, gate).is_none_or(|gate| !draft.gates[gate].named));
     best.into_iter().take(MOST).map(str::to_owned).collect()
 }
 

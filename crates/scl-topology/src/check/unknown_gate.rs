@@ -51,7 +51,8 @@ pub(super) fn check(
     if let Some(left) = left {
         let place = draft.part(text.span, gate, true);
         let name = &draft.gates[left].model.name.value;
-        found = found.help(format!("{} fits and is not connected yet", described(draft, left))).maybe_fix(place, name);
+        found =
+            found.help(format!("{} fits and is not connected yet", draft.name_and_kind(left))).maybe_fix(place, name);
     }
     problems.push(if may_search { found.note(known(draft, component)) } else { found });
     for gate in meant.into_iter().chain(left) {
@@ -61,7 +62,7 @@ pub(super) fn check(
 
 /// Similar gates of the component that would fit the other end; of equally similar ones those that are unconnected.
 fn meant(draft: &Draft<'_>, link: usize, end: usize, component: &str, gate: &str) -> Vec<usize> {
-    let fitting = draft.gates_of(component).filter(|at| fits(draft, link, end, *at));
+    let fitting = draft.gates_of(component).filter(|at| draft.fits([link, end], *at));
     let candidates = fitting.map(|at| draft.gates[at].model.name.value.as_str());
     let near: Vec<usize> =
         nearest(gate, candidates).into_iter().filter_map(|name| draft.gate(component, name)).collect();
@@ -73,17 +74,8 @@ fn meant(draft: &Draft<'_>, link: usize, end: usize, component: &str, gate: &str
 /// The gate that fits and has no connection, if there is one only.
 fn only_left(draft: &Draft<'_>, link: usize, end: usize, component: &str) -> Option<usize> {
     draft.links[link].ends[1 - end]?;
-    let mut open = draft.gates_of(component).filter(|at| !draft.gates[*at].named && fits(draft, link, end, *at));
+    let mut open = draft.gates_of(component).filter(|at| !draft.gates[*at].named && draft.fits([link, end], *at));
     open.next().filter(|_| open.next().is_none())
-}
-
-/// Whether the kind of a gate fits that at the other end, as far as both are known.
-fn fits(draft: &Draft<'_>, link: usize, end: usize, gate: usize) -> bool {
-    let other = draft.links[link].ends[1 - end].and_then(|other| draft.gates[other].kind);
-    match (other, draft.gates[gate].kind) {
-        (Some(other), Some(kind)) => kind == other.opposite(),
-        _ => true,
-    }
 }
 
 fn report(draft: &Draft<'_>, text: &Spanned<String>, headline: String, gate: &str, meant: &[usize]) -> Diagnostic {
@@ -101,19 +93,11 @@ fn report(draft: &Draft<'_>, text: &Spanned<String>, headline: String, gate: &st
 }
 
 fn known(draft: &Draft<'_>, component: &str) -> String {
-    let all: Vec<String> = draft.gates_of(component).map(|at| described(draft, at)).collect();
+    let all: Vec<String> = draft.gates_of(component).map(|at| draft.name_and_kind(at)).collect();
     match all.is_empty() {
         true => format!("`{component}` has no gates"),
         false => format!("gates of `{component}`: {}", shortened(&all)),
     }
-}
-
-fn described(draft: &Draft<'_>, gate: usize) -> String {
-    let model = draft.gates[gate].model;
-    if model.kind.value.is_empty() {
-        return format!("`{}`", model.name.value);
-    }
-    format!("`{}` ({})", model.name.value, model.kind.value)
 }
 
 #[cfg(test)]

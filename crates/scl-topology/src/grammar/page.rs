@@ -2,7 +2,7 @@
 
 use super::queue_policy::POLICIES;
 use super::{COMPONENT_KEYS, Codec, CodecRow, GateKind, GateOption, Key, KindRow, OPTIONS, SECTIONS, WhenFull, Word};
-use scl_text::list::all_of;
+use scl_text::list::{all_of, quoted_list};
 use scl_text::{duration, size};
 
 /// A word of the grammar with its documentation.
@@ -46,7 +46,6 @@ pub fn explain(word: &str) -> Option<String> {
 
 /// The reference page of the file format: `docs/topology.md`.
 pub fn page() -> String {
-    let units = |units: &[&str]| units.iter().map(|unit| format!("`{unit}`")).collect::<Vec<_>>().join(", ");
     let option_entries: Vec<String> =
         OPTIONS.iter().map(|option| format!("### {}\n\n{}", option.key, of_option(option).text)).collect();
     let parts = [
@@ -57,8 +56,8 @@ pub fn page() -> String {
         ("{option_entries}", option_entries.join("\n").trim_end().to_owned()),
         ("{policies}", policy_table()),
         ("{codecs}", codec_table()),
-        ("{duration_units}", units(&duration::UNITS.map(|(unit, _)| unit))),
-        ("{size_units}", units(&size::UNITS.map(|(unit, _)| unit))),
+        ("{duration_units}", quoted_list(duration::UNITS.map(|(unit, _)| unit))),
+        ("{size_units}", quoted_list(size::UNITS.map(|(unit, _)| unit))),
     ];
     parts.iter().fold(include_str!("page.md").to_owned(), |page, (mark, text)| page.replace(mark, text))
 }
@@ -140,8 +139,9 @@ fn kind_table() -> String {
 fn option_table() -> String {
     let rows = OPTIONS.iter().map(|option| {
         let key = option.key;
-        let words: Vec<String> = option.kinds.iter().map(|kind| format!("`{}`", kind.word())).collect();
-        let kinds = if words.len() == GateKind::ALL.len() { "all".to_owned() } else { words.join(", ") };
+        let is_for_all = option.kinds.len() == GateKind::ALL.len();
+        let words = option.kinds.iter().map(|kind| kind.word());
+        let kinds = if is_for_all { "all".to_owned() } else { quoted_list(words) };
         let default = option.default().map_or(String::new(), |default| format!("`{default}`"));
         row(&[&format!("[`{key}`](#{key})"), &kinds, &option.shape.values(), &default, option.summary])
     });

@@ -156,11 +156,6 @@ pub fn section(key: &str) -> Option<&'static Key> {
     SECTIONS.iter().find(|section| section.key == key)
 }
 
-/// The key of a component.
-pub fn component_key(key: &str) -> Option<&'static Key> {
-    COMPONENT_KEYS.iter().find(|known| known.key == key)
-}
-
 /// The keys alone.
 pub const fn words<const N: usize>(keys: &[Key; N]) -> [&'static str; N] {
     let mut words = [""; N];

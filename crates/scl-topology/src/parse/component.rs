@@ -4,6 +4,7 @@ use super::field::{Field, Fields};
 use super::topology_dialect::TOPOLOGY;
 use super::words::{COMPONENT_KEYS, is_kind};
 use super::{Reader, pitfall, scalar, shape};
+use crate::diagnostic::Diagnostic;
 use crate::model::ComponentModel;
 use crate::source::Spanned;
 use crate::yaml::{Node, NodeKind};
@@ -72,16 +73,14 @@ impl Reader<'_> {
         let fields = self.fields(entries, "this component");
         let name = match fields.get("name") {
             Some(field) => self.name_in(field, "component name"),
-            None => match shape::unknown_key::misnamed(&fields) {
-                Some(field) => {
-                    self.report(shape::unknown_key::instead_of_name(field));
-                    scalar(field.value)
+            None => {
+                let misnamed = shape::unknown_key::misnamed(&fields);
+                match misnamed {
+                    Some(field) => self.report(shape::unknown_key::instead_of_name(field)),
+                    None => self.report_nameless(item, &fields),
                 }
-                None => {
-                    self.report_nameless(item, &fields);
-                    None
-                }
-            },
+                misnamed.and_then(|field| scalar(field.value))
+            }
         };
         match name {
             Some(name) => self.read_component_fields(&fields, name),
@@ -198,11 +197,7 @@ impl Reader<'_> {
 
     /// The problem of a missing space after `:`, or of a character that looks like another, if that explains why a list
     /// or mapping is missing; else `otherwise`.
-    pub(super) fn glued_or(
-        &self,
-        node: &Node,
-        otherwise: crate::diagnostic::Diagnostic,
-    ) -> crate::diagnostic::Diagnostic {
+    pub(super) fn glued_or(&self, node: &Node, otherwise: Diagnostic) -> Diagnostic {
         let look_alike =
             || scalar(node).and_then(|text| pitfall::look_alike::in_word(node, &text.value, "the text", self.source));
         pitfall::missing_space::in_node(node, self.source, &TOPOLOGY).or_else(look_alike).unwrap_or(otherwise)

@@ -27,14 +27,10 @@ impl Reader<'_> {
         let mut seen: HashMap<&str, Span> = HashMap::new();
         for (key_node, value) in entries {
             let NodeKind::Scalar { text: key, .. } = &key_node.kind else { continue };
-            match seen.get(key.as_str()) {
-                Some(&first) => {
-                    let field = Field { key, key_span: key_node.span, key_node, value };
-                    self.report(pitfall::key::duplicate(&field, first, owner));
-                }
-                None => {
-                    seen.insert(key, key_node.span);
-                }
+            let first = *seen.entry(key).or_insert(key_node.span);
+            if first != key_node.span {
+                let field = Field { key, key_span: key_node.span, key_node, value };
+                self.report(pitfall::key::duplicate(&field, first, owner));
             }
         }
     }

@@ -15,6 +15,7 @@ pub(super) mod version;
 use crate::diagnostic::{Diagnostic, Rule};
 use crate::grammar;
 use crate::suggest::similar;
+use scl_text::list::quoted_list;
 
 /// All of them, by their codes.
 pub(crate) const RULES: [&Rule; 16] = [
@@ -36,11 +37,6 @@ pub(crate) const RULES: [&Rule; 16] = [
     &stray_connection::RULE,
 ];
 
-/// Words in backticks, joined by commas.
-fn ticked<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
-    words.into_iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ")
-}
-
 /// Adds the place where a key of the user's own may stand, if it is one.
 fn own_key(problem: Diagnostic, key: &str) -> Diagnostic {
     match key.starts_with(grammar::OWN_PREFIX) {
@@ -56,6 +52,6 @@ fn suggest<'a>(problem: Diagnostic, thing: &str, word: &str, names: impl IntoIte
     match similar.as_slice() {
         [] => problem,
         [one] => problem.help(format!("a {thing} with a similar name exists: `{one}`")),
-        several => problem.help(format!("{thing}s with similar names exist: {}", ticked(several.iter().copied()))),
+        several => problem.help(format!("{thing}s with similar names exist: {}", quoted_list(several))),
     }
 }

@@ -1,10 +1,9 @@
 //! The text of a deadlock: what waits where, what follows, and the ways out.
 
 use super::search::Deadlock;
-use crate::check::circles::{self, Step};
+use crate::check::circles::{self, Step, place};
 use crate::check::draft::Draft;
 use crate::diagnostic::{Diagnostic, Rule};
-use crate::source::Span;
 use crate::topology::{GateKind, WhenFull};
 use scl_text::list::listed;
 use std::collections::BTreeSet;
@@ -120,8 +119,4 @@ pub(super) fn is_request(draft: &Draft<'_>, step: &Step) -> bool {
 
 fn name<'m>(draft: &Draft<'m>, component: usize) -> &'m str {
     &draft.components[component].model.name.value
-}
-
-pub(super) fn place(draft: &Draft<'_>, step: &Step) -> Span {
-    draft.links[step.link].model.span
 }

@@ -20,6 +20,7 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 const PAIR: &str = "a connection joins exactly two gates";
+const WRITE_A_PAIR: &str = "write `[component.gate, component.gate]`";
 
 /// A help shows no more pairs than this.
 const SHOWN: usize = 10;
@@ -55,7 +56,7 @@ pub(in crate::parse) fn count(span: Span, items: &[Node]) -> Diagnostic {
     match names.as_deref() {
         Some([one]) => problem.help(one_end(one)),
         Some([first, others @ ..]) => problem.help(pairs(first, others)),
-        _ => problem.help("write `[component.gate, component.gate]`"),
+        _ => problem.help(WRITE_A_PAIR),
     }
 }
 
@@ -76,7 +77,7 @@ fn separated_oddly(span: Span, text: &str, first: &str, second: &str) -> Diagnos
 /// `- sensor.measurements`, `- a.b -> c.d`, `- (a.b, c.d)`.
 pub(in crate::parse) fn text(item: &Node, text: &str) -> Diagnostic {
     let ends = words(text);
-    let arrow = text.split_whitespace().find(|word| is_arrow(word));
+    let arrow = text.split_whitespace().find(|word| matches!(*word, "->" | "<-" | "<->" | "=>" | "-->" | "→"));
     let label = match (arrow, ends.len()) {
         (Some(arrow), 0 | 1) => format!("one end of `{arrow}` is missing"),
         _ => "this is text".to_owned(),
@@ -85,7 +86,7 @@ pub(in crate::parse) fn text(item: &Node, text: &str) -> Diagnostic {
     match ends.as_slice() {
         [one] => problem.help(one_end(one)),
         [first, second] => problem.help(format!("write `[{first}, {second}]`")),
-        _ => problem.help("write `[component.gate, component.gate]`"),
+        _ => problem.help(WRITE_A_PAIR),
     }
 }
 
@@ -97,18 +98,17 @@ pub(in crate::parse) fn mapping(item: &Node) -> Diagnostic {
         [(first, second)] => match (scalar(first), scalar(second)) {
             (Some(first), Some(second)) => problem.help(format!("write `[{}, {}]`", first.value, second.value)),
             (Some(first), None) if second.is_null() => problem.help(one_end(&first.value)),
-            _ => problem.help("write `[component.gate, component.gate]`"),
+            _ => problem.help(WRITE_A_PAIR),
         },
-        [(first, nothing), (second, nothing_more)] if nothing.is_null() && nothing_more.is_null() => {
-            let in_brackets = "a pair stands in brackets, not in braces";
-            match (scalar(first), scalar(second)) {
-                (Some(first), Some(second)) => RULE
-                    .at(in_brackets, item.span, "braces")
-                    .help(format!("write `[{}, {}]`", first.value, second.value)),
-                _ => problem.help("write `[component.gate, component.gate]`"),
-            }
+        [(first, nothing), (second, nothing_more)]
+            if nothing.is_null()
+                && nothing_more.is_null()
+                && let (Some(first), Some(second)) = (scalar(first), scalar(second)) =>
+        {
+            RULE.at("a pair stands in brackets, not in braces", item.span, "braces")
+                .help(format!("write `[{}, {}]`", first.value, second.value))
         }
-        _ => problem.help("write `[component.gate, component.gate]`"),
+        _ => problem.help(WRITE_A_PAIR),
     }
 }
 
@@ -116,14 +116,13 @@ pub(in crate::parse) fn mapping(item: &Node) -> Diagnostic {
 pub(in crate::parse) fn end_is_not_text(node: &Node) -> Diagnostic {
     let message = format!("an end of a connection is `component.gate`; this is {}", shape_word(node));
     let problem = RULE.at(message, node.span, format!("this is {}", shape_word(node)));
-    let NodeKind::Mapping { entries } = &node.kind else { return problem };
-    match entries.as_slice() {
-        [(component, gate)] => match (scalar(component), scalar(gate)) {
-            (Some(component), Some(gate)) => problem.help(format!("write `{}.{}`", component.value, gate.value)),
-            _ => problem,
-        },
-        _ => problem,
+    if let NodeKind::Mapping { entries } = &node.kind
+        && let [(component, gate)] = entries.as_slice()
+        && let (Some(component), Some(gate)) = (scalar(component), scalar(gate))
+    {
+        return problem.help(format!("write `{}.{}`", component.value, gate.value));
     }
+    problem
 }
 
 fn one_end(end: &str) -> String {
@@ -138,10 +137,6 @@ fn pairs(first: &str, others: &[String]) -> String {
         help.push_str(&format!("\nand {} more", others.len() - SHOWN));
     }
     help
-}
-
-fn is_arrow(word: &str) -> bool {
-    matches!(word, "->" | "<-" | "<->" | "=>" | "-->" | "→")
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! SCL0210: a gate that is not written as `name: kind` or `name: {kind: type, option: value}`.
 
-use super::ticked;
 use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::model::GateModel;
 use crate::parse::field::{Field, Fields};
@@ -9,6 +8,7 @@ use crate::parse::words::is_kind;
 use crate::source::{Span, Spanned};
 use crate::topology::GateKind;
 use crate::yaml::{Node, NodeKind};
+use scl_text::list::quoted_list;
 
 /// SCL0210.
 pub(crate) const RULE: Rule = Rule {
@@ -145,18 +145,14 @@ pub(in crate::parse) fn written_long(item: &Node, fields: &Fields<'_>) -> Diagno
         .note(kinds())
 }
 
-/// Two names in one list item.
+/// Two names in one list item; there is at least one other.
 pub(in crate::parse) fn several_in_one_item(first: Field<'_>, others: &[&Field<'_>]) -> Diagnostic {
-    let names = ticked(std::iter::once(first.key).chain(others.iter().map(|other| other.key)));
-    let count = if others.is_empty() { 1 } else { others.len() + 1 };
-    let count = if count == 2 { "two".to_owned() } else { count.to_string() };
-    let at = others.first().map_or(first.key_span, |other| other.key_span);
-    RULE.at(format!("{count} gates in one list item ({names})"), at, "the second gate")
+    let names = quoted_list(std::iter::once(first.key).chain(others.iter().map(|other| other.key)));
+    let count = if others.len() == 1 { "two".to_owned() } else { (others.len() + 1).to_string() };
+    let second = others.first().map_or(first, |second| **second);
+    RULE.at(format!("{count} gates in one list item ({names})"), second.key_span, "the second gate")
         .label(first.key_span, "the first gate")
-        .help(match others.first() {
-            Some(second) => format!("start the second with `-`: `- {}: ...`", second.key),
-            None => "start each gate with `-`".to_owned(),
-        })
+        .help(format!("start the second with `-`: `- {}: ...`", second.key))
 }
 
 /// `- {}`.
@@ -167,20 +163,16 @@ pub(in crate::parse) fn empty_mapping(item: &Node) -> Diagnostic {
 /// `- [measurements, pub]`.
 pub(in crate::parse) fn is_list(item: &Node) -> Diagnostic {
     let problem = RULE.at("a gate is written as `name: kind`; this is a list", item.span, "a list");
-    match &item.kind {
-        NodeKind::Sequence { items } => match items.as_slice() {
-            [name, kind] => match (scalar(name), scalar(kind)) {
-                (Some(name), Some(kind)) => problem.help(format!("write `- {}: {}`", name.value, kind.value)),
-                _ => problem.note(kinds()),
-            },
-            _ => problem.help("write `- measurements: pub`").note(kinds()),
-        },
+    let NodeKind::Sequence { items } = &item.kind else { return problem.note(kinds()) };
+    let [name, kind] = items.as_slice() else { return problem.help("write `- measurements: pub`").note(kinds()) };
+    match (scalar(name), scalar(kind)) {
+        (Some(name), Some(kind)) => problem.help(format!("write `- {}: {}`", name.value, kind.value)),
         _ => problem.note(kinds()),
     }
 }
 
 fn kinds() -> String {
-    format!("kinds: {}", ticked(GateKind::ALL.map(GateKind::word)))
+    format!("kinds: {}", quoted_list(GateKind::ALL.map(GateKind::word)))
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
 //! What a topology should have and lacks. SCL0203: the section `components`. SCL0205: components. SCL0206: connections.
 //! SCL0209: gates of a component.
 
-use super::ticked;
 use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::parse::field::{Field, Fields};
 use crate::source::{SourceFile, Spanned};
+use scl_text::list::quoted_list;
 
 /// SCL0203.
 pub(crate) const SECTION: Rule = Rule {
@@ -28,9 +28,9 @@ pub(in crate::parse) fn section(fields: &Fields<'_>, source: &SourceFile) -> Dia
     let label = match keys.len() {
         0 => "this file has no section".to_owned(),
         count if count > SHOWN => {
-            format!("this file has only {} and {} more", ticked(keys[..SHOWN].iter().copied()), count - SHOWN)
+            format!("this file has only {} and {} more", quoted_list(&keys[..SHOWN]), count - SHOWN)
         }
-        _ => format!("this file has only {}", ticked(keys)),
+        _ => format!("this file has only {}", quoted_list(keys)),
     };
     SECTION.at(MESSAGE, first, label).help("add the section; it declares each component and its gates")
 }

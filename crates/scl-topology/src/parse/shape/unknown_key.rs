@@ -1,6 +1,6 @@
 //! Keys that nothing knows. SCL0202: at the top level. SCL0207: in a component. SCL0212: in a gate.
 
-use super::{own_key, suggest, ticked};
+use super::{own_key, suggest};
 use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::grammar::{OPTIONS, option};
 use crate::parse::field::{Field, Fields};
@@ -9,7 +9,7 @@ use crate::parse::words::{COMPONENT_KEYS, SECTIONS};
 use crate::source::{SourceFile, Span};
 use crate::suggest::similar;
 use crate::topology::GateKind;
-use scl_text::list::all_of;
+use scl_text::list::{all_of, quoted_list};
 
 /// SCL0202.
 pub(crate) const SECTION: Rule = Rule {
@@ -28,7 +28,7 @@ pub(in crate::parse) fn section(field: Field<'_>) -> Diagnostic {
     let message = format!("unknown section `{}`", field.key);
     let problem = SECTION.at(message, field.key_span, "not a section of a topology");
     suggest(problem, "section", field.key, SECTIONS)
-        .note(format!("sections: {}", ticked(SECTIONS)))
+        .note(format!("sections: {}", quoted_list(SECTIONS)))
         .note("keys that start with `x-` are ignored, for your own use")
 }
 
@@ -51,7 +51,8 @@ pub(in crate::parse) fn of_component(field: Field<'_>, component: &str) -> Diagn
     let message = format!("unknown key `{}` in component `{component}`", field.key);
     let problem = OF_COMPONENT.at(message, field.key_span, "not a key of a component");
     let problem = own_key(problem, field.key);
-    suggest(problem, "key", field.key, COMPONENT_KEYS).note(format!("keys of a component: {}", ticked(COMPONENT_KEYS)))
+    suggest(problem, "key", field.key, COMPONENT_KEYS)
+        .note(format!("keys of a component: {}", quoted_list(COMPONENT_KEYS)))
 }
 
 /// Words that other formats use for a name.
@@ -77,7 +78,7 @@ pub(in crate::parse) fn instead_of_name(field: Field<'_>) -> Diagnostic {
         true => problem.help(format!("write `name: {name}`")),
         false => problem.help("a key with a similar name exists: `name`").fix(field.key_span, "name"),
     }
-    .note(format!("keys of a component: {}", ticked(COMPONENT_KEYS)))
+    .note(format!("keys of a component: {}", quoted_list(COMPONENT_KEYS)))
 }
 
 /// SCL0212.
@@ -109,8 +110,8 @@ pub(in crate::parse) fn of_gate(field: Field<'_>, kind: &str, path: &str) -> Dia
     let problem = problem.helps(suggestions);
     let keys = OPTIONS.iter().filter(|option| option.kinds.iter().any(|of| of.word() == kind)).map(|option| option.key);
     match GateKind::of(kind).is_some() {
-        true => problem.note(format!("keys of a `{kind}` gate: {}", ticked(std::iter::once(kind).chain(keys)))),
-        false => problem.note(format!("keys of a gate: {}", ticked(OPTIONS.iter().map(|option| option.key)))),
+        true => problem.note(format!("keys of a `{kind}` gate: {}", quoted_list(std::iter::once(kind).chain(keys)))),
+        false => problem.note(format!("keys of a gate: {}", quoted_list(OPTIONS.iter().map(|option| option.key)))),
     }
 }
 
