@@ -21,10 +21,11 @@ mod tests;
 mod unreadable;
 
 pub use no_panic::{BUG, no_panic};
+use read::Unreadable;
 pub use request::{LookedIn, Request};
-#[cfg(feature = "protobuf")]
-pub use schemas::{Descriptors, files_for, walk};
 pub use schemas::{Outline, Schemas, rust};
+#[cfg(feature = "protobuf")]
+pub use schemas::{files_for, walk};
 
 use scl_topology::check::{Facts, check};
 use scl_topology::diagnostic::{Diagnostic, Diagnostics};

@@ -34,8 +34,7 @@ impl Loaded {
     #[cfg(feature = "protobuf")]
     fn schema_of(&self, plan: &Plan) -> Option<scl_plan::Schema> {
         let messages = plan.gates.iter().flat_map(|gate| gate.payload.types()).collect();
-        let descriptors = self.schemas.as_ref()?.descriptors_of(&messages)?;
-        Some(scl_plan::Schema { hash: descriptors.hash, descriptors: descriptors.bytes.into() })
+        self.schemas.as_ref()?.descriptors_of(&messages)
     }
 
     /// Without the feature `protobuf`, a topology with `schemas:` is an error.

@@ -35,7 +35,7 @@ pub mod walk;
 #[cfg(feature = "protobuf")]
 pub(crate) use compile::compile;
 #[cfg(feature = "protobuf")]
-pub use descriptors::{Descriptors, files_for};
+pub use descriptors::files_for;
 pub use outline::Outline;
 #[cfg(not(feature = "protobuf"))]
 pub(crate) use switched_off::compile;

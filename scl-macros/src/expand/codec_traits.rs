@@ -169,14 +169,11 @@ fn expand_signature(context: &Context<'_>, kind: GateKind, reply: &Option<TokenS
 fn trait_name(gate: &Gate, number: usize, span: Span) -> Ident {
     let codec = gate.codec().word().rsplit("::").next().unwrap_or_default();
     let words = format!("{}_supported_by_{codec}", gate.payload().to_string().replace(" -> ", "_and_"));
-    let camel: String = words.split(['_', '.']).map(capitalized).filter(|word| is_alphanumeric(word)).collect();
+    let is_alphanumeric = |word: &String| word.chars().all(char::is_alphanumeric);
+    let camel: String = words.split(['_', '.']).map(capitalized).filter(is_alphanumeric).collect();
     // A type may be called `_1`.
     let start = if camel.starts_with(|first: char| first.is_ascii_digit()) { "_" } else { "" };
     Ident::new(&format!("{start}{camel}_{number}"), span)
-}
-
-fn is_alphanumeric(word: &str) -> bool {
-    word.chars().all(char::is_alphanumeric)
 }
 
 fn capitalized(word: &str) -> String {

@@ -24,10 +24,7 @@ pub(super) fn gate_type(context: &Context<'_>, gate: &Gate, kind: GateKind) -> T
 /// The type arguments of a gate without a message type: bytes in each direction.
 pub(super) fn bytes(context: &Context<'_>, kind: GateKind) -> TokenStream {
     let private = &context.private;
-    match kind {
-        GateKind::Req | GateKind::Rep => quote!(#private::Bytes, #private::Bytes),
-        _ => quote!(#private::Bytes),
-    }
+    if kind.exchanges() { quote!(#private::Bytes, #private::Bytes) } else { quote!(#private::Bytes) }
 }
 
 /// The path of a message type that the checks have accepted.

@@ -127,19 +127,12 @@ impl<'a> ReadGate<'a> {
         let Some(kind) = kind else { return unknown };
         let gate_type = gate_struct(kind);
         let mut messages = self.payload.into_iter().flat_map(|text| text.split("->")).map(str::trim);
-        let mut next = || {
+        let count = if kind.exchanges() { 2 } else { 1 };
+        let messages = std::iter::repeat_with(|| {
             let path = messages.next().and_then(|dotted| context.types.path(dotted, context.span));
             path.unwrap_or_else(|| unknown.clone())
-        };
-        match kind {
-            GateKind::Req | GateKind::Rep => {
-                let (request, reply) = (next(), next());
-                quote!(#private::#gate_type<#request, #reply>)
-            }
-            _ => {
-                let message = next();
-                quote!(#private::#gate_type<#message>)
-            }
-        }
+        });
+        let messages = messages.take(count);
+        quote!(#private::#gate_type<#(#messages),*>)
     }
 }

@@ -14,16 +14,10 @@ use syn::Ident;
 
 /// How the file's message types are named in Rust.
 pub(super) struct MessageTypes {
-    of_schemas: SchemaTypes,
+    /// Full protobuf name to path segments; every other type is a Rust path. `None` if the schemas did not compile, so
+    /// that it is not known which types are theirs.
+    of_schemas: Option<HashMap<String, Vec<String>>>,
     of_rust: Lookups,
-}
-
-/// The types that the file's schemas declare.
-enum SchemaTypes {
-    /// Full protobuf name to path segments. Every other type is a Rust path.
-    Known(HashMap<String, Vec<String>>),
-    /// The schemas did not compile, so it is not known which types are theirs.
-    Unknown,
 }
 
 impl MessageTypes {
@@ -36,24 +30,17 @@ impl MessageTypes {
     ) -> Self {
         let of_schemas = match &loaded.schemas {
             #[cfg(feature = "protobuf")]
-            Some(schemas) => SchemaTypes::Known(scl_loader::rust::rust_paths(schemas)),
-            _ if loaded.model.schemas.is_empty() => SchemaTypes::Known(HashMap::new()),
-            _ => SchemaTypes::Unknown,
+            Some(schemas) => Some(scl_loader::rust::rust_paths(schemas)),
+            _ => loaded.model.schemas.is_empty().then(HashMap::new),
         };
-        let of_rust = match &of_schemas {
-            SchemaTypes::Known(known) => {
-                let named = named_types(loaded, includes);
-                lookups(named.into_iter().filter(|dotted| !known.contains_key(dotted)).collect())
-            }
-            SchemaTypes::Unknown => lookups(BTreeSet::new()),
-        };
-        Self { of_schemas, of_rust }
+        let mut named = named_types(loaded, includes);
+        named.retain(|dotted| of_schemas.as_ref().is_some_and(|known| !known.contains_key(dotted)));
+        Self { of_schemas, of_rust: lookups(named) }
     }
 
     /// The type in Rust, or `None` if Rust cannot name it.
     pub(super) fn path(&self, dotted: &str, span: Span) -> Option<TokenStream> {
-        let SchemaTypes::Known(known) = &self.of_schemas else { return None };
-        match known.get(dotted) {
+        match self.of_schemas.as_ref()?.get(dotted) {
             Some(segments) => path(segments.iter().map(String::as_str), span),
             None => self.of_rust.path(dotted, span),
         }
@@ -61,18 +48,15 @@ impl MessageTypes {
 
     /// The path as messages show it: `rover::Measurement`.
     pub(super) fn shown(&self, dotted: &str) -> String {
-        match &self.of_schemas {
-            SchemaTypes::Known(known) if known.contains_key(dotted) => known[dotted].join("::"),
-            _ => dotted.replace('.', "::"),
-        }
+        let segments = self.of_schemas.as_ref().and_then(|known| known.get(dotted));
+        segments.map_or_else(|| dotted.replace('.', "::"), |segments| segments.join("::"))
     }
 
     /// The full names of the messages of the schemas, sorted, with their paths. Those of the well-known types are left
     /// out, because prost has types for them.
     #[cfg(feature = "protobuf")]
     pub(super) fn of_schemas(&self, span: Span) -> Vec<(&str, TokenStream)> {
-        let SchemaTypes::Known(known) = &self.of_schemas else { return Vec::new() };
-        let own = known.iter().filter(|(name, _)| !name.starts_with("google.protobuf."));
+        let own = self.of_schemas.iter().flatten().filter(|(name, _)| !name.starts_with("google.protobuf."));
         let mut all: Vec<(&str, TokenStream)> = own
             .filter_map(|(name, segments)| Some((name.as_str(), path(segments.iter().map(String::as_str), span)?)))
             .collect();

@@ -9,13 +9,10 @@ use scl_topology::external::SCHEMA;
 use scl_topology::source::Spanned;
 use std::path::Path;
 
-/// What is shown of the files.
-pub(super) struct Shown<'s>(pub(super) Texts<'s>);
-
-impl Shown<'_> {
+impl Texts<'_> {
     /// What is wrong with an entry: the mistakes in its files, or else the compiler's error. `told` are the mistakes
     /// that were reported with an earlier entry.
-    pub(super) fn all(
+    pub(super) fn what_is_wrong(
         &mut self,
         error: &protox::Error,
         mistakes: Vec<Mistake>,
@@ -34,8 +31,8 @@ impl Shown<'_> {
     /// The compiler's error.
     fn error(&mut self, error: &protox::Error, schema: &Spanned<String>) -> Diagnostic {
         let wrong = in_backticks(&error.to_string());
-        let file = self.0.files.iter().find(|file| Some(file.name.as_str()) == error.file());
-        let shown = file.map(|file| self.0.folders.relative(&file.path).display().to_string());
+        let file = self.files.iter().find(|file| Some(file.name.as_str()) == error.file());
+        let shown = file.map(|file| self.folders.relative(&file.path).display().to_string());
         let name = shown.as_deref().or(error.file()).unwrap_or(&schema.value);
         let message = format!("the schema file `{name}` does not compile: {wrong}");
         let found = error.labels().and_then(|mut labels| labels.next());
@@ -43,7 +40,7 @@ impl Shown<'_> {
             (Some(file), Some(_)) => {
                 let at = found.as_ref().map_or((file.text.len(), 0), |label| (label.offset(), label.len()));
                 let label = found.as_ref().and_then(|label| label.label().map(in_backticks)).unwrap_or_default();
-                let span = self.0.span(file, at.0..at.0.saturating_add(at.1));
+                let span = self.span(file, at.0..at.0.saturating_add(at.1));
                 SCHEMA.at(message, span, label).label(schema.span, BECAUSE)
             }
             _ => SCHEMA.at(message, schema.span, "named here"),
@@ -53,10 +50,10 @@ impl Shown<'_> {
 
     /// One mistake in one schema file.
     fn mistake(&mut self, mistake: &Mistake, schema: &Spanned<String>) -> Diagnostic {
-        let is_its_file = |file: &&SchemaFile| self.0.folders.relative(&file.path) == Path::new(&mistake.file);
-        let problem = match self.0.files.iter().find(is_its_file) {
+        let is_its_file = |file: &&SchemaFile| self.folders.relative(&file.path) == Path::new(&mistake.file);
+        let problem = match self.files.iter().find(is_its_file) {
             Some(file) => {
-                let span = self.0.span(file, mistake.at.clone());
+                let span = self.span(file, mistake.at.clone());
                 SCHEMA.at(&mistake.message, span, &mistake.label).label(schema.span, BECAUSE)
             }
             None => SCHEMA.at(&mistake.message, schema.span, "named here"),

@@ -1,6 +1,5 @@
 //! Schema files become descriptors, each wrong one a problem.
 
-use super::broken::Shown;
 use super::disk::{Disk, SharedSeen};
 use super::entry::{Named, elsewhere, misplaced, refuse, roots_exist};
 use super::folders::Folders;
@@ -67,8 +66,8 @@ fn compile_entries(
                 Ok(Err(error)) => {
                     let mut seen = seen.get();
                     let mistakes = std::mem::take(&mut seen.mistakes);
-                    let mut shown = Shown(Texts { request, folders, files: &seen.files, sources });
-                    shown.all(&error, mistakes, &mut told, schema)
+                    let mut texts = Texts { request, folders, files: &seen.files, sources };
+                    texts.what_is_wrong(&error, mistakes, &mut told, schema)
                 }
                 Err(text) => vec![panicked(schema, &text)],
             },

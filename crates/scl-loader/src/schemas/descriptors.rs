@@ -3,31 +3,23 @@
 use super::{Schemas, walk};
 use prost::Message;
 use prost_types::{FileDescriptorProto, FileDescriptorSet};
+use scl_plan::Schema;
 use scl_topology::fingerprint;
 use std::collections::BTreeSet;
-
-/// The schema files that some messages need.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Descriptors {
-    /// A hash of `bytes`, of characters that may stand in a file name.
-    pub hash: String,
-    /// A serialized `google.protobuf.FileDescriptorSet`.
-    pub bytes: Vec<u8>,
-}
 
 impl Schemas {
     /// The files that declare these messages, with all that they import, without comments and positions. Each file
     /// comes after the files that it imports. `None` if no file declares any of them.
     ///
     /// The same schemas and messages always give the same bytes.
-    pub fn descriptors_of(&self, messages: &BTreeSet<&str>) -> Option<Descriptors> {
+    pub fn descriptors_of(&self, messages: &BTreeSet<&str>) -> Option<Schema> {
         let files = files_for(&self.file_descriptor_set().file, messages);
         let file: Vec<_> = files.map(|file| FileDescriptorProto { source_code_info: None, ..file.clone() }).collect();
         if file.is_empty() {
             return None;
         }
-        let bytes = FileDescriptorSet { file }.encode_to_vec();
-        Some(Descriptors { hash: fingerprint::long(&bytes), bytes })
+        let descriptors = FileDescriptorSet { file }.encode_to_vec();
+        Some(Schema { hash: fingerprint::long(&descriptors), descriptors: descriptors.into() })
     }
 }
 

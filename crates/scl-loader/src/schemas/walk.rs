@@ -1,6 +1,6 @@
 //! Walks through what schema files declare.
 
-use prost_types::{DescriptorProto, FileDescriptorProto};
+use prost_types::{DescriptorProto, FieldDescriptorProto, FileDescriptorProto};
 
 // Fields of `FileDescriptorProto`, `DescriptorProto` and `EnumDescriptorProto` in paths of
 // `google.protobuf.SourceCodeInfo`.
@@ -42,6 +42,12 @@ pub fn full_name(file: &FileDescriptorProto, path: &[&str]) -> String {
 /// A name inside of another one, or at the top if that is empty.
 pub(super) fn dotted(outer: &str, name: &str) -> String {
     if outer.is_empty() { name.to_owned() } else { format!("{outer}.{name}") }
+}
+
+/// The entry of a field that is a map: a message nested in that of the field.
+pub fn map_entry<'m>(message: &'m DescriptorProto, field: &FieldDescriptorProto) -> Option<&'m DescriptorProto> {
+    let name = field.type_name().rsplit('.').next()?;
+    message.nested_type.iter().find(|nested| is_map_entry(nested) && nested.name() == name)
 }
 
 /// Whether a message stands for the entries of a map, and is no type of its own.

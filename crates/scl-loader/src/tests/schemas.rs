@@ -100,7 +100,7 @@ fn each_wrong_schema_is_reported() {
 }
 
 /// What a program embeds for a gate that carries `message`, from the schemas `a.proto` and `other.proto`.
-fn embedded(message: &str, base: &str) -> crate::Descriptors {
+fn embedded(message: &str, base: &str) -> scl_plan::Schema {
     let a = r#"syntax = "proto3";
 package a;
 import "base.proto";
@@ -121,7 +121,7 @@ const BASE: &str = "syntax = \"proto3\";\npackage base;\nmessage Pose { double x
 #[test]
 fn a_program_embeds_the_files_of_its_messages_and_their_imports() {
     let names = |message: &str| {
-        let set = FileDescriptorSet::decode(embedded(message, BASE).bytes.as_slice()).unwrap();
+        let set = FileDescriptorSet::decode(embedded(message, BASE).descriptors.as_ref()).unwrap();
         assert!(set.file.iter().all(|file| file.source_code_info.is_none()));
         set.file.into_iter().map(|file| file.name.unwrap()).collect::<Vec<_>>()
     };

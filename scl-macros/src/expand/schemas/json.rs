@@ -12,9 +12,9 @@ pub(super) fn expand_json(context: &Context<'_>) -> TokenStream {
     };
     let messages = context.types.of_schemas(context.span);
     let names: BTreeSet<&str> = messages.iter().map(|(name, _)| *name).collect();
-    let Some(descriptors) = schemas.descriptors_of(&names) else { return TokenStream::new() };
+    let Some(schema) = schemas.descriptors_of(&names) else { return TokenStream::new() };
     let private = &context.private;
-    let bytes = Literal::byte_string(&descriptors.bytes);
+    let bytes = Literal::byte_string(&schema.descriptors);
     let messages = messages.iter().map(|(name, path)| quote!(#path = #name));
     quote_spanned! { context.span =>
         const _: () = { #private::message_json! { #bytes #(#messages)* } };

@@ -5,7 +5,7 @@ use crate::python::{docs, names};
 use crate::writer::Writer;
 use prost_types::field_descriptor_proto::{Label, Type};
 use prost_types::{DescriptorProto, FieldDescriptorProto};
-use scl_loader::walk::is_map_entry;
+use scl_loader::walk::map_entry;
 
 /// A field with its types.
 pub(super) struct Field<'a> {
@@ -85,12 +85,6 @@ impl<'a> Field<'a> {
             }
         }
     }
-}
-
-fn map_entry<'m>(message: &'m DescriptorProto, field: &FieldDescriptorProto) -> Option<&'m DescriptorProto> {
-    let last = field.type_name().rsplit('.').next()?;
-    let is_entry = |it: &&DescriptorProto| it.name() == last && is_map_entry(it);
-    (field.r#type() == Type::Message).then(|| message.nested_type.iter().find(is_entry))?
 }
 
 fn type_of(messages: &Messages<'_>, field: &FieldDescriptorProto) -> String {

@@ -4,7 +4,7 @@ use super::names::{snake_case, upper_camel_case, variant};
 use super::paths::package_parts;
 use crate::schemas::walk::{
     ENUM_VALUE, FILE_ENUM, FILE_MESSAGE, FILE_PACKAGE, MESSAGE_ENUM, MESSAGE_FIELD, MESSAGE_NESTED, MESSAGE_ONEOF,
-    NAME, dotted, is_map_entry,
+    NAME, dotted, is_map_entry, map_entry,
 };
 use prost_types::field_descriptor_proto::{Label, Type};
 use prost_types::{DescriptorProto, EnumDescriptorProto, FieldDescriptorProto, FileDescriptorProto};
@@ -197,10 +197,7 @@ fn oneof_type(message: &DescriptorProto, oneof: &str) -> String {
 /// The methods that prost's derive macro adds for a field.
 fn methods(message: &DescriptorProto, field: &FieldDescriptorProto, name: &str, is_proto3: bool) -> Vec<String> {
     let plain = name.trim_start_matches("r#");
-    let map_value = message.nested_type.iter().find(|nested| {
-        is_map_entry(nested) && field.type_name().rsplit('.').next().is_some_and(|entry| entry == nested.name())
-    });
-    if let Some(entry) = map_value {
+    if let Some(entry) = map_entry(message, field) {
         let has_enum = entry.field.iter().any(|field| field.name() == "value" && field.r#type() == Type::Enum);
         // Not `plain`: the derive macro does not take `r#` off here.
         return if has_enum { vec![format!("get_{name}"), format!("insert_{name}")] } else { Vec::new() };
