@@ -1,6 +1,7 @@
 //! SCL0410: a receiver that would make its sender wait, and a sender that never waits.
 
 use super::draft::Draft;
+use super::unconnected::type_text;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::topology::{GateKind, WhenFull};
 
@@ -42,11 +43,8 @@ fn report(draft: &Draft<'_>, link: usize, source: usize, sink: usize) -> Diagnos
         _ => ("publisher", "subscriber"),
     };
     let headline = format!("`{}` would make `{}` wait, which it does not allow", draft.path(sink), draft.path(source));
-    let gate = draft.gates[source].model;
-    let option = draft.gates[sink].option("when_full");
-    let kind = &gate.kind.value;
-    let message = super::unconnected::type_text(draft, source);
-    let name = &gate.name.value;
+    let (gate, option) = (draft.gates[source].model, draft.gates[sink].option("when_full"));
+    let (name, kind, message) = (&gate.name.value, &gate.kind.value, type_text(draft, source));
     RULE.at(headline, draft.links[link].model.span, "")
         .label(draft.gates[source].declaration(), format!("never waits for a {receiver}"))
         .labels(option.map(|it| (it.key.span.to(it.value.span), format!("makes the {sender} wait"))))

@@ -4,7 +4,7 @@ use super::draft::Draft;
 use super::{unknown_component, unknown_gate};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::Spanned;
-use scl_text::list::{either, listed};
+use scl_text::list::{either, listed, shortened};
 
 /// SCL0503.
 pub(crate) const RULE: Rule = Rule {
@@ -28,11 +28,7 @@ pub(crate) const RULE: Rule = Rule {
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     for link in 0..draft.links.len() {
-        for end in 0..2 {
-            let text = &draft.links[link].model.ends[end];
-            let found = resolved(draft, &text.value);
-            draft.links[link].ends[end] = found;
-        }
+        draft.links[link].ends = draft.links[link].model.ends.each_ref().map(|end| resolved(draft, &end.value));
     }
     // A suggestion prefers gates that no other connection names.
     name_all(draft);
@@ -106,11 +102,8 @@ fn misshapen(draft: &mut Draft<'_>, text: &Spanned<String>) -> Diagnostic {
             return RULE.at(headline, text.span, "which gate?");
         }
         let gates: Vec<String> = draft.gates_of(&text.value).map(|gate| draft.path_and_kind(gate)).collect();
-        return RULE.at(headline, text.span, "which gate?").note(format!(
-            "gates of `{}`: {}",
-            text.value,
-            scl_text::list::shortened(&gates)
-        ));
+        let note = format!("gates of `{}`: {}", text.value, shortened(&gates));
+        return RULE.at(headline, text.span, "which gate?").note(note);
     }
     let (label, help) = oddity(&text.value);
     RULE.at(headline, text.span, label).help(help)

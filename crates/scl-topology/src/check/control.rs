@@ -146,13 +146,8 @@ fn lines(problem: &Diagnostic, sources: &Sources) -> Vec<u32> {
 }
 
 fn is_on(control: &ControlModel, rule: &Rule) -> Diagnostic {
-    NO_EFFECT
-        .at(
-            format!("this `warn({})` has no effect", rule.code),
-            command_span(control),
-            "this check is on in every file",
-        )
-        .help("remove the comment")
+    let headline = format!("this `warn({})` has no effect", rule.code);
+    NO_EFFECT.at(headline, command_span(control), "this check is on in every file").help("remove the comment")
 }
 
 fn without_reason(control: &ControlModel, rule: &Rule) -> Diagnostic {

@@ -9,6 +9,7 @@ const MOST: usize = 3;
 const SEARCHED: usize = 32;
 
 /// Senders by the names of their gates and components, and by their types.
+#[derive(Default)]
 pub(super) struct FittingSenders<'m> {
     by_gate: HashMap<&'m str, Vec<usize>>,
     by_component: HashMap<&'m str, Vec<usize>>,
@@ -18,8 +19,7 @@ pub(super) struct FittingSenders<'m> {
 
 impl<'m> FittingSenders<'m> {
     pub(super) fn of(draft: &Draft<'m>) -> Self {
-        let mut senders =
-            Self { by_gate: HashMap::new(), by_component: HashMap::new(), by_type: HashMap::new(), all: Vec::new() };
+        let mut senders = Self::default();
         for (at, gate) in draft.gates.iter().enumerate() {
             if !matches!(gate.kind, Some(GateKind::Pub | GateKind::Push)) || gate.duplicate {
                 continue;

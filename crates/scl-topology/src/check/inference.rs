@@ -53,9 +53,8 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     take_over_types(draft, &peers);
     take_over_codecs(draft, &peers);
     for gate in 0..draft.gates.len() {
-        if let Some(origin) = draft.gates[gate].payload_from {
-            taken_over(draft, gate, origin).into_iter().for_each(|found| problems.push(found));
-        }
+        let origin = draft.gates[gate].payload_from;
+        problems.extend(origin.and_then(|origin| taken_over(draft, gate, origin)));
     }
     for (link, source, sink) in draft.flows() {
         let untyped = |gate: usize| draft.gates[gate].payload == Some(Payload::Bytes);
@@ -99,11 +98,9 @@ fn taken_over(draft: &Draft<'_>, gate: usize, origin: usize) -> Option<Diagnosti
     let model = draft.gates[gate].model;
     let (text, from) = (written.value.trim(), draft.path(origin));
     let headline = format!("gate `{}` has no type of its own; it takes `{text}` from `{from}`", draft.path(gate));
-    let found = TAKEN_OVER
-        .at(headline, model.span, format!("inferred: `{text}`"))
-        .label(written.span, "from here")
-        .help(format!("write `{}: {{{}: {text}}}` to pin the contract", model.name.value, model.kind.value));
-    Some(found)
+    let (name, kind) = (&model.name.value, &model.kind.value);
+    let found = TAKEN_OVER.at(headline, model.span, format!("inferred: `{text}`")).label(written.span, "from here");
+    Some(found.help(format!("write `{name}: {{{kind}: {text}}}` to pin the contract")))
 }
 
 fn without_type(draft: &Draft<'_>, link: usize, source: usize) -> Diagnostic {

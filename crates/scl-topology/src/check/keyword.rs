@@ -101,13 +101,14 @@ fn unusable(noun: Noun, name: &Spanned<String>) -> Diagnostic {
 fn escaped(component: &str, name: &Spanned<String>) -> Diagnostic {
     let field = gate_field(&name.value);
     let label = format!("in Rust code you will have to write `{}.r#{field}`", gate_field(component));
-    let help = match ALTERNATIVES.iter().find(|(word, _)| *word == field) {
-        Some((_, other)) => format!("choose another name, for example `{other}`"),
-        None => format!("choose another name, for example `{field}_`"),
-    };
-    OF_RUST.at(format!("gate name `{}` is a Rust keyword", name.value), name.span, label).help(help).note(
-        "checked against the keywords of editions 2015 to 2024 and the reserved ones (`gen`, `try`, `yield`, ...)",
-    )
+    let other = ALTERNATIVES.iter().find(|(word, _)| *word == field);
+    let other = other.map_or_else(|| format!("{field}_"), |(_, other)| (*other).to_owned());
+    OF_RUST
+        .at(format!("gate name `{}` is a Rust keyword", name.value), name.span, label)
+        .help(format!("choose another name, for example `{other}`"))
+        .note(
+            "checked against the keywords of editions 2015 to 2024 and the reserved ones (`gen`, `try`, `yield`, ...)",
+        )
 }
 
 /// SCL0315.
@@ -161,12 +162,8 @@ fn find_foreign(noun: Noun, name: &Spanned<String>, spelling: &str) -> Option<Di
         [] => spelling.replace("__", "_"),
         _ => format!("{}_{}", spelling.to_ascii_lowercase(), noun.word()),
     };
-    Some(
-        FOREIGN
-            .at(headline, name.span, label)
-            .help(format!("choose another name, for example `{another}`"))
-            .note("programs in C++ and Python read the same file"),
-    )
+    let found = FOREIGN.at(headline, name.span, label).help(format!("choose another name, for example `{another}`"));
+    Some(found.note("programs in C++ and Python read the same file"))
 }
 
 #[cfg(test)]

@@ -83,21 +83,19 @@ fn mended(name: &str) -> String {
 }
 
 /// How people write these letters where a keyboard lacks them.
-const TRANSLITERATIONS: [(&str, &str); 22] = [
-    ("ä", "ae"),
-    ("ö", "oe"),
+const TRANSLITERATIONS: [(&str, &str); 19] = [
+    ("äæ", "ae"),
+    ("öø", "oe"),
     ("ü", "ue"),
     ("Ä", "Ae"),
     ("Ö", "Oe"),
     ("Ü", "Ue"),
     ("ß", "ss"),
-    ("æ", "ae"),
-    ("ø", "oe"),
     ("åàáâã", "a"),
     ("éèêë", "e"),
     ("íìîï", "i"),
     ("óòôõ", "o"),
-    ("úùû", "u"),
+    ("úùûµμ", "u"),
     ("çćč", "c"),
     ("ñńň", "n"),
     ("šś", "s"),
@@ -105,7 +103,6 @@ const TRANSLITERATIONS: [(&str, &str); 22] = [
     ("ýÿ", "y"),
     ("ł", "l"),
     ("ř", "r"),
-    ("µμ", "u"),
 ];
 
 fn is_foreign(letter: char) -> bool {

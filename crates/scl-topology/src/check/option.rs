@@ -64,7 +64,7 @@ pub(crate) const MISFIT: Rule = Rule {
 };
 
 /// The problem of an option that this kind of gate does not have.
-pub(super) fn check_fit(kind: Option<GateKind>, option: &OptionModel) -> Option<Diagnostic> {
+fn check_fit(kind: Option<GateKind>, option: &OptionModel) -> Option<Diagnostic> {
     let key = option.key.value.as_str();
     let kind = kind?;
     let rule = misfit(Some(kind), key)?;
@@ -75,7 +75,7 @@ pub(super) fn check_fit(kind: Option<GateKind>, option: &OptionModel) -> Option<
 }
 
 /// Why a kind has no such option, if it has none.
-pub(super) fn misfit(kind: Option<GateKind>, key: &str) -> Option<String> {
+fn misfit(kind: Option<GateKind>, key: &str) -> Option<String> {
     let kind = kind.filter(|&kind| !fits(kind, key))?;
     let option = grammar::option(key)?;
     let words: Vec<&str> = option.kinds.iter().map(|kind| kind.word()).collect();

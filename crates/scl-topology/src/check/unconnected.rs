@@ -152,13 +152,11 @@ fn lonely_component(draft: &Draft<'_>, component: &DraftComponent<'_>, open: &[u
 fn no_peer(draft: &Draft<'_>, gate: usize, kind: GateKind, senders: &FittingSenders<'_>) -> Diagnostic {
     let place = draft.gates[gate].model.name.span;
     let path = draft.path(gate);
+    let no_receiver =
+        |does, label| NO_RECEIVER.at(format!("nobody {does} `{path}`"), place, label).help(ways_out(draft, gate));
     match kind {
-        GateKind::Pub => NO_RECEIVER
-            .at(format!("nobody subscribes to `{path}`"), place, "its messages are dropped")
-            .help(ways_out(draft, gate)),
-        GateKind::Push => NO_RECEIVER
-            .at(format!("nobody pulls from `{path}`"), place, "its messages go nowhere")
-            .help(ways_out(draft, gate)),
+        GateKind::Pub => no_receiver("subscribes to", "its messages are dropped"),
+        GateKind::Push => no_receiver("pulls from", "its messages go nowhere"),
         GateKind::Rep => NO_REQUESTER
             .at(format!("nobody sends requests to `{path}`"), place, "")
             .help("connect it, or write `unconnected: ok`"),
@@ -194,10 +192,7 @@ fn ways_out(draft: &Draft<'_>, gate: usize) -> String {
 /// The type of a gate as one would write it; nothing for a gate without one.
 pub(super) fn type_text(draft: &Draft<'_>, gate: usize) -> String {
     let from = draft.gates[gate].payload_from.unwrap_or(gate);
-    match &draft.gates[from].model.payload {
-        Some(payload) => payload.value.trim().to_owned(),
-        None => String::new(),
-    }
+    draft.gates[from].model.payload.as_ref().map_or_else(String::new, |payload| payload.value.trim().to_owned())
 }
 
 #[cfg(test)]

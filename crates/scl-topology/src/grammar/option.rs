@@ -7,7 +7,7 @@ use super::shape::{self, OutOfRange, Shape, Word};
 use scl_plan::GateKind::{self, Pub, Pull, Push, Rep, Req, Sub};
 use scl_plan::{OptionAccess, Undecodable, WhenFull};
 use scl_text::{duration, size};
-use std::ops::{Deref, DerefMut};
+use std::ops::Deref;
 use std::time::Duration;
 
 /// The options of a gate, defaults filled in: those of its program, which read as if they were here, and those of the
@@ -30,12 +30,6 @@ impl Deref for DeclaredOptions {
     }
 }
 
-impl DerefMut for DeclaredOptions {
-    fn deref_mut(&mut self) -> &mut Self::Target {
-        &mut self.program
-    }
-}
-
 impl DeclaredOptions {
     /// The largest `max_size` of a gate: 1 GiB.
     pub const LARGEST_MAX_SIZE: u64 = 1 << 30;
@@ -49,6 +43,12 @@ const LONGEST_TIMEOUT: Duration = Duration::from_secs(24 * 60 * 60);
 
 /// The most calls that a gate may have in progress: as many unread replies as a replier keeps for a requester.
 const MOST_IN_FLIGHT: u32 = 64;
+
+/// Why other kinds have no queue.
+const NO_QUEUE: &[(&[GateKind], &str)] = &[
+    (&[Req, Rep], "`req` and `rep` take turns, so there is never more than one message waiting"),
+    (&[Pub, Push], "each receiver says how many messages may wait for it"),
+];
 
 /// All options, in the order in which messages list them.
 pub static OPTIONS: [GateOption; 12] = [
@@ -81,10 +81,7 @@ pub static OPTIONS: [GateOption; 12] = [
                a socket. At any other gate, up to 4096 messages or 1 MiB more may be on their way between the two \
                programs.",
         examples: &["attitude: {sub: Attitude, queue: 1}"],
-        absent: &[
-            (&[Req, Rep], "`req` and `rep` take turns, so there is never more than one message waiting"),
-            (&[Pub, Push], "each receiver says how many messages may wait for it"),
-        ],
+        absent: NO_QUEUE,
     },
     GateOption {
         key: "when_full",
@@ -93,10 +90,7 @@ pub static OPTIONS: [GateOption; 12] = [
         summary: "What a full queue does: drop the oldest message, drop the newest, or make the sender wait.",
         text: "`wait` needs `backpressure: true` at the sender. See [queue policies](#queue-policies).",
         examples: &["samples: {sub: Sample, queue: 1000, when_full: drop_newest}"],
-        absent: &[
-            (&[Req, Rep], "`req` and `rep` take turns, so there is never more than one message waiting"),
-            (&[Pub, Push], "each receiver says how many messages may wait for it"),
-        ],
+        absent: NO_QUEUE,
     },
     GateOption {
         key: "backpressure",

@@ -43,7 +43,7 @@ impl Reader<'_> {
         let NodeKind::Mapping { entries } = &item.kind else { return self.read_bare_item(item, component) };
         let fields = self.fields(entries, "this gate");
         component.gates_unread |= fields.damaged;
-        if let Some((name, kind)) = shape::gate::long_form(&fields) {
+        if let Some([name, kind]) = shape::gate::long_form(&fields) {
             self.report(shape::gate::written_long(item, &fields));
             let span = item.span;
             return component.gates.extend(name.zip(kind).map(|(name, kind)| bare_gate(name, kind, span)));
@@ -100,41 +100,29 @@ impl Reader<'_> {
 
     /// `- name`, or `- name kind`, which can be understood.
     fn read_gate_without_colon(&mut self, item: &Node, text: &str, component: &mut ComponentModel) -> Diagnostic {
-        if let Some(problem) = pitfall::look_alike::in_word(item, text, "gate name", self.source) {
+        let span = item.span;
+        let word = |word: &str| Spanned { value: word.to_owned(), span };
+        let start = |name: &str| Spanned { span: Span { end: span.start + name.len() as u32, ..span }, ..word(name) };
+        let with_kind = |separator| {
+            let (name, kind) = text.split_once(separator)?;
+            is_kind(kind.trim()).then(|| (name, kind.trim()))
+        };
+        let look_alike = pitfall::look_alike::in_word(item, text, "gate name", self.source);
+        let (gate, problem) = if let Some(problem) = look_alike {
             let retyped = confusable::retyped(text);
             let (name, kind) = retyped.split_once([':', ' ']).unwrap_or((&retyped, ""));
-            component.gates.push(bare_gate(
-                Spanned { value: name.trim_matches(['"', '\'']).to_owned(), span: item.span },
-                Spanned { value: if is_kind(kind.trim()) { kind.trim() } else { "" }.to_owned(), span: item.span },
-                item.span,
-            ));
-            return problem;
-        }
-        if let Some((name, kind)) = text.split_once('=').filter(|(_, kind)| is_kind(kind.trim())) {
-            let span = Span { end: item.span.start + name.trim().len() as u32, ..item.span };
-            let kind = Spanned { value: kind.trim().to_owned(), span: item.span };
-            let problem = shape::gate::equals_sign(name.trim(), &kind.value, item.span);
-            component.gates.push(bare_gate(Spanned { value: name.trim().to_owned(), span }, kind, item.span));
-            return problem;
-        }
-        let named = |name: &str| Spanned {
-            value: name.to_owned(),
-            span: Span { end: item.span.start + name.len() as u32, ..item.span },
+            let kind = if is_kind(kind.trim()) { kind.trim() } else { "" };
+            (bare_gate(word(name.trim_matches(['"', '\''])), word(kind), span), problem)
+        } else if let Some((name, kind)) = with_kind('=') {
+            let name = name.trim();
+            (bare_gate(start(name), word(kind), span), shape::gate::equals_sign(name, kind, span))
+        } else if let Some((name, kind)) = with_kind(' ').filter(|_| item.is_plain()) {
+            (bare_gate(start(name), word(kind), span), shape::gate::without_colon(name, kind, span))
+        } else {
+            (unread_gate(word(text)), shape::gate::without_kind(text, span))
         };
-        match text.split_once(' ').filter(|(_, kind)| is_kind(kind.trim())) {
-            Some((name, kind)) if item.is_plain() => {
-                component.gates.push(bare_gate(
-                    named(name),
-                    Spanned { value: kind.trim().to_owned(), span: item.span },
-                    item.span,
-                ));
-                shape::gate::without_colon(name, kind.trim(), item.span)
-            }
-            _ => {
-                component.gates.push(unread_gate(Spanned { value: text.to_owned(), span: item.span }));
-                shape::gate::without_kind(text, item.span)
-            }
-        }
+        component.gates.push(gate);
+        problem
     }
 
     /// `name: kind` or `name: {kind: type, option: value}`.

@@ -13,8 +13,7 @@ impl Reader<'_> {
             self.report(pitfall::no_value::in_field(field, what, self.source));
             return None;
         }
-        let what_key = format!("`{}`", field.key);
-        self.name(field.value, what, &what_key)
+        self.name(field.value, what, &format!("`{}`", field.key))
     }
 
     /// The name that a node is; `place` is where it stands, for example `` `name` ``.
@@ -30,7 +29,11 @@ impl Reader<'_> {
                 let value = text.trim().to_owned();
                 return (!value.is_empty() && !value.contains('\n')).then_some(Spanned { value, span: node.span });
             }
-            NodeKind::Scalar { text, .. } if node.is_plain() => self.check_word(node, text),
+            // Text without quotes that YAML reads as something else.
+            NodeKind::Scalar { text, .. } if node.is_plain() => self.problems.extend(
+                pitfall::misread_name::find_boolean(text, node.span)
+                    .or_else(|| pitfall::misread_name::find_number(text, node.span)),
+            ),
             NodeKind::Scalar { .. } => {}
             _ => {
                 self.report(shape::option_value::not_text(place, node));
@@ -50,15 +53,6 @@ impl Reader<'_> {
         self.report(problem);
         let retyped = confusable::retyped(&word.value);
         Spanned { value: retyped.trim_matches(['"', '\'', ' ']).to_owned(), ..word }
-    }
-
-    /// Text without quotes that YAML reads as something else.
-    fn check_word(&mut self, node: &Node, text: &str) {
-        let problem = pitfall::misread_name::find_boolean(text, node.span)
-            .or_else(|| pitfall::misread_name::find_number(text, node.span));
-        if let Some(problem) = problem {
-            self.report(problem);
-        }
     }
 }
 

@@ -15,15 +15,11 @@ impl Reader<'_> {
             match field.key {
                 "system" => self.model.system = self.name_in(*field, "system name"),
                 "codec" => self.model.codec = self.name_in(*field, "codec"),
-                "schemas" => {
-                    let files = self.read_files(*field, "schema file", "a schema");
-                    self.model.schemas.extend(files);
-                }
+                "schemas" => self.model.schemas = self.read_files(*field, "schema file", "a schema"),
                 "schema_roots" => {
-                    let folders = self.read_files(*field, "folder of schemas", "a folder of schemas");
-                    self.model.schema_roots.extend(folders);
+                    self.model.schema_roots = self.read_files(*field, "folder of schemas", "a folder of schemas");
                 }
-                "scl" => self.read_version(*field),
+                "scl" => self.problems.extend(shape::version::find(*field)),
                 "components" | "connections" => self.read_lists(&fields, field.key),
                 key if key.starts_with(grammar::OWN_PREFIX) => self.check_extension(*field),
                 _ => self.report_unknown_section(*field),
@@ -51,20 +47,11 @@ impl Reader<'_> {
         }
     }
 
-    fn read_version(&mut self, field: Field<'_>) {
-        if let Some(problem) = shape::version::find(field) {
-            self.report(problem);
-        }
-    }
-
     fn read_files(&mut self, field: Field<'_>, what: &str, one: &str) -> Vec<Spanned<String>> {
         match &field.value.kind {
             NodeKind::Unread => Vec::new(),
             NodeKind::Sequence { items } => items.iter().filter_map(|item| self.name(item, what, one)).collect(),
-            _ if super::name::is_empty(field.value) => {
-                self.name_in(field, "list of files");
-                Vec::new()
-            }
+            _ if super::name::is_empty(field.value) => self.name_in(field, "list of files").into_iter().collect(),
             _ => {
                 self.report(shape::section_kind::files(field));
                 super::scalar(field.value).into_iter().collect()

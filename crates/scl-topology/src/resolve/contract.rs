@@ -1,7 +1,7 @@
 //! Contracts: a short mark of what two ends must agree on.
 
 use crate::fingerprint;
-use crate::topology::{ConnectionId, Gate, GateId, GateKind, Payload, Topology};
+use crate::topology::{ConnectionId, GateId, GateKind, Topology, TypeName};
 
 /// The contract of a connection: eight characters of `a-z2-7`.
 pub(super) fn contract(topology: &Topology, connection: ConnectionId) -> String {
@@ -17,14 +17,7 @@ pub(super) fn gate_contract(topology: &Topology, gate: GateId) -> String {
         GateKind::Req | GateKind::Rep => "req/rep",
         GateKind::Push | GateKind::Pull => "push/pull",
     };
-    let [first, second] = type_texts(gate);
+    let mut types = gate.payload().types().into_iter().map(TypeName::dotted);
+    let [first, second] = [types.next(), types.next()].map(Option::unwrap_or_default);
     fingerprint::short([pattern, first, second, gate.codec().word()])
-}
-
-fn type_texts(gate: &Gate) -> [&str; 2] {
-    match gate.payload() {
-        Payload::Bytes => ["", ""],
-        Payload::Message(name) => [name.dotted(), ""],
-        Payload::Exchange { request, reply } => [request.dotted(), reply.dotted()],
-    }
 }

@@ -122,12 +122,11 @@ fn known(control: &ControlModel, word: Word<'_>, own: &mut Vec<Diagnostic>) -> O
 fn may_be_allowed(control: &ControlModel, rule: &Rule, word: Word<'_>, own: &mut Vec<Diagnostic>) -> bool {
     let is_fixed = rule.severity == Severity::Error && !ALLOWED_ERRORS.contains(&rule);
     if is_fixed {
-        own.push(
-            FIXED
-                .at(format!("{} cannot be allowed", rule.code), place(control, word), rule.title)
-                .help(format!("errors that can be allowed: {}", ALLOWED_ERRORS.map(|rule| rule.code).join(", ")))
-                .note("any other error means that the system could never work"),
-        );
+        let found = FIXED
+            .at(format!("{} cannot be allowed", rule.code), place(control, word), rule.title)
+            .help(format!("errors that can be allowed: {}", ALLOWED_ERRORS.map(|rule| rule.code).join(", ")))
+            .note("any other error means that the system could never work");
+        own.push(found);
     }
     !is_fixed
 }

@@ -127,11 +127,10 @@ pub(in crate::parse) fn kind_as_key(gate: Field<'_>, fields: &Fields<'_>) -> Opt
 }
 
 /// Name and kind of `{name: measurements, kind: pub}`; none if the item is written otherwise.
-#[allow(clippy::type_complexity)]
-pub(in crate::parse) fn long_form(fields: &Fields<'_>) -> Option<(Option<Spanned<String>>, Option<Spanned<String>>)> {
+pub(in crate::parse) fn long_form(fields: &Fields<'_>) -> Option<[Option<Spanned<String>>; 2]> {
     let name = fields.get("name")?;
     let kind = fields.get("kind").or_else(|| fields.get("type"))?;
-    Some((scalar(name.value), scalar(kind.value)))
+    Some([scalar(name.value), scalar(kind.value)])
 }
 
 /// `- name: measurements` with `kind: pub` beside it.
