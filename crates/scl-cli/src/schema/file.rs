@@ -22,7 +22,7 @@ pub(super) fn file_schema(names: &Names) -> Value {
 /// A mapping with these keys.
 fn mapping(keys: &[Key], names: &Names) -> Map<String, Value> {
     let properties: Map<String, Value> = keys.iter().map(|key| (key.key.to_owned(), key_schema(key, names))).collect();
-    let required: Vec<&str> = keys.iter().filter(|key| key.is_required).map(|key| key.key).collect();
+    let required: Vec<&str> = keys.iter().filter(|key| key.is_required()).map(|key| key.key).collect();
     let schema = json!({
         "type": "object", "required": required, "properties": properties, "additionalProperties": false,
     });
@@ -52,7 +52,7 @@ fn list_schema(key: &Key, item: Item, names: &Names) -> Value {
         Item::Gate => gate_schema(names),
     };
     // A list of components or gates that is still empty is a warning, not an error.
-    match (key.is_required, item) {
+    match (key.is_required(), item) {
         (true, _) | (_, Item::File | Item::Folder) => json!({ "type": "array", "items": items }),
         (false, _) => json!({ "type": ["array", "null"], "items": items }),
     }

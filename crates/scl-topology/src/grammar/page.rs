@@ -63,7 +63,7 @@ pub fn page() -> String {
 }
 
 fn of_key(key: &'static Key, what: &'static str) -> Entry {
-    let is_required = if key.is_required { ", required" } else { "" };
+    let is_required = if key.is_required() { ", required" } else { "" };
     let default = if key.default.is_empty() { String::new() } else { format!(" Default: {}.", key.default) };
     let rest = if key.text.is_empty() { String::new() } else { format!("{}\n\n", key.text) };
     let facts = format!("Value: {}{is_required}.{default}", key.shape.values());
@@ -120,7 +120,7 @@ fn of_codec(row: &'static CodecRow) -> Entry {
 
 fn key_table(keys: &[Key]) -> String {
     let rows = keys.iter().map(|key| {
-        let default = if key.is_required { "required" } else { key.default };
+        let default = if key.is_required() { "required" } else { key.default };
         let meaning = format!("{} {}", key.summary, key.text);
         row(&[&format!("`{}`", key.key), &key.shape.values(), default, meaning.trim_end()])
     });

@@ -9,9 +9,7 @@ pub struct Key {
     pub key: &'static str,
     /// What its value looks like.
     pub shape: Shape,
-    /// Whether a file or component without it is an error.
-    pub is_required: bool,
-    /// What holds without it, as text; empty if nothing does.
+    /// What holds without it, as text; empty if it is required.
     pub default: &'static str,
     /// What it says, in one sentence.
     pub summary: &'static str,
@@ -19,6 +17,13 @@ pub struct Key {
     pub text: &'static str,
     /// Lines of a topology file that show it.
     pub example: &'static str,
+}
+
+impl Key {
+    /// Whether a file or component without it is an error.
+    pub fn is_required(&self) -> bool {
+        self.default.is_empty()
+    }
 }
 
 /// The only version of the format so far.
@@ -32,7 +37,6 @@ pub static SECTIONS: [Key; 7] = [
     Key {
         key: "components",
         shape: Shape::List(Item::Component),
-        is_required: true,
         default: "",
         summary: "The components, each with its gates.",
         text: "A component is one program, or a part of one. At least one is needed.",
@@ -41,7 +45,6 @@ pub static SECTIONS: [Key; 7] = [
     Key {
         key: "connections",
         shape: Shape::List(Item::Connection),
-        is_required: false,
         default: "none",
         summary: "Which gates are connected: pairs `[component.gate, component.gate]`.",
         text: "The order of the two ends is free: their kinds say which one sends.",
@@ -59,7 +62,6 @@ connections:
     Key {
         key: "system",
         shape: Shape::Name,
-        is_required: false,
         default: "the file's name without its ending",
         summary: "The name of the system.",
         text: "It names the folder in which the system's sockets live. Two systems of one name on one machine meet \
@@ -69,7 +71,6 @@ connections:
     Key {
         key: "schemas",
         shape: Shape::List(Item::File),
-        is_required: false,
         default: "none",
         summary: "Protobuf files beside this one, from which the macro generates Rust types.",
         text: "A gate names their messages with their package: `rover.Measurement`.",
@@ -78,7 +79,6 @@ connections:
     Key {
         key: "schema_roots",
         shape: Shape::List(Item::Folder),
-        is_required: false,
         default: "this folder, and those of the `schemas`",
         summary: "The folders in which the `import` statements of the `schemas` begin, as protoc's `-I`.",
         text: "Paths from this file's folder, `.` for itself. Each of the `schemas` must be in one of them. See \
@@ -88,7 +88,6 @@ connections:
     Key {
         key: "codec",
         shape: Shape::Codec,
-        is_required: false,
         default: "`protobuf`",
         summary: "The codec of typed gates that name none.",
         text: "A gate without a type carries bytes as they are. See [codecs](#codecs).",
@@ -97,7 +96,6 @@ connections:
     Key {
         key: "scl",
         shape: Shape::Number { least: FORMAT, most: FORMAT },
-        is_required: false,
         default: "`1`",
         summary: "The version of the file's format.",
         text: "There is one version so far.",
@@ -110,7 +108,6 @@ pub static COMPONENT_KEYS: [Key; 4] = [
     Key {
         key: "name",
         shape: Shape::Name,
-        is_required: true,
         default: "",
         summary: "The name, in snake_case: `user_interface` becomes the Rust type `UserInterface`.",
         text: "Names consist of ASCII letters, digits, `_` and `-`, and start with a letter or `_`. The same holds for \
@@ -120,7 +117,6 @@ pub static COMPONENT_KEYS: [Key; 4] = [
     Key {
         key: "gates",
         shape: Shape::List(Item::Gate),
-        is_required: false,
         default: "none",
         summary: "The gates, each a field of the component's Rust type.",
         text: "A component without gates is a warning. See [gates](#gates).",
@@ -134,7 +130,6 @@ pub static COMPONENT_KEYS: [Key; 4] = [
     Key {
         key: "doc",
         shape: Shape::Text,
-        is_required: false,
         default: "none",
         summary: "A paragraph for the generated documentation.",
         text: "Editors show it when the cursor is on the component's Rust type.",
@@ -143,7 +138,6 @@ pub static COMPONENT_KEYS: [Key; 4] = [
     Key {
         key: "optional",
         shape: Shape::Boolean,
-        is_required: false,
         default: "`false`",
         summary: "Peers do not wait for this component when they start.",
         text: "Without it, `ready` in a peer waits until this component runs.",

@@ -35,7 +35,7 @@ pub(in crate::parse) fn in_field(field: Field<'_>, what: &str, source: &SourceFi
     };
     let help = match key {
         "name" => "write the name after the colon: `name: sensor`".to_owned(),
-        key if grammar::section(key).is_some_and(|section| !section.is_required) => {
+        key if grammar::section(key).is_some_and(|section| !section.is_required()) => {
             format!("write it after the colon, or remove `{key}`")
         }
         _ => "write it after the colon".to_owned(),
