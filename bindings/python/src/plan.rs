@@ -9,6 +9,7 @@ use scl::host::text_with_causes;
 use scl::plan::SystemPlan;
 use scl::untyped::GateError;
 use scl_loader::{Request, load};
+use scl_text::suggest::closest_name;
 use scl_topology::diagnostic::{Severity, render};
 use scl_topology::rust_name::gate_field;
 use std::collections::BTreeMap;
@@ -104,6 +105,6 @@ fn check(path: PathBuf) -> Result<(SystemPlan, Vec<String>), Failure> {
 /// The error text for a gate that a component does not have.
 #[pyfunction]
 pub(crate) fn unknown_gate(component: &str, gate: &str, known: Vec<String>) -> String {
-    let nearest = scl_plan::nearest(gate, known.iter().map(String::as_str)).map(str::to_owned);
+    let nearest = closest_name(gate, known.iter().map(String::as_str)).map(str::to_owned);
     GateError::Unknown { component: component.to_owned(), gate: gate.to_owned(), nearest, known }.to_string()
 }

@@ -52,7 +52,6 @@ pub use error::{PlanError, UnknownComponent};
 pub use kind::{GateKind, Undecodable, WhenFull};
 pub use options::{GateOptions, OptionAccess, OptionField};
 pub use plan::{ConnectionPlan, GatePlan, Payload, Plan, Schema};
-pub use scl_text::suggest::closest_name as nearest;
 pub use system::SystemPlan;
 #[cfg(feature = "json")]
 pub use version::VERSION;

@@ -6,6 +6,7 @@ use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::transport::Transport;
 use crate::transport_choice::TransportChoice;
 use crate::transport_kind::TransportKind;
+use scl_text::suggest::closest_name;
 use std::sync::Arc;
 
 /// The transports of a component's connections.
@@ -36,7 +37,7 @@ impl Transports {
         choice: TransportChoice,
     ) -> Result<Self, OpenError> {
         if let Some((gate, kind)) = choice.unknown_gate(spec) {
-            let nearest = scl_plan::nearest(gate, spec.gates.iter().map(|gate| gate.name)).map(str::to_owned);
+            let nearest = closest_name(gate, spec.gates.iter().map(|gate| gate.name)).map(str::to_owned);
             let (component, gate, transport) = (spec.name, gate.to_owned(), kind.word());
             return Err(OpenError::NoSuchGate { component, gate, transport, nearest });
         }

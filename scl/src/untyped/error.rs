@@ -3,6 +3,7 @@
 use crate::error::{BlockingError, GateName, RecvError};
 use crate::spec::{ComponentSpec, GateKind};
 use crate::time::Rounded;
+use scl_text::suggest::closest_name;
 use std::time::Duration;
 use thiserror::Error;
 
@@ -79,7 +80,7 @@ impl GateError {
         Self::Unknown {
             component: spec.name.to_owned(),
             gate: gate.to_owned(),
-            nearest: scl_plan::nearest(gate, names()).map(str::to_owned),
+            nearest: closest_name(gate, names()).map(str::to_owned),
             known: names().map(str::to_owned).collect(),
         }
     }
