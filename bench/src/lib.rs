@@ -6,7 +6,6 @@
 #![deny(missing_docs)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
-mod allocations;
 mod clock;
 mod codecs;
 mod components;
@@ -46,7 +45,6 @@ mod worker;
 #[cfg(feature = "gateway")]
 mod zenoh_peer;
 
-pub use allocations::{AllocationCounter, measure_allocations};
 pub use codecs::{CodecsOptions, measure_codecs};
 pub use cores::Cores;
 pub use delay::{DelayOptions, measure_delay};

@@ -1,7 +1,7 @@
 //! What worker processes do: one role per benchmark, selected by the first argument.
 
 use crate::worker::{exit_when_input_closes, unknown_arguments};
-use crate::{allocations, delay, fanout, fresh, one_way, restart, roundtrip};
+use crate::{delay, fanout, fresh, one_way, restart, roundtrip};
 use std::io::ErrorKind;
 
 /// Runs a role with the arguments that follow its name.
@@ -16,7 +16,6 @@ type Role = fn(&[&str]) -> scl::Result<()>;
 pub fn run_worker(arguments: &[String]) -> scl::Result<()> {
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let (role, rest): (Role, _) = match arguments.as_slice() {
-        ["allocations", rest @ ..] => (allocations::run_peer, rest),
         ["delay", rest @ ..] => (delay::run_source, rest),
         ["fanout", rest @ ..] => (fanout::run_subscriber, rest),
         ["fresh", rest @ ..] => (fresh::run_subscriber, rest),

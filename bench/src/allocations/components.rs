@@ -1,5 +1,0 @@
-//! The components of this benchmark.
-
-use super::reading;
-
-scl::topology!("allocations.yaml");
