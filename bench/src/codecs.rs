@@ -18,13 +18,6 @@ const BATCH: usize = 100;
 const PROST: &str = "prost alone";
 const SERDE_JSON: &str = "serde_json alone";
 
-/// Options of [`measure_codecs`].
-#[derive(Debug, Clone)]
-pub struct CodecsOptions {
-    /// The number of messages that each codec encodes and decodes.
-    pub messages: usize,
-}
-
 /// A codec and a message, without their types.
 struct Variant {
     name: &'static str,
@@ -46,18 +39,14 @@ struct Measurement {
     bytes: usize,
 }
 
-/// Measures all codecs on the same record.
-///
-/// # Errors
-///
-/// A codec fails on the record, which does not happen.
-pub fn measure_codecs(options: &CodecsOptions) -> scl::Result<Report> {
+/// Measures all codecs on the same record; each encodes and decodes this many messages.
+pub(crate) fn measure_codecs(messages: usize) -> scl::Result<Report> {
     let mut measurements = Vec::new();
     for variant in variants() {
         let [encoding, decoding] = [Durations::new()?, Durations::new()?];
         measurements.push(Measurement { variant, encoding, decoding, bytes: 0 });
     }
-    let batches = options.messages.div_ceil(BATCH).max(1);
+    let batches = messages.div_ceil(BATCH).max(1);
     let warm_up = batches.div_ceil(10);
     for batch in 0..warm_up + batches {
         for measurement in &mut measurements {

@@ -4,18 +4,19 @@
 //! costs a context switch, on two cores it may have to wake an idle core. Ratios between variants that ran on different
 //! cores mean nothing, so both sides can be pinned.
 
+use clap::ValueEnum;
 use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
 use std::sync::OnceLock;
 
 /// The cores on which the processes of a benchmark run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Cores {
-    /// The operating system places the processes, and moves them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum Cores {
+    // The operating system places the processes, and moves them.
     #[default]
     Any,
-    /// All processes share one core.
+    // All processes share one core.
     One,
-    /// The measuring process has one core, its workers share another.
+    // The measuring process has one core, its workers share another.
     Two,
 }
 
@@ -24,11 +25,7 @@ static WORKER_CORE: OnceLock<usize> = OnceLock::new();
 
 impl Cores {
     /// Pins the calling thread, the threads it starts from now on, and the worker processes.
-    ///
-    /// # Errors
-    ///
-    /// This process may not use enough cores, or the operating system refuses.
-    pub fn pin(self) -> scl::Result<()> {
+    pub(crate) fn pin(self) -> scl::Result<()> {
         if self == Self::Any {
             return Ok(());
         }

@@ -36,13 +36,6 @@ const COLUMNS: [Column; 5] = [
     Column::plain("variance_us2"),
 ];
 
-/// Options of [`measure_delay`].
-#[derive(Debug, Clone)]
-pub struct DelayOptions {
-    /// How long each variant is measured in each situation, at 1000 messages per second.
-    pub time: Duration,
-}
-
 /// Part of the name of a row, and the program that starts the processes.
 #[derive(Clone, Copy)]
 struct Situation {
@@ -54,20 +47,17 @@ const IDLE: Situation = Situation { name: "idle", launcher: &[] };
 const LOAD: Situation = Situation { name: "load", launcher: &[] };
 const REAL_TIME_LOAD: Situation = Situation { name: "real-time", launcher: &REAL_TIME };
 
-/// Measures the delay of all variants in three situations; the last one only if real-time priority is permitted.
-///
-/// # Errors
-///
-/// The folder for temporary files cannot be used, a process cannot be started, or a connection fails.
-pub fn measure_delay(options: &DelayOptions) -> scl::Result<Report> {
+/// Measures the delay of all variants in three situations, each for this time; the last situation only if real-time
+/// priority is permitted.
+pub(crate) fn measure_delay(time: Duration) -> scl::Result<Report> {
     let title = format!("delay of {BYTES} bytes at 1000 Hz: idle, under load, under load with real-time priority");
     let mut table = Table::new(title, &COLUMNS);
     let mut report = Report::new("delay");
-    measure_situation(IDLE, options, &mut table)?;
+    measure_situation(IDLE, time, &mut table)?;
     let _load = Load::start()?;
-    measure_situation(LOAD, options, &mut table)?;
+    measure_situation(LOAD, time, &mut table)?;
     match why_not_real_time() {
-        None => measure_situation(REAL_TIME_LOAD, options, &mut table)?,
+        None => measure_situation(REAL_TIME_LOAD, time, &mut table)?,
         Some(reason) => report.note(reason),
     }
     report.add(table);
@@ -89,9 +79,9 @@ fn why_not_real_time() -> Option<String> {
     }
 }
 
-fn measure_situation(situation: Situation, options: &DelayOptions, table: &mut Table) -> scl::Result<()> {
+fn measure_situation(situation: Situation, time: Duration, table: &mut Table) -> scl::Result<()> {
     let folder = ScratchFolder::new()?;
-    let messages = usize::try_from(options.time.as_millis() / PERIOD.as_millis())?.max(1);
+    let messages = usize::try_from(time.as_millis() / PERIOD.as_millis())?.max(1);
     let batch = BATCH.min(messages);
     let rounds = messages.div_ceil(batch);
     let arguments = ["delay", folder.path(), &batch.to_string(), &rounds.to_string()];

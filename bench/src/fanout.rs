@@ -10,47 +10,18 @@ use crate::durations::Durations;
 use crate::report::{Column, Report, Row, Table};
 use crate::runtime::start_runtime;
 use crate::scratch::ScratchFolder;
+use crate::variant::Variant;
 use message::{BATCH, BYTES, PERIOD};
 use publisher::{Publisher, SUBSCRIBERS};
 use std::time::Duration;
 
-/// A way to publish: its name between the processes, in the table of late messages, and its rows in the others.
-struct Variant {
-    id: &'static str,
-    name: &'static str,
-    all_run: &'static str,
-    one_stopped: &'static str,
-    /// The rows that the delays of `all_run` and `one_stopped` are compared with.
-    baselines: [&'static [&'static str]; 2],
-}
+const ZEROMQ: &str = "zeromq PUB";
 
-const SCL_ALL_RUN: &str = "SCL, all run";
-const ZEROMQ_ALL_RUN: &str = "zeromq PUB, all run";
-const ZEROMQ_ONE_STOPPED: &str = "zeromq PUB, one stopped";
+const VARIANTS: [Variant; 2] =
+    [Variant { id: "scl", name: "SCL", baselines: &[ZEROMQ] }, Variant { id: "zeromq", name: ZEROMQ, baselines: &[] }];
 
-const VARIANTS: [Variant; 2] = [
-    Variant {
-        id: "scl",
-        name: "SCL",
-        all_run: SCL_ALL_RUN,
-        one_stopped: "SCL, one stopped",
-        baselines: [&[ZEROMQ_ALL_RUN], &[SCL_ALL_RUN, ZEROMQ_ONE_STOPPED]],
-    },
-    Variant {
-        id: "zeromq",
-        name: "zeromq PUB",
-        all_run: ZEROMQ_ALL_RUN,
-        one_stopped: ZEROMQ_ONE_STOPPED,
-        baselines: [&[], &[ZEROMQ_ALL_RUN]],
-    },
-];
-
-/// Options of [`measure_fanout`].
-#[derive(Debug, Clone)]
-pub struct FanoutOptions {
-    /// How long each variant is measured in each phase, at 1000 messages per second.
-    pub time: Duration,
-}
+const ALL_RUN: &str = "all run";
+const ONE_STOPPED: &str = "one stopped";
 
 /// What was measured of a variant, while all subscribers ran and while one was stopped.
 struct Measurement {
@@ -71,13 +42,10 @@ struct Phase {
 }
 
 /// Measures the delay to seven of eight subscribers while the eighth one runs, and while it is stopped.
-///
-/// # Errors
-///
-/// The folder for temporary files cannot be used, a process cannot be started, or a connection fails.
-pub fn measure_fanout(options: &FanoutOptions) -> scl::Result<Report> {
+/// Each phase takes this time, at 1000 messages per second.
+pub(crate) fn measure_fanout(time: Duration) -> scl::Result<Report> {
     let folder = ScratchFolder::new()?;
-    let messages = u32::try_from(options.time.as_millis() / PERIOD.as_millis())?.max(1);
+    let messages = u32::try_from(time.as_millis() / PERIOD.as_millis())?.max(1);
     let mut measurements = VARIANTS.iter().map(|_| Measurement::new()).collect::<scl::Result<Vec<_>>>()?;
     start_runtime()?.block_on(run(folder.path(), messages, &mut measurements))?;
     Ok(report(&measurements))
@@ -135,13 +103,18 @@ fn report(measurements: &[Measurement]) -> Report {
         format!("delay of {BYTES} bytes at 1000 Hz to {running} subscribers, the eighth one running or stopped");
     let mut delays = Table::new(title, &columns);
     for (variant, measurement) in VARIANTS.iter().zip(measurements) {
-        let Measurement { all_run, one_stopped, .. } = measurement;
-        let names = [variant.all_run, variant.one_stopped];
-        for ((name, phase), baselines) in names.into_iter().zip([all_run, one_stopped]).zip(variant.baselines) {
-            delays.add(row(name, &phase.delays, &[phase.lost as f64]).with_baselines(baselines));
+        for (phase, Phase { delays: own_delays, sends: own_sends, lost }) in
+            [(ALL_RUN, &measurement.all_run), (ONE_STOPPED, &measurement.one_stopped)]
+        {
+            let row_in = |name: &str| format!("{name}, {phase}");
+            let mut baselines = Vec::new();
+            if phase == ONE_STOPPED {
+                baselines.push(format!("{}, {ALL_RUN}", variant.name));
+            }
+            sends.add(row(&row_in(variant.name), own_sends, &[]).with_baselines(&baselines));
+            baselines.extend(variant.baselines.iter().map(|name| row_in(name)));
+            delays.add(row(&row_in(variant.name), own_delays, &[*lost as f64]).with_baselines(&baselines));
         }
-        sends.add(row(variant.all_run, &all_run.sends, &[]));
-        sends.add(row(variant.one_stopped, &one_stopped.sends, &[]).with_baselines(&[variant.all_run]));
     }
     let mut report = Report::new("fanout");
     report.add(delays);

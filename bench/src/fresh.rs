@@ -8,13 +8,13 @@ pub(crate) use subscriber::run_subscriber;
 
 use crate::components::fresh::Publisher;
 use crate::durations::Durations;
+use crate::ends::{Calls, Sender};
 use crate::link::{CONNECT_TIMEOUT, connect, open};
 use crate::message::{Frame, Message};
 use crate::raw::SocketPaths;
 use crate::report::{Column, Report, Row, Table};
 use crate::runtime::start_runtime;
 use crate::scratch::ScratchFolder;
-use crate::sender::{Calls, Sender};
 use crate::variant::Variant;
 use crate::worker::Worker;
 use scl::time::interval;
@@ -45,15 +45,6 @@ const COLUMNS: [Column; 4] = [
     Column::plain("call_max_us"),
 ];
 
-/// Options of [`measure_fresh`].
-#[derive(Debug, Clone)]
-pub struct FreshOptions {
-    /// How often each subscriber pauses.
-    pub repetitions: usize,
-    /// How long a subscriber does not receive.
-    pub pause: Duration,
-}
-
 /// The publisher and the subscriber of a variant, and what was measured.
 struct Measurement {
     publisher: Sender,
@@ -68,37 +59,32 @@ struct Measurement {
 /// Measures the age of the first value after a pause, at 1000 values per second.
 ///
 /// All subscribers run at the same time, so that a repetition takes one pause.
-///
-/// # Errors
-///
-/// The folder for temporary files cannot be used, a process cannot be started, or a connection fails.
-pub fn measure_fresh(options: &FreshOptions) -> scl::Result<Report> {
+pub(crate) fn measure_fresh(repetitions: usize, pause: Duration) -> scl::Result<Report> {
     let folder = ScratchFolder::new()?;
-    let measurements = start_runtime()?.block_on(run(folder.path(), options))?;
+    let measurements = start_runtime()?.block_on(run(folder.path(), repetitions, pause))?;
     let mut report = Report::new("fresh");
-    report.add(table(options, &measurements));
+    report.add(table(repetitions, pause, &measurements));
     report.note("one period is 1 ms; the newest value is at most about one period old");
     report.note("the pause blocks the thread, except in the line `polled`, where the runtime runs");
     Ok(report)
 }
 
-async fn run(folder: &str, options: &FreshOptions) -> scl::Result<Vec<Measurement>> {
-    let [repetitions, pause] =
-        [options.repetitions as u128, options.pause.as_micros()].map(|number| number.to_string());
+async fn run(folder: &str, repetitions: usize, pause: Duration) -> scl::Result<Vec<Measurement>> {
+    let arguments = [repetitions as u128, pause.as_micros()].map(|number| number.to_string());
     let mut measurements = Vec::new();
     for (index, variant) in VARIANTS.iter().enumerate() {
-        let subscriber = ["fresh", variant.id, folder, &repetitions, &pause, &index.to_string()];
+        let subscriber = ["fresh", variant.id, folder, &arguments[0], &arguments[1], &index.to_string()];
         measurements.push(Measurement::start(variant, folder, &subscriber).await?);
     }
     let mut interval = interval(PERIOD)?;
-    while measurements.iter().any(|measurement| measurement.repetitions < options.repetitions) {
+    while measurements.iter().any(|measurement| measurement.repetitions < repetitions) {
         interval.tick().await?;
         for measurement in &mut measurements {
             let Message { payload, .. } = Message::sent_now(BYTES);
             measurement.publisher.send(Frame::Bytes(payload)).await?;
         }
         for measurement in &mut measurements {
-            if measurement.repetitions < options.repetitions
+            if measurement.repetitions < repetitions
                 && let Some(line) = measurement.subscriber.try_next_line()?
             {
                 measurement.record(&line)?;
@@ -145,8 +131,7 @@ impl Measurement {
     }
 }
 
-fn table(options: &FreshOptions, measurements: &[Measurement]) -> Table {
-    let FreshOptions { repetitions, pause } = options;
+fn table(repetitions: usize, pause: Duration, measurements: &[Measurement]) -> Table {
     let title =
         format!("first value after a pause of {pause:?} with `queue: 1` at 1000 Hz ({repetitions} repetitions)");
     let mut table = Table::new(title, &COLUMNS);

@@ -2,10 +2,9 @@
 //! end connects, and each end that sends waits for its subscriber.
 
 use crate::components::{one_way, roundtrip};
+use crate::ends::{Calls, Receiver, Sender};
 use crate::engines::{self, FAR, NEAR, options};
 use crate::raw::SocketPaths;
-use crate::receiver::Receiver;
-use crate::sender::{Calls, Sender};
 use crate::unix::FrameBuffer;
 use crate::worker::{Worker, print_line, unknown_arguments};
 use std::os::unix::net::{UnixListener as StdUnixListener, UnixStream as StdUnixStream};
@@ -83,10 +82,10 @@ impl Near {
                 (worker, Sender::Zeromq(Box::new(socket)), None)
             }
             _ => {
-                let library = Library::join(setup, true)?;
-                let mut sender = library.sender(PING).await?;
+                let library = setup.join(true)?;
+                let mut sender = setup.sender(&library, PING).await?;
                 let worker = start_worker().await?;
-                let receiver = if setup.is_round_trip { Some(library.receiver(PONG).await?) } else { None };
+                let receiver = if setup.is_round_trip { Some(setup.receiver(&library, PONG).await?) } else { None };
                 sender.ready().await?;
                 (worker, sender, receiver)
             }
@@ -126,9 +125,9 @@ impl Far {
                 (Receiver::Zeromq(Box::new(socket)), None)
             }
             _ => {
-                let library = Library::join(setup, false)?;
-                let sender = if setup.is_round_trip { Some(library.sender(PONG).await?) } else { None };
-                (library.receiver(PING).await?, sender)
+                let library = setup.join(false)?;
+                let sender = if setup.is_round_trip { Some(setup.sender(&library, PONG).await?) } else { None };
+                (setup.receiver(&library, PING).await?, sender)
             }
         };
         print_line("open")?;
@@ -240,76 +239,75 @@ impl Setup<'_> {
     }
 }
 
-/// What a process shares between its ends over a library.
-struct Library<'a> {
-    setup: Setup<'a>,
+/// What the ends of a process share over a library.
+enum Library {
+    Sockets,
     #[cfg(feature = "shm")]
-    participant: Option<std::rc::Rc<crate::iceoryx::Participant>>,
+    Iceoryx(std::rc::Rc<crate::iceoryx::Participant>),
     #[cfg(feature = "gateway")]
-    peer: Option<std::rc::Rc<crate::zenoh_peer::Peer>>,
+    Zenoh(std::rc::Rc<crate::zenoh_peer::Peer>),
 }
 
-impl<'a> Library<'a> {
+impl Setup<'_> {
     #[cfg_attr(not(feature = "gateway"), expect(unused_variables, reason = "one peer of zenoh listens"))]
-    fn join(setup: Setup<'a>, is_near: bool) -> scl::Result<Self> {
-        Ok(Self {
-            setup,
+    fn join(&self, is_near: bool) -> scl::Result<Library> {
+        Ok(match self.engine() {
             #[cfg(feature = "shm")]
-            participant: if setup.engine() == "iceoryx" { Some(crate::iceoryx::Participant::join()?) } else { None },
+            "iceoryx" => Library::Iceoryx(crate::iceoryx::Participant::join()?),
             #[cfg(feature = "gateway")]
-            peer: match setup.engine() {
-                "zenoh" => Some(crate::zenoh_peer::Peer::join(&setup.paths().path("port"), is_near)?),
-                _ => None,
+            "zenoh" => Library::Zenoh(crate::zenoh_peer::Peer::join(&self.paths().path("port"), is_near)?),
+            _ => Library::Sockets,
+        })
+    }
+
+    async fn sender(&self, library: &Library, channel: &str) -> scl::Result<Sender> {
+        Ok(match library {
+            #[cfg(feature = "shm")]
+            Library::Iceoryx(participant) => {
+                let (channel, copies) = (self.service(channel), self.id.contains("-copy"));
+                Sender::Iceoryx(Box::new(participant.sending(&channel, self.bytes, copies)?))
+            }
+            #[cfg(feature = "gateway")]
+            Library::Zenoh(peer) => Sender::Zenoh(peer.sending(&format!("bench/{channel}"))?),
+            Library::Sockets => match self.engine() {
+                "zeromq" => Sender::Xpub(self.paths().bind_xpub(channel).await?),
+                #[cfg(feature = "libzmq")]
+                "libzmq" if self.id == "libzmq-nodrop" => Sender::LibzmqNodrop(
+                    crate::libzmq::start_lossless_publisher(&self.paths(), channel, self.bytes, self.batch).await?,
+                ),
+                #[cfg(feature = "libzmq")]
+                "libzmq" => {
+                    let (kind, mark) = crate::libzmq::sending_kind(self.id);
+                    Sender::Libzmq(self.paths().bind_libzmq(channel, kind, mark)?)
+                }
+                _ => return Err(unknown_arguments(&[self.id])),
             },
         })
     }
 
-    async fn sender(&self, channel: &str) -> scl::Result<Sender> {
-        let setup = self.setup;
-        #[cfg(feature = "shm")]
-        if let Some(participant) = &self.participant {
-            let copies = setup.id.contains("-copy");
-            let channel = format!("{}/{}/{channel}", setup.folder, setup.id);
-            return Ok(Sender::Iceoryx(Box::new(participant.sending(&channel, setup.bytes, copies)?)));
-        }
-        #[cfg(feature = "gateway")]
-        if let Some(peer) = &self.peer {
-            return Ok(Sender::Zenoh(peer.sending(&format!("bench/{channel}"))?));
-        }
-        match setup.engine() {
-            "zeromq" => Ok(Sender::Xpub(setup.paths().bind_xpub(channel).await?)),
-            #[cfg(feature = "libzmq")]
-            "libzmq" if setup.id == "libzmq-nodrop" => Ok(Sender::LibzmqNodrop(
-                crate::libzmq::start_lossless_publisher(&setup.paths(), channel, setup.bytes, setup.batch).await?,
-            )),
-            #[cfg(feature = "libzmq")]
-            "libzmq" => {
-                let (kind, mark) = crate::libzmq::sending_kind(setup.id);
-                Ok(Sender::Libzmq(setup.paths().bind_libzmq(channel, kind, mark)?))
+    async fn receiver(&self, library: &Library, channel: &str) -> scl::Result<Receiver> {
+        Ok(match library {
+            #[cfg(feature = "shm")]
+            Library::Iceoryx(participant) => {
+                Receiver::Iceoryx(Box::new(participant.receiving(&self.service(channel))?))
             }
-            _ => Err(unknown_arguments(&[setup.id])),
-        }
+            #[cfg(feature = "gateway")]
+            Library::Zenoh(peer) => Receiver::Zenoh(peer.receiving(&format!("bench/{channel}"))?),
+            Library::Sockets => match self.engine() {
+                "zeromq" => Receiver::Zeromq(Box::new(self.paths().connect_sub(channel).await?)),
+                #[cfg(feature = "libzmq")]
+                "libzmq" => {
+                    let (kind, mark) = crate::libzmq::receiving_kind(self.id);
+                    Receiver::Libzmq(self.paths().connect_libzmq(channel, kind, mark)?)
+                }
+                _ => return Err(unknown_arguments(&[self.id])),
+            },
+        })
     }
 
-    async fn receiver(&self, channel: &str) -> scl::Result<Receiver> {
-        let setup = self.setup;
-        #[cfg(feature = "shm")]
-        if let Some(participant) = &self.participant {
-            let channel = format!("{}/{}/{channel}", setup.folder, setup.id);
-            return Ok(Receiver::Iceoryx(Box::new(participant.receiving(&channel)?)));
-        }
-        #[cfg(feature = "gateway")]
-        if let Some(peer) = &self.peer {
-            return Ok(Receiver::Zenoh(peer.receiving(&format!("bench/{channel}"))?));
-        }
-        match setup.engine() {
-            "zeromq" => Ok(Receiver::Zeromq(Box::new(setup.paths().connect_sub(channel).await?))),
-            #[cfg(feature = "libzmq")]
-            "libzmq" => {
-                let (kind, mark) = crate::libzmq::receiving_kind(setup.id);
-                Ok(Receiver::Libzmq(setup.paths().connect_libzmq(channel, kind, mark)?))
-            }
-            _ => Err(unknown_arguments(&[setup.id])),
-        }
+    /// The name of a channel of iceoryx2.
+    #[cfg(feature = "shm")]
+    fn service(&self, channel: &str) -> String {
+        format!("{}/{}/{channel}", self.folder, self.id)
     }
 }

@@ -7,11 +7,11 @@ mod batch_report;
 pub(crate) use batch_report::BatchReport;
 
 use crate::clock::now;
+#[cfg(feature = "libzmq")]
+use crate::ends::Sender;
 use crate::link::{Far, Near, Setup};
 use crate::message::{Frame, Message};
 use crate::runtime::{run, start_runtime};
-#[cfg(feature = "libzmq")]
-use crate::sender::Sender;
 use crate::variant::Variant;
 use crate::worker::{print_line, unknown_arguments};
 use scl::time::interval;

@@ -1,13 +1,12 @@
 //! The number of messages per second from one process to another, without losing any.
 
 use crate::message::MIN_SIZE;
-use crate::message_size::check_message_sizes;
 use crate::one_way::{Channel, SCL_PUB, Timing, ZEROMQ_PUB};
 use crate::report::{Column, Report, Row, Table};
 use crate::runtime::{run, start_runtime};
 use crate::scratch::ScratchFolder;
 use crate::transport::Transport;
-use crate::variant::{GATEWAY, SHM, UNIX, Variant};
+use crate::variant::{UNIX, Variant, over};
 use std::ops::RangeInclusive;
 use tokio::runtime::Runtime;
 
@@ -48,21 +47,8 @@ const MAX_BATCH_BYTES: usize = 32 << 20;
 /// Bytes that each variant sends at most, so that long messages do not take minutes.
 const MAX_BYTES: usize = 4 << 30;
 
-/// Options of [`measure_rate`].
-#[derive(Debug, Clone)]
-pub struct RateOptions {
-    /// The message sizes in bytes, one table each; within [`RateOptions::BYTES`].
-    pub bytes: Vec<usize>,
-    /// The number of messages for each variant and size; at most 4 GiB are sent.
-    pub messages: usize,
-    /// What is under the connections.
-    pub transport: Transport,
-}
-
-impl RateOptions {
-    /// The supported message sizes: 8 bytes are for the time.
-    pub const BYTES: RangeInclusive<usize> = MIN_SIZE..=4 << 20;
-}
+/// The supported message sizes: 8 bytes are for the time.
+pub(crate) const BYTES: RangeInclusive<usize> = MIN_SIZE..=4 << 20;
 
 /// How the messages of a run are divided.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,34 +65,23 @@ struct Measurement {
     rates: Vec<f64>,
 }
 
-/// Measures the rate of messages of all variants.
-///
-/// # Errors
-///
-/// A size is outside [`RateOptions::BYTES`], this program was built without the transport, the folder for temporary
-/// files cannot be used, a process cannot be started, or a connection fails.
-pub fn measure_rate(options: &RateOptions) -> scl::Result<Report> {
-    options.transport.check_is_built_in()?;
-    check_message_sizes(&options.bytes, RateOptions::BYTES)?;
+/// Measures the rate of messages of all variants, with a table for each size in bytes.
+pub(crate) fn measure_rate(sizes: &[usize], messages: usize, transport: Transport) -> scl::Result<Report> {
+    transport.check_is_built_in()?;
     let mut report = Report::new("rate");
     let runtime = start_runtime()?;
-    for &bytes in &options.bytes {
-        report.add(measure_size(&runtime, options, bytes)?);
+    for &bytes in sizes {
+        report.add(measure_size(&runtime, messages, transport, bytes)?);
     }
     report.note_rounds();
     Ok(report)
 }
 
-fn measure_size(runtime: &Runtime, options: &RateOptions, bytes: usize) -> scl::Result<Table> {
+fn measure_size(runtime: &Runtime, messages: usize, transport: Transport, bytes: usize) -> scl::Result<Table> {
     let folder = ScratchFolder::new()?;
-    let batches = Batches::new(options.messages, bytes);
+    let batches = Batches::new(messages, bytes);
     let mut measurements = Vec::new();
-    let variants = match options.transport {
-        Transport::Ipc => IPC,
-        Transport::Shm => SHM,
-        Transport::Gateway => GATEWAY,
-    };
-    for &variant in variants {
+    for &variant in over(transport, IPC) {
         let open = Channel::open(variant, folder.path(), bytes, batches.size, Timing::Batch);
         let channel = run(runtime, variant.id, open)?;
         measurements.push(Measurement { variant, channel, rates: Vec::new() });
@@ -169,15 +144,6 @@ mod tests {
             [(500_000, 20, 50_000, 10), (50, 20, 5, 10), (1, 8, 2, 10), (500_000, 1 << 20, 32, 128)]
         {
             assert_eq!(Batches::new(messages, bytes), Batches { size, count }, "{messages} of {bytes} bytes");
-        }
-    }
-
-    #[test]
-    fn sizes_outside_the_range_are_rejected() {
-        for rejected in [7, (4 << 20) + 1] {
-            let options = RateOptions { bytes: vec![20, rejected], messages: 2, transport: Transport::Ipc };
-            let error = measure_rate(&options).unwrap_err();
-            assert_eq!(error.to_string(), format!("a message has 8 to 4194304 bytes, not {rejected}"));
         }
     }
 }

@@ -5,6 +5,7 @@ mod ratio;
 mod text;
 mod text_table;
 
+use crate::cores::Cores;
 use crate::durations::Durations;
 use ratio::{Ratio, ratio};
 use serde_json::{Map, Value, json};
@@ -13,7 +14,7 @@ use serde_json::{Map, Value, json};
 ///
 /// `{}` prints tables; `{:#}` also prints the distribution of the durations below each table.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Report {
+pub(crate) struct Report {
     benchmark: &'static str,
     tables: Vec<Table>,
     notes: Vec<String>,
@@ -70,7 +71,7 @@ impl Report {
     }
 
     /// Adds a note about where the processes ran.
-    pub fn with_cores(mut self, cores: crate::Cores) -> Self {
+    pub(crate) fn with_cores(mut self, cores: Cores) -> Self {
         self.notes.extend(cores.note().map(str::to_owned));
         self
     }
@@ -81,7 +82,7 @@ impl Report {
     /// name of each baseline to the ratios of the row's values to the baseline's; a ratio from several rounds also has
     /// its quartiles (`p50_us_quartiles`). `distribution`, if any, has pairs of a fraction of all durations and the
     /// microseconds that this fraction does not exceed.
-    pub fn to_json(&self) -> Value {
+    pub(crate) fn to_json(&self) -> Value {
         let tables: Vec<Value> = self.tables.iter().map(Table::to_json).collect();
         json!({ "benchmark": self.benchmark, "tables": tables, "notes": self.notes })
     }

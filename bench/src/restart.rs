@@ -1,6 +1,7 @@
 //! The time until messages flow again after one side of a connection was killed and started again.
 
 mod restarted;
+mod side;
 mod survivor;
 
 pub(crate) use restarted::run_restarted;
@@ -10,6 +11,7 @@ use crate::durations::Durations;
 use crate::report::{Column, Report, Row, Table};
 use crate::runtime::start_runtime;
 use crate::scratch::ScratchFolder;
+use crate::variant::Variant;
 use crate::worker::Worker;
 use std::pin::pin;
 use std::time::Duration;
@@ -24,36 +26,24 @@ const PERIOD: Duration = Duration::from_millis(1);
 
 const COLUMNS: [Column; 2] = [Column::compared("p50_ms"), Column::compared("max_ms")];
 
-/// The restarted side: its name between the processes, and in the report.
-struct Variant {
-    id: &'static str,
-    name: &'static str,
-}
-
 const UNIX: &str = "Unix socket, connecting side";
 
+/// The restarted sides.
 const VARIANTS: &[Variant] = &[
-    Variant { id: "scl-publisher", name: "SCL pub" },
-    Variant { id: "scl-subscriber", name: "SCL sub" },
-    Variant { id: "scl-pusher", name: "SCL push" },
-    Variant { id: "scl-puller", name: "SCL pull" },
-    Variant { id: "scl-requester", name: "SCL req" },
-    Variant { id: "scl-replier", name: "SCL rep" },
+    Variant { id: "scl-publisher", name: "SCL pub", baselines: &[UNIX] },
+    Variant { id: "scl-subscriber", name: "SCL sub", baselines: &[UNIX] },
+    Variant { id: "scl-pusher", name: "SCL push", baselines: &[UNIX] },
+    Variant { id: "scl-puller", name: "SCL pull", baselines: &[UNIX] },
+    Variant { id: "scl-requester", name: "SCL req", baselines: &[UNIX] },
+    Variant { id: "scl-replier", name: "SCL rep", baselines: &[UNIX] },
     #[cfg(feature = "libzmq")]
-    Variant { id: "libzmq-publisher", name: "libzmq PUB" },
+    Variant { id: "libzmq-publisher", name: "libzmq PUB", baselines: &[] },
     #[cfg(feature = "libzmq")]
-    Variant { id: "libzmq-subscriber", name: "libzmq SUB" },
+    Variant { id: "libzmq-subscriber", name: "libzmq SUB", baselines: &[] },
     // A surviving SUB socket of `zeromq` reconnects only after many seconds, so that restarting its PUB is left out.
-    Variant { id: "zeromq-subscriber", name: "zeromq SUB" },
-    Variant { id: "unix", name: UNIX },
+    Variant { id: "zeromq-subscriber", name: "zeromq SUB", baselines: &[] },
+    Variant { id: "unix", name: UNIX, baselines: &[] },
 ];
-
-/// Options of [`measure_restart`].
-#[derive(Debug, Clone)]
-pub struct RestartOptions {
-    /// How often each side is restarted.
-    pub restarts: usize,
-}
 
 /// The surviving side of a variant, and what was measured.
 struct Measurement {
@@ -64,15 +54,11 @@ struct Measurement {
 
 /// Kills and restarts every side, and measures the time from its start to the first message that one side receives from
 /// the other.
-///
-/// # Errors
-///
-/// The folder for temporary files cannot be used, a process cannot be started, or a socket cannot be opened.
-pub fn measure_restart(options: &RestartOptions) -> scl::Result<Report> {
+pub(crate) fn measure_restart(restarts: usize) -> scl::Result<Report> {
     let folder = ScratchFolder::new()?;
-    let durations = start_runtime()?.block_on(run(folder.path(), options.restarts.max(1)))?;
+    let durations = start_runtime()?.block_on(run(folder.path(), restarts.max(1)))?;
     let mut report = Report::new("restart");
-    report.add(table(options, &durations));
+    report.add(table(restarts, &durations));
     report.note("measured from the start of the new process to the first message between both sides");
     Ok(report)
 }
@@ -125,14 +111,12 @@ fn downtime(run: u32) -> Duration {
     Duration::from_millis(50 + u64::from(run) * 7 % 20)
 }
 
-fn table(options: &RestartOptions, durations: &[Durations]) -> Table {
-    let title =
-        format!("time until messages flow after one side was killed and restarted ({} restarts)", options.restarts);
+fn table(restarts: usize, durations: &[Durations]) -> Table {
+    let title = format!("time until messages flow after one side was killed and restarted ({restarts} restarts)");
     let mut table = Table::new(title, &COLUMNS);
     for (variant, durations) in VARIANTS.iter().zip(durations) {
         let values = vec![durations.quantile(0.5) / 1e3, durations.max() / 1e3];
-        let baselines: &[&str] = if variant.id.starts_with("scl-") { &[UNIX] } else { &[] };
-        table.add(Row::new(variant.name, values).with_baselines(baselines).with_durations(durations));
+        table.add(Row::new(variant.name, values).with_baselines(variant.baselines).with_durations(durations));
     }
     table
 }

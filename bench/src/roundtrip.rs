@@ -7,12 +7,11 @@ pub(crate) use echo::run_echo;
 
 use crate::durations::Durations;
 use crate::message::Message;
-use crate::message_size::check_message_sizes;
 use crate::report::{Column, Report, Row, Table};
 use crate::runtime::start_runtime;
 use crate::scratch::ScratchFolder;
 use crate::transport::Transport;
-use crate::variant::{GATEWAY, SHM, UNIX, UNIX_BLOCKING, UNIX_BLOCKING_NAME, UNIX_NAME, Variant};
+use crate::variant::{UNIX, UNIX_BLOCKING, UNIX_BLOCKING_NAME, UNIX_NAME, Variant, over};
 use client::Client;
 use std::ops::RangeInclusive;
 use tokio::runtime::Runtime;
@@ -48,29 +47,11 @@ const IPC: &[Variant] = &[
     UNIX_BLOCKING,
 ];
 
-/// Options of [`measure_roundtrip`].
-#[derive(Debug, Clone)]
-pub struct RoundtripOptions {
-    /// The message sizes in bytes, one table each; within [`RoundtripOptions::BYTES`].
-    pub bytes: Vec<usize>,
-    /// The number of round trips for each variant and size; at most 4 GiB are sent.
-    pub messages: usize,
-    /// What is under the connections.
-    pub transport: Transport,
-}
+/// The supported message sizes. Some ten processes keep a few messages each in memory.
+pub(crate) const BYTES: RangeInclusive<usize> = 1..=16 << 20;
 
-impl RoundtripOptions {
-    /// The supported message sizes. Some ten processes keep a few messages each in memory.
-    pub const BYTES: RangeInclusive<usize> = 1..=16 << 20;
-
-    /// The message sizes that are supported over a transport. For shared memory, all that may be in flight is reserved.
-    fn bytes(transport: Transport) -> RangeInclusive<usize> {
-        match transport {
-            Transport::Ipc => Self::BYTES,
-            Transport::Shm | Transport::Gateway => 1..=4 << 20,
-        }
-    }
-}
+/// The longest message over other transports than Unix sockets: all that may be in flight is reserved in shared memory.
+const MAX_BYTES_ELSEWHERE: usize = 4 << 20;
 
 /// A variant with its two processes, and what was measured of it.
 struct Measurement {
@@ -81,41 +62,33 @@ struct Measurement {
     medians: Vec<f64>,
 }
 
-/// Measures the round-trip time of all variants.
-///
-/// # Errors
-///
-/// A size is outside [`RoundtripOptions::BYTES`], or outside of what the transport supports; this program was built
-/// without the transport; the folder for temporary files cannot be used, a process cannot be
-/// started, or a connection fails.
-pub fn measure_roundtrip(options: &RoundtripOptions) -> scl::Result<Report> {
-    options.transport.check_is_built_in()?;
-    check_message_sizes(&options.bytes, RoundtripOptions::bytes(options.transport))?;
+/// Measures the round-trip time of all variants, with a table for each size in bytes.
+pub(crate) fn measure_roundtrip(sizes: &[usize], messages: usize, transport: Transport) -> scl::Result<Report> {
+    transport.check_is_built_in()?;
+    let max = if transport == Transport::Ipc { *BYTES.end() } else { MAX_BYTES_ELSEWHERE };
+    if let Some(rejected) = sizes.iter().find(|size| **size > max) {
+        return Err(scl::Error::message(format!("a message has 1 to {max} bytes, not {rejected}")));
+    }
     let mut report = Report::new("roundtrip");
     let runtime = start_runtime()?;
-    for &bytes in &options.bytes {
-        report.add(measure_size(&runtime, options, bytes)?);
+    for &bytes in sizes {
+        report.add(measure_size(&runtime, messages, transport, bytes)?);
     }
     report.note_rounds();
     Ok(report)
 }
 
-fn measure_size(runtime: &Runtime, options: &RoundtripOptions, bytes: usize) -> scl::Result<Table> {
+fn measure_size(runtime: &Runtime, messages: usize, transport: Transport, bytes: usize) -> scl::Result<Table> {
     let folder = ScratchFolder::new()?;
     let mut measurements = Vec::new();
-    let variants = match options.transport {
-        Transport::Ipc => IPC,
-        Transport::Shm => SHM,
-        Transport::Gateway => GATEWAY,
-    };
-    for variant in variants {
+    for variant in over(transport, IPC) {
         let client = Client::start(runtime, variant.id, folder.path(), bytes)?;
         let (durations, medians) = (Durations::new()?, Vec::new());
         measurements.push(Measurement { variant, client, durations, medians });
     }
     let message = Message::new(bytes);
     let mut batch = Vec::with_capacity(BATCH);
-    for messages in batches(options.messages.min(MAX_BYTES / bytes)) {
+    for messages in batches(messages.min(MAX_BYTES / bytes)) {
         for measurement in &mut measurements {
             measurement.run(runtime, &message, messages, &mut batch)?;
         }

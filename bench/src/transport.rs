@@ -1,14 +1,16 @@
 //! What is under the connections that a benchmark measures.
 
+use clap::ValueEnum;
+
 /// What is under the connections of the lines `SCL`, and so what they are compared with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Transport {
-    /// ZeroMQ over Unix sockets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum Transport {
+    /// Unix sockets, beside other libraries over Unix sockets.
     #[default]
     Ipc,
-    /// Shared memory, beside plain iceoryx2 and Unix sockets. Takes the feature `shm`.
+    /// Shared memory, beside plain iceoryx2; takes the feature `shm` of this program.
     Shm,
-    /// Two gateways on loopback, beside plain zenoh and direct connections. Takes the feature `gateway`.
+    /// Two gateways on loopback, beside plain zenoh; takes the feature `gateway` of this program.
     Gateway,
 }
 

@@ -1,11 +1,22 @@
 //! The lines of `roundtrip` and `rate` that both have: SCL over a transport, and what it is compared with.
 
+use crate::transport::Transport;
+
 /// A way to exchange messages: its name between the processes, in the report, and what it is compared with.
 #[derive(Clone, Copy)]
 pub(crate) struct Variant {
     pub(crate) id: &'static str,
     pub(crate) name: &'static str,
     pub(crate) baselines: &'static [&'static str],
+}
+
+/// The variants over a transport; those over Unix sockets are the benchmark's own.
+pub(crate) fn over(transport: Transport, ipc: &'static [Variant]) -> &'static [Variant] {
+    match transport {
+        Transport::Ipc => ipc,
+        Transport::Shm => SHM,
+        Transport::Gateway => GATEWAY,
+    }
 }
 
 pub(crate) const UNIX_NAME: &str = "Unix socket (tokio)";
@@ -21,7 +32,7 @@ pub(crate) const UNIX: Variant = Variant { id: "unix", name: UNIX_NAME, baseline
 pub(crate) const UNIX_BLOCKING: Variant = Variant { id: "unix-blocking", name: UNIX_BLOCKING_NAME, baselines: &[] };
 
 /// In the order of their turns, as all lists of variants.
-pub(crate) const SHM: &[Variant] = &[
+const SHM: &[Variant] = &[
     Variant { id: "shm-loan", name: "SCL shm, loaned", baselines: &[ICEORYX_LOAN, SCL_IPC] },
     Variant {
         id: "shm-loan-blocking",
@@ -42,7 +53,7 @@ pub(crate) const SHM: &[Variant] = &[
     UNIX_BLOCKING,
 ];
 
-pub(crate) const GATEWAY: &[Variant] = &[
+const GATEWAY: &[Variant] = &[
     Variant { id: "gateway", name: "SCL over two gateways", baselines: &[ZENOH, SCL_TCP, SCL_IPC] },
     Variant { id: "zenoh", name: ZENOH, baselines: &[] },
     Variant { id: "tcp", name: SCL_TCP, baselines: &[] },

@@ -3,11 +3,11 @@
 use super::message::{Message, PERIOD};
 use crate::components::fanout::Publisher as Component;
 use crate::durations::Durations;
+use crate::ends::{Calls, Sender};
 use crate::link::{CONNECT_TIMEOUT, connect, open};
 use crate::message::Frame;
 use crate::one_way::BatchReport;
 use crate::raw::SocketPaths;
-use crate::sender::{Calls, Sender};
 use crate::worker::Worker;
 use scl::time::interval;
 use std::time::Instant;

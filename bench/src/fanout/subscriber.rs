@@ -5,9 +5,9 @@ use crate::clock::now;
 use crate::components::fanout::{
     Subscriber1, Subscriber2, Subscriber3, Subscriber4, Subscriber5, Subscriber6, Subscriber7, Subscriber8,
 };
+use crate::ends::Receiver;
 use crate::one_way::BatchReport;
 use crate::raw::SocketPaths;
-use crate::receiver::Receiver;
 use crate::runtime::start_runtime;
 use crate::worker::{print_line, unknown_arguments};
 use rustix::process::{Signal, set_parent_process_death_signal};

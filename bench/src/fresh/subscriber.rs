@@ -3,9 +3,9 @@
 use super::PERIOD;
 use crate::clock::now;
 use crate::components::fresh::Subscriber;
+use crate::ends::Receiver;
 use crate::link::open;
 use crate::raw::SocketPaths;
-use crate::receiver::Receiver;
 use crate::runtime::{run, start_runtime};
 use crate::worker::{print_line, unknown_arguments};
 use scl::bytes::Buf;

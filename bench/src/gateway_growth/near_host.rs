@@ -72,9 +72,9 @@ fn measure_connections(runtime: &Runtime, options: &GatewayGrowthOptions, connec
         let started = Instant::now();
         let mut near = NearHost::open(folder, &plan).await?;
         let matched = started.elapsed();
-        let idle = near.processor_percent(gateway, options.time, 0).await?;
+        let idle = near.processor_percent(gateway, options.seconds, 0).await?;
         let durations = near.exchange(options.messages).await?;
-        let loaded = near.processor_percent(gateway, options.time, RATE).await?;
+        let loaded = near.processor_percent(gateway, options.seconds, RATE).await?;
         let memory = [resident_kib(gateway)? as f64, resident_kib(far_gateway)? as f64];
         let values = vec![
             matched.as_secs_f64() * 1e3,

@@ -1,7 +1,7 @@
 //! The distribution of the durations of a table: quantiles, and a line of logarithmic bins.
 
 use super::Table;
-use super::text_table::{TextTable, format_value};
+use super::text_table::{format_value, text_table};
 use crate::durations::Durations;
 
 const QUANTILES: [(&str, f64); 5] = [("50%", 0.5), ("90%", 0.9), ("99%", 0.99), ("99.9%", 0.999), ("99.99%", 0.9999)];
@@ -18,15 +18,14 @@ pub(super) fn distribution(table: &Table) -> String {
     }
     let min = rows.iter().map(|(_, durations)| durations.min()).fold(f64::INFINITY, f64::min);
     let max = rows.iter().map(|(_, durations)| durations.max()).fold(0.0, f64::max);
-    let mut text = TextTable::new("", rows.iter().map(|(name, _)| (*name).to_owned()).collect());
-    let column =
-        |value: &dyn Fn(&Durations) -> f64| rows.iter().map(|(_, durations)| format_value(value(durations))).collect();
-    for (heading, fraction) in QUANTILES {
-        text.add(heading, column(&|durations| durations.quantile(fraction)));
+    let headings = QUANTILES.iter().map(|(heading, _)| *heading).chain(["max", ""]);
+    let mut text = text_table("", headings.map(str::to_owned));
+    for (name, durations) in rows {
+        let quantiles = QUANTILES.iter().map(|(_, fraction)| durations.quantile(*fraction));
+        let cells = quantiles.chain([durations.max()]).map(format_value).chain([line(durations, min, max)]);
+        text.row(std::iter::once(name.to_owned()).chain(cells));
     }
-    text.add("max", column(&Durations::max));
-    let lines = rows.iter().map(|(_, durations)| line(durations, min, max)).collect();
-    text.add("", lines);
+    let text = text.fit(usize::MAX);
     let [min, max] = [min, max].map(format_value);
     format!("quantiles in us; bins from {min} to {max} us: . up to 0.1 % of all, : 1 %, + 10 %, # more\n{text}")
 }

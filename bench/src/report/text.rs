@@ -1,9 +1,8 @@
 //! A report for people: values, and below them their ratios to those of other rows.
 
 use super::distribution::distribution;
-use super::ratio::Ratio;
-use super::text_table::{TextTable, format_value};
-use super::{Column, Report, Row, Table};
+use super::text_table::{format_value, text_table};
+use super::{Column, Report, Table};
 use std::fmt;
 
 impl fmt::Display for Report {
@@ -24,45 +23,50 @@ impl fmt::Display for Report {
     }
 }
 
-fn values(table: &Table) -> TextTable {
-    let mut text = TextTable::new("", table.rows.iter().map(|row| row.name.clone()).collect());
-    for (index, column) in table.columns.iter().enumerate() {
-        let values = table.rows.iter().filter_map(|row| row.values.get(index));
-        text.add(column.heading(), values.map(|value| format_value(*value)).collect());
+fn values(table: &Table) -> String {
+    let mut text = text_table("", table.columns.iter().map(|column| column.heading()));
+    for row in &table.rows {
+        text.row(std::iter::once(row.name.clone()).chain(row.values.iter().map(|value| format_value(*value))));
     }
-    text
+    text.fit(usize::MAX)
 }
 
 /// One line per row and baseline; empty if no row is compared.
 fn ratios(table: &Table) -> String {
-    let pairs = |row| table.baselines(row).map(move |baseline| (row, baseline));
-    let pairs: Vec<(&Row, &Row)> = table.rows.iter().flat_map(pairs).collect();
-    if pairs.is_empty() {
+    let lines = table.rows.iter().flat_map(|row| {
+        table
+            .baselines(row)
+            .map(move |baseline| (format!("{} to {}", row.name, baseline.name), table.ratios(row, baseline)))
+    });
+    let lines: Vec<(String, Vec<_>)> = lines.collect();
+    if lines.is_empty() {
         return String::new();
     }
-    let names = pairs.iter().map(|(row, baseline)| format!("{} to {}", row.name, baseline.name)).collect();
-    let mut text = TextTable::new("ratio", names);
-    let ratios: Vec<Vec<(Column, Option<Ratio>)>> =
-        pairs.iter().map(|(row, baseline)| table.ratios(row, baseline)).collect();
-    for (index, column) in table.columns.iter().filter(|column| column.compared).enumerate() {
-        let ratios: Vec<Option<Ratio>> =
-            ratios.iter().map(|ratios| ratios.get(index).and_then(|(_, ratio)| *ratio)).collect();
-        text.add(column.heading(), ratios.iter().map(|ratio| cell(ratio.map(|ratio| ratio.value))).collect());
-        let quartiles: Vec<Option<[f64; 2]>> = ratios.iter().map(|ratio| ratio.and_then(|r| r.quartiles)).collect();
-        if quartiles.iter().any(Option::is_some) {
+    let has_quartiles = |column: Column| {
+        let mut ratios = lines.iter().flat_map(|(_, ratios)| ratios);
+        ratios.any(|(other, ratio)| *other == column && ratio.is_some_and(|ratio| ratio.quartiles.is_some()))
+    };
+    let compared = table.columns.iter().filter(|column| column.compared);
+    let headings = compared.flat_map(|column| {
+        let quartiles = has_quartiles(*column).then(|| "quartiles".to_owned());
+        std::iter::once(column.heading()).chain(quartiles)
+    });
+    let mut text = text_table("ratio", headings);
+    for (name, ratios) in &lines {
+        let cells = ratios.iter().flat_map(|(column, ratio)| {
+            let value = ratio.map_or_else(String::new, |ratio| format!("{:.2}", ratio.value));
             let range = |[first, third]: [f64; 2]| format!("{first:.2} to {third:.2}");
-            text.add("quartiles", quartiles.into_iter().map(|q| q.map_or_else(String::new, range)).collect());
-        }
+            let quartiles = ratio.and_then(|ratio| ratio.quartiles).map_or_else(String::new, range);
+            std::iter::once(value).chain(has_quartiles(*column).then_some(quartiles))
+        });
+        text.row(std::iter::once(name.clone()).chain(cells));
     }
-    text.to_string()
-}
-
-fn cell(ratio: Option<f64>) -> String {
-    ratio.map_or_else(String::new, |ratio| format!("{ratio:.2}"))
+    text.fit(usize::MAX)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::Row;
     use super::*;
     use crate::durations::Durations;
 

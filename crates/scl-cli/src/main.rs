@@ -91,9 +91,9 @@ struct CommandLine {
 #[derive(Subcommand)]
 enum Command {
     #[cfg(feature = "bench")]
-    Bench(bench::BenchArguments),
+    Bench(scl_bench::BenchArguments),
     #[cfg(feature = "bench")]
-    #[command(name = bench::WORKER_COMMAND, hide = true)]
+    #[command(name = scl_bench::WORKER_COMMAND, hide = true)]
     BenchWorker(bench::WorkerArguments),
     #[cfg(feature = "observe")]
     Bw(bw::BwArguments),
@@ -181,9 +181,9 @@ fn main() -> ExitCode {
 fn run_command(command: Command) -> ExitCode {
     match command {
         #[cfg(feature = "bench")]
-        Command::Bench(arguments) => bench::bench(&arguments),
+        Command::Bench(arguments) => exit::exit_code(bench::bench(&arguments)),
         #[cfg(feature = "bench")]
-        Command::BenchWorker(arguments) => bench::run_worker(&arguments),
+        Command::BenchWorker(arguments) => exit::exit_code(bench::run_worker(&arguments)),
         #[cfg(feature = "observe")]
         Command::Bw(arguments) => bw::bw(&arguments),
         #[cfg(feature = "observe")]

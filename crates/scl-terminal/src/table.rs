@@ -48,6 +48,12 @@ impl Table {
         Self { aligns, headings: Some(headings), rows: Vec::new(), indent: 0 }
     }
 
+    /// A table with columns of text, and columns of numbers at their right.
+    pub fn with_headings<'h>(texts: &[&'h str], numbers: &[&'h str]) -> Self {
+        let texts = texts.iter().map(|heading| (*heading, Align::Left));
+        Self::new(texts.chain(numbers.iter().map(|heading| (*heading, Align::Right))))
+    }
+
     /// A table of this many columns of text, without headings.
     pub fn plain(columns: usize) -> Self {
         Self { aligns: vec![Align::Left; columns], headings: None, rows: Vec::new(), indent: 0 }

@@ -1,16 +1,16 @@
 //! The values that the options of `scl bench` accept. An error says what to write instead.
 
-use scl_terminal::parse_duration;
+use scl_text::duration::parse_duration;
 use std::ops::RangeInclusive;
 use std::time::Duration;
 
 /// Ten million messages briefly take 800 MB for their times.
-pub(super) const MESSAGES: RangeInclusive<usize> = 1..=10_000_000;
+pub(crate) const MESSAGES: RangeInclusive<usize> = 1..=10_000_000;
 
-pub(super) const REPETITIONS: RangeInclusive<usize> = 1..=10_000;
+pub(crate) const REPETITIONS: RangeInclusive<usize> = 1..=10_000;
 
 /// Parses a whole number within a range.
-pub(super) fn within(range: RangeInclusive<usize>) -> impl Fn(&str) -> Result<usize, String> + Clone {
+pub(crate) fn within(range: RangeInclusive<usize>) -> impl Fn(&str) -> Result<usize, String> + Clone {
     move |text| match text.trim().parse() {
         Ok(number) if range.contains(&number) => Ok(number),
         _ => Err(format!("write a whole number from {} to {}", range.start(), range.end())),
@@ -18,14 +18,14 @@ pub(super) fn within(range: RangeInclusive<usize>) -> impl Fn(&str) -> Result<us
 }
 
 /// Parses `5` or `0.5`, or a number with a unit, `5s`.
-pub(super) fn parse_seconds(text: &str) -> Result<f64, String> {
+pub(crate) fn parse_seconds(text: &str) -> Result<Duration, String> {
     let with_unit = if text.ends_with(|c: char| c.is_ascii_digit()) { format!("{text}s") } else { text.to_owned() };
     let expected = || "write a time from 0.001 to 3600 seconds, like `5` or `500ms`".to_owned();
     let time = parse_duration(&with_unit).map_err(|_| expected())?;
     if time < Duration::from_millis(1) || time > Duration::from_secs(3600) {
         return Err(expected());
     }
-    Ok(time.as_secs_f64())
+    Ok(time)
 }
 
 #[cfg(test)]
@@ -34,8 +34,8 @@ mod tests {
 
     #[test]
     fn seconds_may_have_a_unit() {
-        for (text, seconds) in [("5", 5.0), ("0.5", 0.5), ("250ms", 0.25), ("1h", 3600.0)] {
-            assert_eq!(parse_seconds(text), Ok(seconds), "{text}");
+        for (text, milliseconds) in [("5", 5_000), ("0.5", 500), ("250ms", 250), ("1h", 3_600_000)] {
+            assert_eq!(parse_seconds(text), Ok(Duration::from_millis(milliseconds)), "{text}");
         }
         for text in ["0", "-1", "2h", "five", "", "5 days", "0.0009"] {
             let expected = Err("write a time from 0.001 to 3600 seconds, like `5` or `500ms`".to_owned());
