@@ -1,11 +1,11 @@
 //! `scl call`: sends a request in place of a component, and prints the reply.
 
-use crate::exit::{COULD_NOT_DO, exit_code};
+use crate::exit::COULD_NOT_DO;
 use crate::play::{Plans, PlayArguments, message_type};
 use clap::{Args, ValueEnum};
 use scl::CallError;
 use scl_observe::{StopSignals, block_on, problem_of};
-use scl_plan::{ConnectionPlan, GateKind, GatePlan, Payload, Plan};
+use scl_plan::{ConnectionPlan, GateKind, GatePlan, Plan};
 use scl_terminal::{Problem, escape, parse_duration, print_err, print_out, quoted_list};
 use scl_value::{MessageType, read_yaml, to_json, to_yaml};
 use std::process::ExitCode;
@@ -59,8 +59,8 @@ enum ReplyFormat {
 }
 
 /// The body of `scl call`.
-pub(crate) fn call(arguments: &CallArguments) -> ExitCode {
-    exit_code(block_on(run(arguments)))
+pub(crate) fn call(arguments: &CallArguments) -> Result<ExitCode, Problem> {
+    block_on(run(arguments))
 }
 
 async fn run(arguments: &CallArguments) -> Result<ExitCode, Problem> {
@@ -120,11 +120,8 @@ fn check_kind(plan: &Plan, gate: &GatePlan) -> Result<(), Problem> {
 }
 
 fn types(plan: &Plan, gate: &GatePlan) -> Result<(MessageType, MessageType), Problem> {
-    let (request, reply) = match &gate.payload {
-        Payload::Exchange { request, reply } => (Some(request.as_str()), Some(reply.as_str())),
-        Payload::Bytes | Payload::Message(_) => (None, None),
-    };
-    Ok((message_type(plan, gate, request)?, message_type(plan, gate, reply)?))
+    let mut types = gate.payload.types();
+    Ok((message_type(plan, gate, types.next())?, message_type(plan, gate, types.next())?))
 }
 
 /// A request with defaults could move an actuator, so it is sent only if it is written.

@@ -1,9 +1,8 @@
 //! `scl compare`: whether two recordings have the same messages.
 
-use crate::exit::exit_code;
 use crate::format::FormatArgument;
 use clap::Args;
-use scl_record::compare::{CompareOptions, CompareReport, compare as compare_recordings};
+use scl_record::compare::{CompareOptions, compare as compare_recordings};
 use scl_record::progress::Progress;
 use scl_record::recording::{Recording, find_files};
 use scl_terminal::{Problem, parse_duration, print_err};
@@ -55,15 +54,7 @@ pub(crate) struct CompareArguments {
 }
 
 /// The body of `scl compare`.
-pub(crate) fn compare(arguments: &CompareArguments) -> ExitCode {
-    exit_code(run(arguments).map(|report| {
-        report.notes.iter().for_each(|note| print_err(&format!("note: {note}\n")));
-        arguments.format.print(|| report.to_json(), || report.to_text());
-        if report.is_equal() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-    }))
-}
-
-fn run(arguments: &CompareArguments) -> Result<CompareReport, Problem> {
+pub(crate) fn compare(arguments: &CompareArguments) -> Result<ExitCode, Problem> {
     let (first, second) = (open(&arguments.first)?, open(&arguments.second)?);
     let options = CompareOptions {
         gates: arguments.gate.clone(),
@@ -74,7 +65,11 @@ fn run(arguments: &CompareArguments) -> Result<CompareReport, Problem> {
         shown: arguments.show,
     };
     let progress = Progress::new("comparing", first.duration());
-    compare_recordings(&first, &second, &options, &|position| progress.set(position))
+    let report = compare_recordings(&first, &second, &options, &|position| progress.set(position))?;
+    drop(progress);
+    report.notes.iter().for_each(|note| print_err(&format!("note: {note}\n")));
+    arguments.format.print(|| report.to_json(), || report.to_text());
+    Ok(if report.is_equal() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 fn open(path: &Path) -> Result<Recording, Problem> {

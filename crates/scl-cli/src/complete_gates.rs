@@ -5,9 +5,6 @@ use scl_observe::System;
 use scl_terminal::print_out;
 use std::process::ExitCode;
 
-/// The name of the hidden command.
-pub(crate) const COMMAND: &str = "complete-gates";
-
 /// Print the names of gates that start with PREFIX, one a line.
 #[derive(Args)]
 pub(crate) struct CompleteGatesArguments {

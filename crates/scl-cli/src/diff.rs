@@ -9,7 +9,7 @@ mod report;
 mod revision;
 mod together;
 
-use crate::exit::{COULD_NOT_DO, exit_code};
+use crate::exit::COULD_NOT_DO;
 use crate::load::{MaxSize, STDIN, TOPOLOGY, load_file, request, show_errors};
 use change::find_changes;
 use clap::{Args, ValueEnum};
@@ -68,11 +68,7 @@ enum Format {
 }
 
 /// The body of `scl diff`.
-pub(crate) fn diff(arguments: &DiffArguments) -> ExitCode {
-    exit_code(compare(arguments))
-}
-
-fn compare(arguments: &DiffArguments) -> Result<ExitCode, Problem> {
+pub(crate) fn diff(arguments: &DiffArguments) -> Result<ExitCode, Problem> {
     let (Some(old), Some(new)) = sides(arguments)? else { return Ok(ExitCode::from(COULD_NOT_DO)) };
     let (mut changes, rebuilds) = (find_changes(&old, &new), find_rebuilds(&old, &new));
     let messages = find_message_changes(&old, &new);

@@ -1,6 +1,5 @@
 //! `scl doctor`: what is wrong with this machine or with what runs on it.
 
-use crate::exit::exit_code;
 use crate::format::FormatArgument;
 use clap::Args;
 use scl_observe::{Finding, Severity, examine};
@@ -29,11 +28,7 @@ pub(crate) struct DoctorArguments {
 }
 
 /// The body of `scl doctor`.
-pub(crate) fn doctor(arguments: &DoctorArguments) -> ExitCode {
-    exit_code(run(arguments))
-}
-
-fn run(arguments: &DoctorArguments) -> Result<ExitCode, Problem> {
+pub(crate) fn doctor(arguments: &DoctorArguments) -> Result<ExitCode, Problem> {
     let variables: Vec<_> = std::env::vars_os().collect();
     let findings = examine(arguments.system.as_deref(), &variables)?;
     arguments.format.print(|| to_json(&findings), || to_text(&findings));

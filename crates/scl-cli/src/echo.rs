@@ -3,7 +3,6 @@
 mod output;
 mod watched;
 
-use crate::exit::exit_code;
 use crate::load::TOPOLOGY;
 use crate::observed::SystemArgument;
 use clap::{Args, ValueEnum};
@@ -81,8 +80,8 @@ enum MessageFormat {
 }
 
 /// The body of `scl echo`.
-pub(crate) fn echo(arguments: &EchoArguments) -> ExitCode {
-    exit_code(block_on(run(arguments)))
+pub(crate) fn echo(arguments: &EchoArguments) -> Result<ExitCode, Problem> {
+    block_on(run(arguments))
 }
 
 async fn run(arguments: &EchoArguments) -> Result<ExitCode, Problem> {

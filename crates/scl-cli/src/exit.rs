@@ -6,15 +6,28 @@ use std::process::ExitCode;
 /// Exit code: the command could not do its work.
 pub(crate) const COULD_NOT_DO: u8 = 2;
 
-/// The exit code of a command; a problem is printed and means that the command could not do its work.
-pub(crate) fn exit_code(result: Result<ExitCode, Problem>) -> ExitCode {
-    result.unwrap_or_else(|problem| {
-        print_err(&problem.to_string());
-        ExitCode::from(COULD_NOT_DO)
-    })
+/// What a command returns.
+pub(crate) trait Outcome {
+    /// A problem is printed and means that the command could not do its work.
+    fn exit_code(self) -> ExitCode;
 }
 
-/// [`exit_code`] for several problems.
+impl Outcome for ExitCode {
+    fn exit_code(self) -> ExitCode {
+        self
+    }
+}
+
+impl Outcome for Result<ExitCode, Problem> {
+    fn exit_code(self) -> ExitCode {
+        self.unwrap_or_else(|problem| {
+            print_err(&problem.to_string());
+            ExitCode::from(COULD_NOT_DO)
+        })
+    }
+}
+
+/// The exit code of a command that may meet several problems.
 #[cfg(feature = "run")]
 pub(crate) fn exit_code_of_all(result: Result<ExitCode, Vec<Problem>>) -> ExitCode {
     result.unwrap_or_else(|problems| {

@@ -5,7 +5,7 @@ use crate::load::{MaxSize, load_file, show_diagnostics};
 use clap::{Args, ValueEnum};
 use scl_generate::{Component, File, Format, Outcome, OutputError, System, Target, is_current, write};
 use scl_plan::SystemPlan;
-use scl_terminal::{print_err, print_out};
+use scl_terminal::{Problem, print_err, print_out};
 use scl_topology::diagnostic::Severity;
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -75,19 +75,18 @@ enum TextFormat {
 }
 
 /// The body of `scl generate`.
-pub(crate) fn generate(arguments: &GenerateArguments) -> ExitCode {
+pub(crate) fn generate(arguments: &GenerateArguments) -> Result<ExitCode, Problem> {
     if let Some(text) = arguments.contradiction() {
-        print_err(&format!("error: {text}\n"));
-        return ExitCode::from(COULD_NOT_DO);
+        return Err(Problem::new(text));
     }
     let loaded = load_file(&arguments.file, arguments.max_size);
     show_diagnostics(&loaded, loaded.diagnostics.iter().filter(|it| it.severity != Severity::Lint));
     let Some(mut system) = System::of(&loaded) else {
-        return ExitCode::from(if loaded.file.is_some() { 1 } else { COULD_NOT_DO });
+        return Ok(ExitCode::from(if loaded.file.is_some() { 1 } else { COULD_NOT_DO }));
     };
     if let Err(text) = select(&mut system, &arguments.components) {
         print_err(&text);
-        return ExitCode::FAILURE;
+        return Ok(ExitCode::FAILURE);
     }
     if arguments.testable {
         system.make_testable();
@@ -96,26 +95,26 @@ pub(crate) fn generate(arguments: &GenerateArguments) -> ExitCode {
         Ok(files) => files,
         Err(clashes) => {
             show_diagnostics(&loaded, &clashes);
-            return ExitCode::FAILURE;
+            return Ok(ExitCode::FAILURE);
         }
     };
     let folder = arguments.output.as_deref().unwrap_or(Path::new(""));
     if arguments.check {
-        return check_files(folder, &files);
+        return Ok(check_files(folder, &files));
     }
     if arguments.is_printed() {
         files.iter().for_each(|file| print_out(&file.text));
-        return ExitCode::SUCCESS;
+        return Ok(ExitCode::SUCCESS);
     }
-    let depfile = arguments.depfile.as_deref().map(|path| (path, depfile(&loaded.files_read, folder, &files)));
-    match write_files(folder, &files).and_then(|()| depfile.map_or(Ok(()), |(path, file)| write_depfile(path, &file))) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            let cause = error.source().map(|cause| format!(": {cause}")).unwrap_or_default();
-            print_err(&format!("error: {error}{cause}\n"));
-            ExitCode::from(COULD_NOT_DO)
-        }
+    let failed = |error: OutputError| {
+        let cause = error.source().map(|cause| format!(": {cause}")).unwrap_or_default();
+        Problem::new(format!("{error}{cause}"))
+    };
+    write_files(folder, &files).map_err(failed)?;
+    if let Some(path) = &arguments.depfile {
+        write_depfile(path, &depfile(&loaded.files_read, folder, &files)).map_err(failed)?;
     }
+    Ok(ExitCode::SUCCESS)
 }
 
 impl GenerateArguments {

@@ -4,7 +4,6 @@
 mod recording;
 mod text;
 
-use crate::exit::exit_code;
 use crate::format::FormatArgument;
 use crate::observed::SystemArgument;
 use clap::Args;
@@ -43,11 +42,7 @@ pub(crate) struct InfoArguments {
 }
 
 /// The body of `scl info`.
-pub(crate) fn info(arguments: &InfoArguments) -> ExitCode {
-    exit_code(print_info(arguments))
-}
-
-fn print_info(arguments: &InfoArguments) -> Result<ExitCode, Problem> {
+pub(crate) fn info(arguments: &InfoArguments) -> Result<ExitCode, Problem> {
     #[cfg(feature = "record")]
     if recording::is_recording(&arguments.name) {
         recording::print_recording(&arguments.name, arguments.format)?;

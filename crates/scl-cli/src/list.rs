@@ -1,6 +1,5 @@
 //! `scl list`: the components of a system, and whether they run.
 
-use crate::exit::exit_code;
 use crate::format::{FormatArgument, print_json};
 use crate::observed::SystemArgument;
 use clap::Args;
@@ -37,11 +36,7 @@ pub(crate) struct ListArguments {
 }
 
 /// The body of `scl list`.
-pub(crate) fn list(arguments: &ListArguments) -> ExitCode {
-    exit_code(print_list(arguments))
-}
-
-fn print_list(arguments: &ListArguments) -> Result<ExitCode, Problem> {
+pub(crate) fn list(arguments: &ListArguments) -> Result<ExitCode, Problem> {
     let (systems, now) = (arguments.system.find_all()?, SystemTime::now());
     if arguments.format.is_json() {
         let mut values: Vec<Value> = systems.iter().map(|system| to_json(system, &system.components(), now)).collect();
@@ -115,9 +110,7 @@ fn state_word(component: &Component, now: SystemTime) -> &'static str {
 }
 
 fn gate_table(components: &[Component]) -> String {
-    let left = Align::Left;
-    let mut table =
-        Table::new([("GATE", left), ("KIND", left), ("TYPE", left), ("CODEC", left), ("PEERS", Align::Right)]);
+    let mut table = Table::with_headings(&["GATE", "KIND", "TYPE", "CODEC"], &["PEERS"]);
     for component in components.iter().filter(|component| component.is_running()) {
         for (index, gate) in component.gates().iter().enumerate() {
             let connected = connected_peers(gate, component.figures(index));

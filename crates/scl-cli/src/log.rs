@@ -1,6 +1,5 @@
 //! `scl log`: what a component has printed, also after it and `scl run` have ended.
 
-use crate::exit::exit_code;
 use crate::format::FormatArgument;
 use crate::load::system_of_folder;
 use clap::{Args, ValueEnum};
@@ -70,11 +69,7 @@ enum StreamArgument {
 }
 
 /// The body of `scl log`.
-pub(crate) fn log(arguments: &LogArguments) -> ExitCode {
-    exit_code(show(arguments).map(|()| ExitCode::SUCCESS))
-}
-
-fn show(arguments: &LogArguments) -> Result<(), Problem> {
+pub(crate) fn log(arguments: &LogArguments) -> Result<ExitCode, Problem> {
     let system = find_system(arguments.system.as_deref())?;
     let folder = LogFolder::of(&system, &variable).ok_or_else(|| no_folder(&system))?;
     if !folder.components().contains(&arguments.component) {
@@ -91,7 +86,7 @@ fn show(arguments: &LogArguments) -> Result<(), Problem> {
             None => sleep(LOOK),
         }
     }
-    Ok(())
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Prints what there is, or the last lines of it.
@@ -101,7 +96,7 @@ fn print_existing(arguments: &LogArguments, reader: &mut LogReader, printer: &mu
     while let Some(entry) = reader.next_entry()?.filter(|_| !output_is_closed()) {
         match kept {
             None => printer.print(&entry),
-            Some(kept) if printer.filter.wants(&entry) => {
+            Some(kept) if printer.wants(&entry) => {
                 last.push_back(entry);
                 last.drain(..last.len().saturating_sub(kept));
             }
@@ -112,23 +107,11 @@ fn print_existing(arguments: &LogArguments, reader: &mut LogReader, printer: &mu
     Ok(())
 }
 
-/// Which entries are asked for.
-struct Filter {
-    /// As in the entries. Times in this form sort as text.
-    earliest: Option<String>,
-    stream: Option<StreamArgument>,
-}
-
-impl Filter {
-    fn wants(&self, entry: &LogEntry) -> bool {
-        let is_late = self.earliest.as_ref().is_none_or(|earliest| entry.time >= *earliest);
-        is_late && self.stream.is_none_or(|stream| stream.is(entry.stream))
-    }
-}
-
 /// Writes entries, and says where another process of the component begins.
 struct Printer {
-    filter: Filter,
+    /// The earliest time that is asked for, as in the entries. Times in this form sort as text.
+    earliest: Option<String>,
+    stream: Option<StreamArgument>,
     is_json: bool,
     run: Option<u64>,
     /// Whether control characters are shown as escapes. In a pipe, programs get what was printed.
@@ -141,13 +124,18 @@ impl Printer {
             let now = SystemTime::now();
             timestamp(now.checked_sub(since).unwrap_or(SystemTime::UNIX_EPOCH))
         });
-        let filter = Filter { earliest, stream: arguments.stream };
-        let escapes = output_is_terminal();
-        Self { filter, is_json: arguments.format.is_json(), run: None, escapes }
+        let (is_json, escapes) = (arguments.format.is_json(), output_is_terminal());
+        Self { earliest, stream: arguments.stream, is_json, run: None, escapes }
+    }
+
+    /// Whether an entry is asked for.
+    fn wants(&self, entry: &LogEntry) -> bool {
+        let is_late = self.earliest.as_ref().is_none_or(|earliest| entry.time >= *earliest);
+        is_late && self.stream.is_none_or(|stream| stream.is(entry.stream))
     }
 
     fn print(&mut self, entry: &LogEntry) {
-        if self.filter.wants(entry) {
+        if self.wants(entry) {
             print_out(&self.text(entry));
         }
     }

@@ -5,8 +5,6 @@
 #[cfg(feature = "bench")]
 mod bench;
 #[cfg(feature = "observe")]
-mod bw;
-#[cfg(feature = "observe")]
 mod call;
 mod check;
 #[cfg(feature = "record")]
@@ -14,8 +12,6 @@ mod compare;
 #[cfg(feature = "observe")]
 mod complete_gates;
 mod completions;
-#[cfg(feature = "observe")]
-mod delay;
 #[cfg(feature = "run")]
 mod deploy;
 mod diff;
@@ -32,8 +28,6 @@ mod format;
 mod generate;
 mod graph;
 #[cfg(feature = "observe")]
-mod hz;
-#[cfg(feature = "observe")]
 mod info;
 #[cfg(feature = "observe")]
 mod list;
@@ -42,6 +36,8 @@ mod load;
 mod log;
 #[cfg(feature = "observe")]
 mod measure;
+#[cfg(feature = "observe")]
+mod meters;
 #[cfg(feature = "new")]
 mod new;
 #[cfg(feature = "observe")]
@@ -62,16 +58,13 @@ mod replay;
 #[cfg(feature = "run")]
 mod request;
 #[cfg(feature = "run")]
-mod restart;
-#[cfg(feature = "run")]
 mod run;
 mod schema;
-#[cfg(feature = "run")]
-mod stop;
 #[cfg(feature = "observe")]
 mod top;
 
 use clap::{CommandFactory, Parser, Subcommand};
+use exit::Outcome;
 use scl_terminal::{finish_output, note_failure};
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -88,80 +81,101 @@ struct CommandLine {
     command: Command,
 }
 
-#[derive(Subcommand)]
-enum Command {
+/// Declares the commands: what each needs of this build, its arguments, and the function that runs it.
+macro_rules! commands {
+    ($($(#[cfg($needs:meta)])? $(#[command($($clap:tt)*)])? $name:ident($arguments:ty) => $run:expr;)*) => {
+        #[derive(Subcommand)]
+        enum Command {
+            $($(#[cfg($needs)])? $(#[command($($clap)*)])? $name($arguments),)*
+            #[cfg(feature = "run")]
+            #[command(name = run::GUARD_WORD, hide = true)]
+            Guard { run_mark: String },
+            #[cfg(feature = "run")]
+            #[command(name = run::KEYS_WORD, hide = true)]
+            Keys,
+            /// A program `scl-x` of the user's, as `scl x`.
+            #[command(external_subcommand)]
+            External(Vec<OsString>),
+        }
+
+        fn run_command(command: Command) -> ExitCode {
+            match command {
+                $($(#[cfg($needs)])? Command::$name(arguments) => $run(&arguments).exit_code(),)*
+                #[cfg(feature = "run")]
+                Command::Guard { run_mark } => run::keep_watch(&run_mark),
+                #[cfg(feature = "run")]
+                Command::Keys => run::tell_keys(),
+                Command::External(words) => external::run_external(&words, &CommandLine::command()),
+            }
+        }
+    };
+}
+
+commands! {
     #[cfg(feature = "bench")]
-    Bench(scl_bench::BenchArguments),
+    Bench(scl_bench::BenchArguments) => bench::bench;
     #[cfg(feature = "bench")]
     #[command(name = scl_bench::WORKER_COMMAND, hide = true)]
-    BenchWorker(bench::WorkerArguments),
+    BenchWorker(bench::WorkerArguments) => bench::run_worker;
     #[cfg(feature = "observe")]
-    Bw(bw::BwArguments),
+    Bw(meters::BwArguments) => meters::bw;
     #[cfg(feature = "observe")]
-    Call(call::CallArguments),
-    Check(check::CheckArguments),
+    Call(call::CallArguments) => call::call;
+    Check(check::CheckArguments) => check::check;
     #[cfg(feature = "record")]
-    Compare(compare::CompareArguments),
+    Compare(compare::CompareArguments) => compare::compare;
     #[cfg(feature = "observe")]
-    #[command(name = complete_gates::COMMAND, hide = true)]
-    CompleteGates(complete_gates::CompleteGatesArguments),
-    Completions(completions::CompletionsArguments),
+    #[command(hide = true)]
+    CompleteGates(complete_gates::CompleteGatesArguments) => complete_gates::complete_gates;
+    Completions(completions::CompletionsArguments) => print_completions;
     #[cfg(feature = "observe")]
-    Delay(delay::DelayArguments),
+    Delay(meters::DelayArguments) => meters::delay;
     #[cfg(feature = "run")]
-    Deploy(deploy::DeployArguments),
-    Diff(diff::DiffArguments),
+    Deploy(deploy::DeployArguments) => deploy::deploy;
+    Diff(diff::DiffArguments) => diff::diff;
     #[cfg(feature = "observe")]
-    Doctor(doctor::DoctorArguments),
+    Doctor(doctor::DoctorArguments) => doctor::doctor;
     #[cfg(feature = "observe")]
-    Echo(echo::EchoArguments),
-    Explain(explain::ExplainArguments),
+    Echo(echo::EchoArguments) => echo::echo;
+    Explain(explain::ExplainArguments) => explain::explain;
     #[cfg(feature = "generate")]
-    Generate(generate::GenerateArguments),
-    Graph(graph::GraphArguments),
+    Generate(generate::GenerateArguments) => generate::generate;
+    Graph(graph::GraphArguments) => graph::graph;
     #[cfg(feature = "observe")]
-    Hz(hz::HzArguments),
+    Hz(meters::HzArguments) => meters::hz;
     #[cfg(feature = "observe")]
-    Info(info::InfoArguments),
+    Info(info::InfoArguments) => info::info;
     #[cfg(feature = "observe")]
-    List(list::ListArguments),
+    List(list::ListArguments) => list::list;
     #[cfg(feature = "run")]
-    Log(log::LogArguments),
+    Log(log::LogArguments) => log::log;
     #[cfg(feature = "new")]
-    New(new::NewArguments),
-    Plan(plan::PlanArguments),
+    New(new::NewArguments) => new::new;
+    Plan(plan::PlanArguments) => plan::plan;
     #[cfg(feature = "observe")]
-    #[command(name = "pub")]
-    Publish(publish::PubArguments),
+    Pub(publish::PubArguments) => publish::publish;
     #[cfg(feature = "record")]
-    Record(record::RecordArguments),
+    Record(record::RecordArguments) => record::record;
     #[cfg(feature = "record")]
-    Recover(recover::RecoverArguments),
+    Recover(recover::RecoverArguments) => recover::recover;
     #[cfg(feature = "record")]
-    Replay(replay::ReplayArguments),
+    Replay(replay::ReplayArguments) => replay::replay;
     #[cfg(feature = "run")]
-    Restart(restart::RestartArguments),
+    Restart(request::RestartArguments) => request::restart;
     #[cfg(feature = "run")]
-    Run(run::RunArguments),
-    Schema(schema::SchemaArguments),
+    Run(run::RunArguments) => run::run;
+    Schema(schema::SchemaArguments) => schema::schema;
     #[cfg(feature = "run")]
-    Stop(stop::StopArguments),
+    Stop(request::StopArguments) => request::stop;
     #[cfg(feature = "observe")]
-    Top(top::TopArguments),
+    Top(top::TopArguments) => top::top;
     #[cfg(feature = "run")]
     #[command(name = run::START_WORD, hide = true)]
-    Start(run::StartArguments),
-    #[cfg(feature = "run")]
-    #[command(name = run::GUARD_WORD, hide = true)]
-    Guard {
-        run_mark: String,
-    },
-    #[cfg(feature = "run")]
-    #[command(name = run::KEYS_WORD, hide = true)]
-    Keys,
-    /// A program `scl-x` of the user's, as `scl x`.
-    #[command(external_subcommand)]
-    External(Vec<OsString>),
+    Start(run::StartArguments) => run::start_component;
+}
+
+fn print_completions(arguments: &completions::CompletionsArguments) -> ExitCode {
+    completions::print_completions(arguments, &CommandLine::command())
 }
 
 fn main() -> ExitCode {
@@ -176,71 +190,4 @@ fn main() -> ExitCode {
             ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(u8::MAX))
         }
     })
-}
-
-fn run_command(command: Command) -> ExitCode {
-    match command {
-        #[cfg(feature = "bench")]
-        Command::Bench(arguments) => exit::exit_code(bench::bench(&arguments)),
-        #[cfg(feature = "bench")]
-        Command::BenchWorker(arguments) => exit::exit_code(bench::run_worker(&arguments)),
-        #[cfg(feature = "observe")]
-        Command::Bw(arguments) => bw::bw(&arguments),
-        #[cfg(feature = "observe")]
-        Command::Call(arguments) => call::call(&arguments),
-        Command::Check(arguments) => check::check(&arguments),
-        #[cfg(feature = "record")]
-        Command::Compare(arguments) => compare::compare(&arguments),
-        #[cfg(feature = "observe")]
-        Command::CompleteGates(arguments) => complete_gates::complete_gates(&arguments),
-        Command::Completions(arguments) => completions::print_completions(&arguments, &CommandLine::command()),
-        #[cfg(feature = "observe")]
-        Command::Delay(arguments) => delay::delay(&arguments),
-        #[cfg(feature = "run")]
-        Command::Deploy(arguments) => deploy::deploy(&arguments),
-        Command::Diff(arguments) => diff::diff(&arguments),
-        #[cfg(feature = "observe")]
-        Command::Doctor(arguments) => doctor::doctor(&arguments),
-        #[cfg(feature = "observe")]
-        Command::Echo(arguments) => echo::echo(&arguments),
-        Command::Explain(arguments) => explain::explain(&arguments),
-        #[cfg(feature = "generate")]
-        Command::Generate(arguments) => generate::generate(&arguments),
-        Command::Graph(arguments) => graph::graph(&arguments),
-        #[cfg(feature = "observe")]
-        Command::Hz(arguments) => hz::hz(&arguments),
-        #[cfg(feature = "observe")]
-        Command::Info(arguments) => info::info(&arguments),
-        #[cfg(feature = "observe")]
-        Command::List(arguments) => list::list(&arguments),
-        #[cfg(feature = "run")]
-        Command::Log(arguments) => log::log(&arguments),
-        #[cfg(feature = "new")]
-        Command::New(arguments) => new::new(&arguments),
-        Command::Plan(arguments) => plan::plan(&arguments),
-        #[cfg(feature = "observe")]
-        Command::Publish(arguments) => publish::publish(&arguments),
-        #[cfg(feature = "record")]
-        Command::Record(arguments) => record::record(&arguments),
-        #[cfg(feature = "record")]
-        Command::Recover(arguments) => recover::recover(&arguments),
-        #[cfg(feature = "record")]
-        Command::Replay(arguments) => replay::replay(&arguments),
-        #[cfg(feature = "run")]
-        Command::Restart(arguments) => restart::restart(&arguments),
-        #[cfg(feature = "run")]
-        Command::Run(arguments) => run::run(&arguments),
-        Command::Schema(arguments) => schema::schema(&arguments),
-        #[cfg(feature = "run")]
-        Command::Stop(arguments) => stop::stop(&arguments),
-        #[cfg(feature = "observe")]
-        Command::Top(arguments) => top::top(&arguments),
-        #[cfg(feature = "run")]
-        Command::Start(arguments) => run::start_component(&arguments),
-        #[cfg(feature = "run")]
-        Command::Guard { run_mark } => run::keep_watch(&run_mark),
-        #[cfg(feature = "run")]
-        Command::Keys => run::tell_keys(),
-        Command::External(words) => external::run_external(&words, &CommandLine::command()),
-    }
 }

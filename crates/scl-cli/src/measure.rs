@@ -1,10 +1,9 @@
 //! What `scl hz`, `scl delay` and `scl bw` share: a line for each gate and second, and a summary at the end.
 
-use crate::exit::exit_code;
 use crate::format::FormatArgument;
 use crate::observed::SystemArgument;
 use clap::Args;
-use scl_observe::{GateReport, Measurement, Meter, ObservedGate, StopSignals, at_taps, block_on};
+use scl_observe::{GateReport, Measurement, Meter, ObservedGate, StopSignals, at_taps};
 use scl_terminal::{
     Problem, escape_json, output_is_closed, output_width, parse_duration, print_err, print_out, quoted_list, shorten,
 };
@@ -57,15 +56,7 @@ pub(crate) trait Shown: Meter {
 }
 
 /// Measures these gates, or all if there are none, until the end that was asked for.
-pub(crate) fn measure<M: Shown + 'static>(
-    arguments: &MeasureArguments,
-    gates: &[String],
-    new_meter: impl Fn() -> M + 'static,
-) -> ExitCode {
-    exit_code(block_on(run(arguments, gates, new_meter)))
-}
-
-async fn run<M: Shown + 'static>(
+pub(crate) async fn measure<M: Shown + 'static>(
     arguments: &MeasureArguments,
     gates: &[String],
     new_meter: impl Fn() -> M + 'static,

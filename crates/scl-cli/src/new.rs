@@ -1,9 +1,8 @@
 //! `scl new`: creates a project.
 
-use crate::exit::exit_code;
 use clap::{Args, ValueEnum};
 use scl_new::{Project, Source, create};
-use scl_terminal::{print_err, print_out};
+use scl_terminal::{Problem, print_err, print_out};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -58,7 +57,7 @@ impl From<Template> for scl_new::Template {
 }
 
 /// The body of `scl new`.
-pub(crate) fn new(arguments: &NewArguments) -> ExitCode {
+pub(crate) fn new(arguments: &NewArguments) -> Result<ExitCode, Problem> {
     let name = &arguments.name;
     let scl = match (&arguments.git, &arguments.path) {
         (Some(url), _) => Source::Git { url: url.clone(), revision: arguments.rev.clone() },
@@ -66,20 +65,12 @@ pub(crate) fn new(arguments: &NewArguments) -> ExitCode {
         (None, None) => Source::OfThisProgram,
     };
     let project = Project { name: name.clone(), template: arguments.template.into(), scl };
-    exit_code(create(Path::new("."), &project).map(|created| {
-        let count = created.files.len();
-        print_err(&format!(
-            "created `{name}` with {count} files; it uses SCL from {}
-",
-            created.scl
-        ));
-        if let Some(note) = created.note {
-            print_err(&format!(
-                "note: {note}
-"
-            ));
-        }
-        print_out(&format!("cd {name} && scl run\n"));
-        ExitCode::SUCCESS
-    }))
+    let created = create(Path::new("."), &project)?;
+    let count = created.files.len();
+    print_err(&format!("created `{name}` with {count} files; it uses SCL from {}\n", created.scl));
+    if let Some(note) = created.note {
+        print_err(&format!("note: {note}\n"));
+    }
+    print_out(&format!("cd {name} && scl run\n"));
+    Ok(ExitCode::SUCCESS)
 }

@@ -86,15 +86,11 @@ impl Plans {
 
     /// Whether a process runs a component.
     pub(crate) fn is_running(&self, component: &str) -> bool {
-        self.process_id_or_running(component).is_some()
+        self.holder(component).is_some()
     }
 
     /// The process that runs a component, as far as it can be told.
     pub(crate) fn holder(&self, component: &str) -> Option<String> {
-        self.process_id_or_running(component)
-    }
-
-    fn process_id_or_running(&self, component: &str) -> Option<String> {
         match self.dir()?.state(component) {
             ComponentState::Running(holder) => Some(holder.to_string()),
             ComponentState::Dead | ComponentState::Stopped => None,

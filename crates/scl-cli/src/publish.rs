@@ -3,7 +3,6 @@
 mod messages;
 mod sender;
 
-use crate::exit::exit_code;
 use crate::play::{Plans, PlayArguments, message_type};
 use clap::Args;
 use messages::Messages;
@@ -68,8 +67,8 @@ fn parse_rate(text: &str) -> Result<f64, String> {
 }
 
 /// The body of `scl pub`.
-pub(crate) fn publish(arguments: &PubArguments) -> ExitCode {
-    exit_code(block_on(run(arguments)))
+pub(crate) fn publish(arguments: &PubArguments) -> Result<ExitCode, Problem> {
+    block_on(run(arguments))
 }
 
 async fn run(arguments: &PubArguments) -> Result<ExitCode, Problem> {

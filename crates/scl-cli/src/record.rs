@@ -1,6 +1,5 @@
 //! `scl record`: records what passes the gates of a running system into MCAP files.
 
-use crate::exit::exit_code;
 use crate::format::FormatArgument;
 use crate::load::{MaxSize, parse_size, request};
 use crate::observed::SystemArgument;
@@ -100,11 +99,7 @@ fn parse_limit(text: &str) -> Result<Limit, String> {
 }
 
 /// The body of `scl record`.
-pub(crate) fn record(arguments: &RecordArguments) -> ExitCode {
-    exit_code(run(arguments))
-}
-
-fn run(arguments: &RecordArguments) -> Result<ExitCode, Problem> {
+pub(crate) fn record(arguments: &RecordArguments) -> Result<ExitCode, Problem> {
     if arguments.trigger {
         let system = arguments.system.find()?;
         for file in record::trigger(&system)? {

@@ -1,6 +1,5 @@
 //! `scl recover`: rebuilds a recording that was cut off.
 
-use crate::exit::exit_code;
 use clap::Args;
 use scl_record::recover::{Recovered, recover as recover_file};
 use scl_terminal::{Problem, bytes_text, escape, print_out};
@@ -28,11 +27,7 @@ pub(crate) struct RecoverArguments {
 }
 
 /// The body of `scl recover`.
-pub(crate) fn recover(arguments: &RecoverArguments) -> ExitCode {
-    exit_code(run(arguments))
-}
-
-fn run(arguments: &RecoverArguments) -> Result<ExitCode, Problem> {
+pub(crate) fn recover(arguments: &RecoverArguments) -> Result<ExitCode, Problem> {
     let Recovered { path, messages, dropped, was_complete, kept } =
         recover_file(&arguments.file, arguments.output.as_deref())?;
     let path = path.to_string_lossy();

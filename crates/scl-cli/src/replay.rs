@@ -1,12 +1,12 @@
 //! `scl replay`: plays recorded components in a running system.
 
-use crate::exit::{COULD_NOT_DO, exit_code};
+use crate::exit::COULD_NOT_DO;
 use crate::format::FormatArgument;
 use crate::load::{MaxSize, load_file, show_errors};
 use clap::Args;
 use scl_record::progress::Progress;
 use scl_record::recording::{Recording, find_files};
-use scl_record::replay::{Rate, ReplayOptions, ReplayReport, replay as play};
+use scl_record::replay::{Rate, ReplayOptions, replay as play};
 use scl_terminal::{Problem, parse_duration, print_err};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -74,14 +74,14 @@ pub(crate) struct ReplayArguments {
 }
 
 /// The body of `scl replay`.
-pub(crate) fn replay(arguments: &ReplayArguments) -> ExitCode {
+pub(crate) fn replay(arguments: &ReplayArguments) -> Result<ExitCode, Problem> {
     let plan = match &arguments.topology {
         None => None,
         Some(file) => {
             let loaded = load_file(file, MaxSize::default());
             let Some(plan) = loaded.system_plan() else {
                 show_errors(&loaded);
-                return ExitCode::from(COULD_NOT_DO);
+                return Ok(ExitCode::from(COULD_NOT_DO));
             };
             Some(plan)
         }
@@ -98,15 +98,7 @@ pub(crate) fn replay(arguments: &ReplayArguments) -> ExitCode {
         ready_within: arguments.ready,
         plan,
     };
-    exit_code(run(&arguments.files, &options).map(|report| {
-        arguments.format.print(|| report.to_json(), || report.to_text());
-        let is_incomplete = options.rate == Rate::Max && !report.was_stopped && report.is_incomplete();
-        if is_incomplete { ExitCode::FAILURE } else { ExitCode::SUCCESS }
-    }))
-}
-
-fn run(files: &[PathBuf], options: &ReplayOptions) -> Result<ReplayReport, Problem> {
-    let recording = Recording::open(&find_files(files)?)?;
+    let recording = Recording::open(&find_files(&arguments.files)?)?;
     // `scl run` and systemd may have started it in place of the component's own program.
     scl::host::notify_service_manager();
     let survey = recording.survey()?;
@@ -117,7 +109,11 @@ fn run(files: &[PathBuf], options: &ReplayOptions) -> Result<ReplayReport, Probl
         print_err("help: `--max-gap 1s` shortens pauses between messages\n");
     }
     let progress = Progress::new("replaying", survey.length);
-    scl_observe::block_on(play(&recording, &survey, options, &|position| progress.set(position)))
+    let report = scl_observe::block_on(play(&recording, &survey, &options, &|position| progress.set(position)))?;
+    drop(progress);
+    arguments.format.print(|| report.to_json(), || report.to_text());
+    let is_incomplete = options.rate == Rate::Max && !report.was_stopped && report.is_incomplete();
+    Ok(if is_incomplete { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }
 
 fn parse_rate(text: &str) -> Result<Rate, String> {

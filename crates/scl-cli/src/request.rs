@@ -1,4 +1,4 @@
-//! What `scl stop` and `scl restart` share: asking the `scl run` of the components, and showing what happened.
+//! `scl restart` and `scl stop`: asking the `scl run` of the components, and showing what happened.
 
 use crate::exit::{exit_code_of_all, print_problems};
 use crate::format::FormatArgument;
@@ -9,9 +9,62 @@ use scl_terminal::{Problem, escape};
 use serde_json::json;
 use std::process::ExitCode;
 
+/// Build components that `scl run` has started and restart them, while the others keep running.
+///
+/// What `scl run` has built for them is built first, while the old processes run. If that fails, they keep running.
+/// Waits until their new processes run; for components with `ready_within` in the launch file, until they are ready.
+/// Components that have ended are started.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  scl restart sensor
+  scl restart sensor gps --system rover
+
+Exit code: 0 restarted, 1 a build failed and the old process keeps running, or a component failed again, 2 nothing was done.")]
+pub(crate) struct RestartArguments {
+    /// The components.
+    #[arg(value_name = "COMPONENT", required = true)]
+    components: Vec<String>,
+    /// Start the programs as they are, without building them first.
+    #[arg(long)]
+    no_build: bool,
+    #[command(flatten)]
+    request: RequestArguments,
+}
+
+/// The body of `scl restart`.
+pub(crate) fn restart(arguments: &RestartArguments) -> ExitCode {
+    request(Command::Restart, &arguments.components, !arguments.no_build, &arguments.request)
+}
+
+/// Stop components that `scl run` has started, and wait until they have ended.
+///
+/// Without a name, everything is stopped and each `scl run` of the system ends. A component that is stopped by its name
+/// is not restarted, whatever its `restart` says; the others keep running.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  scl stop                        everything
+  scl stop sensor                 one component
+  scl stop --system rover         where several systems run
+
+Exit code: 0 stopped, 1 something was not stopped, 2 nothing was done.")]
+pub(crate) struct StopArguments {
+    /// The components; all if none is named.
+    #[arg(value_name = "COMPONENT")]
+    components: Vec<String>,
+    #[command(flatten)]
+    request: RequestArguments,
+}
+
+/// The body of `scl stop`.
+pub(crate) fn stop(arguments: &StopArguments) -> ExitCode {
+    request(Command::Stop, &arguments.components, false, &arguments.request)
+}
+
 /// The options of both commands.
 #[derive(Args)]
-pub(crate) struct RequestArguments {
+struct RequestArguments {
     /// The system [default: $SCL_SYSTEM, or the only one that runs, or that of ./topology.yaml].
     #[arg(long, value_name = "NAME")]
     system: Option<String>,
@@ -20,7 +73,7 @@ pub(crate) struct RequestArguments {
 }
 
 /// Asks, waits, prints what happened, and returns the exit code.
-pub(crate) fn request(command: Command, components: &[String], build: bool, arguments: &RequestArguments) -> ExitCode {
+fn request(command: Command, components: &[String], build: bool, arguments: &RequestArguments) -> ExitCode {
     exit_code_of_all(ask_and_print(command, components, build, arguments))
 }
 

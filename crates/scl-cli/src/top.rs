@@ -10,13 +10,12 @@ mod screen;
 #[cfg(feature = "tui")]
 mod view;
 
-use crate::exit::exit_code;
 use crate::format::{FormatArgument, print_json};
 use crate::observed::SystemArgument;
 use clap::{Args, ValueEnum};
-use rows::{COMPONENT_COLUMNS, GATE_COLUMNS, component_cells, gate_cells, sort, to_json};
+use rows::{COMPONENT_COLUMNS, GATE_COLUMNS, TEXT_COLUMNS, component_cells, gate_cells, sort, to_json};
 use scl_observe::{Snapshot, Watch};
-use scl_terminal::{Align, Problem, Table, escape, parse_duration, print_out};
+use scl_terminal::{Problem, Table, escape, parse_duration, print_out};
 use serde_json::json;
 use std::process::ExitCode;
 use std::thread;
@@ -78,11 +77,7 @@ enum Order {
 }
 
 /// The body of `scl top`.
-pub(crate) fn top(arguments: &TopArguments) -> ExitCode {
-    exit_code(run(arguments))
-}
-
-fn run(arguments: &TopArguments) -> Result<ExitCode, Problem> {
+pub(crate) fn top(arguments: &TopArguments) -> Result<ExitCode, Problem> {
     let period = arguments.period.max(SHORTEST_PERIOD);
     let mut watches: Vec<Watch> = arguments.system.find_all()?.into_iter().map(Watch::new).collect();
     if arguments.once {
@@ -123,9 +118,9 @@ fn print_once(snapshots: &[Snapshot], is_json: bool) {
 }
 
 fn table(snapshot: &Snapshot) -> String {
-    let mut components = Table::new(columns(&COMPONENT_COLUMNS));
+    let mut components = empty_table(&COMPONENT_COLUMNS);
     snapshot.components.iter().for_each(|row| components.row(component_cells(row)));
-    let mut gates = Table::new(columns(&GATE_COLUMNS));
+    let mut gates = empty_table(&GATE_COLUMNS);
     snapshot.gates.iter().for_each(|row| gates.row(gate_cells(row)));
     let mut text = components.text();
     if !gates.is_empty() {
@@ -135,8 +130,7 @@ fn table(snapshot: &Snapshot) -> String {
     text
 }
 
-/// Names and words to the left, numbers to the right.
-fn columns<'c>(headings: &'c [&'static str]) -> impl Iterator<Item = (&'static str, Align)> + 'c {
-    let align = |heading| if rows::is_text(heading) { Align::Left } else { Align::Right };
-    headings.iter().map(move |heading| (*heading, align(heading)))
+fn empty_table(headings: &[&str]) -> Table {
+    let (texts, numbers) = headings.split_at(TEXT_COLUMNS);
+    Table::with_headings(texts, numbers)
 }

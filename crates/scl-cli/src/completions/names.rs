@@ -9,8 +9,8 @@ struct Place {
     command: String,
     /// `--option`, or `None` for the arguments without one.
     option: Option<String>,
-    gates: bool,
-    components: bool,
+    /// `gates`, `components` or both.
+    wanted: Vec<&'static str>,
 }
 
 /// Adds the names to a script that `clap_complete` wrote. Shells that are not listed here complete commands and
@@ -34,13 +34,14 @@ fn places(command_line: &Command) -> Vec<Place> {
         // An argument without a name for its value is called like its field.
         let called = argument.get_value_names().map(|names| names.iter().map(|name| name.to_string()).collect());
         let called: Vec<String> = called.unwrap_or_else(|| vec![argument.get_id().as_str().to_uppercase()]);
-        let is_called = |word| {
+        let is_called = |word: &str| {
             let words = called.iter().flat_map(|name| name.split(['|', ',', '.']));
             words.into_iter().any(|part| part.trim_end_matches('S') == word)
         };
         let option = argument.get_long().map(|long| format!("--{long}"));
-        let (gates, components) = (is_called("GATE"), is_called("COMPONENT"));
-        (gates || components).then(|| Place { command: command.get_name().to_owned(), option, gates, components })
+        let wanted = [("GATE", "gates"), ("COMPONENT", "components")].into_iter();
+        let wanted: Vec<&str> = wanted.filter(|(word, _)| is_called(word)).map(|(_, wanted)| wanted).collect();
+        (!wanted.is_empty()).then(|| Place { command: command.get_name().to_owned(), option, wanted })
     };
     let commands = command_line.get_subcommands();
     commands.flat_map(|command| command.get_arguments().filter_map(move |it| place(command, it))).collect()
@@ -50,11 +51,9 @@ fn places(command_line: &Command) -> Vec<Place> {
 fn cases(places: &[Place], indent: &str) -> String {
     let mut text = String::new();
     for place in places {
-        let wanted = [(place.gates, "gates"), (place.components, "components")];
-        let wanted: Vec<&str> = wanted.into_iter().filter(|(wanted, _)| *wanted).map(|(_, word)| word).collect();
         // Writing to a string cannot fail.
         let option = place.option.as_deref().unwrap_or_default();
-        let _ = writeln!(text, "{indent}{}:{option}) wanted=\"{}\" ;;", place.command, wanted.join(" "));
+        let _ = writeln!(text, "{indent}{}:{option}) wanted=\"{}\" ;;", place.command, place.wanted.join(" "));
     }
     text
 }
@@ -136,8 +135,8 @@ end
     for place in places {
         let condition = format!("__fish_seen_subcommand_from {}", place.command);
         let option = place.option.as_deref().map(|option| format!(" -r -l {}", option.trim_start_matches('-')));
-        let lists = [(place.gates, "__fish_scl_names"), (place.components, "__fish_scl_names --components")];
-        for (_, list) in lists.into_iter().filter(|(wanted, _)| *wanted) {
+        for wanted in &place.wanted {
+            let list = if *wanted == "gates" { "__fish_scl_names" } else { "__fish_scl_names --components" };
             // Writing to a string cannot fail.
             let option = option.as_deref().unwrap_or_default();
             let _ = writeln!(text, "complete -c scl -n \"{condition}\"{option} -f -a \"({list})\"");

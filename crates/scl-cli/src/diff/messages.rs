@@ -25,10 +25,12 @@ pub(super) fn find_message_changes(old: &Side, new: &Side) -> MessageChanges {
     let mut found = MessageChanges::default();
     let mut decoded = Decoded::default();
     let mut compared: HashMap<(String, &str, &str, &str), Vec<Difference>> = HashMap::new();
-    let (old, new) = (Schemas::of(&old.plan), Schemas::of(&new.plan));
-    for connection in connections_of(new.plan) {
+    let (old_schemas, new_schemas) = (schemas(&old.plan), schemas(&new.plan));
+    for connection in connections_of(&new.plan) {
         let Some(encoding) = Encoding::of_codec(&connection.gate.codec) else { continue };
-        let (Some(before), Some(after)) = (old.of_sender(&connection), new.of_sender(&connection)) else { continue };
+        // That of the sending component describes what both ends exchange.
+        let [before, after] = [&old_schemas, &new_schemas].map(|schemas| schemas.get(connection.component));
+        let (Some(before), Some(after)) = (before, after) else { continue };
         if before.hash == after.hash {
             continue;
         }
@@ -42,22 +44,9 @@ pub(super) fn find_message_changes(old: &Side, new: &Side) -> MessageChanges {
     found
 }
 
-/// The schemas of the components of a system.
-struct Schemas<'p> {
-    plan: &'p SystemPlan,
-    by_component: HashMap<&'p str, &'p Schema>,
-}
-
-impl<'p> Schemas<'p> {
-    fn of(plan: &'p SystemPlan) -> Self {
-        let schemas = plan.components.iter().filter_map(|one| Some((one.component.as_str(), one.schema.as_ref()?)));
-        Self { plan, by_component: schemas.collect() }
-    }
-
-    /// The schema of the sending component, which describes what both ends exchange.
-    fn of_sender(&self, connection: &Connection<'_>) -> Option<&'p Schema> {
-        self.by_component.get(connection.component).copied()
-    }
+/// The schemas of a system, by component.
+fn schemas(plan: &SystemPlan) -> HashMap<&str, &Schema> {
+    plan.components.iter().filter_map(|one| Some((one.component.as_str(), one.schema.as_ref()?))).collect()
 }
 
 impl MessageChanges {

@@ -76,8 +76,9 @@ impl<'a> Output<'a> {
         let mut rows = Vec::new();
         if self.table.is_none() {
             let table = self.columns.take().map_or_else(|| Table::of(message), Table::new);
-            let cells = self.own_cells("@time", "@sequence", "@gate", "@kind", "@call");
-            rows.extend(csv_row(cells.into_iter().map(str::to_owned).chain(table.header())));
+            // No field has a name that begins with `@`.
+            let cells = self.own_cells(["@time", "@sequence", "@gate", "@kind", "@call"]);
+            rows.extend(csv_row(cells.map(str::to_owned).chain(table.header())));
             self.table = Some(table);
         }
         let Some(table) = &self.table else { return rows };
@@ -89,8 +90,8 @@ impl<'a> Output<'a> {
         }
         let time = format!("{}.{:09}", seen.sent_ns / 1_000_000_000, seen.sent_ns % 1_000_000_000);
         let (sequence, call) = (seen.sequence.to_string(), seen.call_id.to_string());
-        let cells = self.own_cells(&time, &sequence, gate.name(), word(seen.kind), &call);
-        let cells = cells.into_iter().map(str::to_owned).chain(table.row(message));
+        let cells = self.own_cells([&time, &sequence, gate.name(), word(seen.kind), &call]);
+        let cells = cells.map(str::to_owned).chain(table.row(message));
         rows.extend(match output_is_terminal() {
             true => csv_row(cells.map(|cell| escape(&cell).into_owned())),
             false => csv_row(cells),
@@ -98,19 +99,10 @@ impl<'a> Output<'a> {
         rows
     }
 
-    /// The cells before those of the fields. Their headers begin with `@`, so that no field has the same name.
-    fn own_cells<'t>(
-        &self,
-        time: &'t str,
-        sequence: &'t str,
-        gate: &'t str,
-        kind: &'t str,
-        call: &'t str,
-    ) -> Vec<&'t str> {
-        let mut cells = vec![time, sequence];
-        cells.extend(self.several.then_some(gate));
-        cells.extend(self.exchanges.then_some([kind, call]).into_iter().flatten());
-        cells
+    /// The cells before those of the fields: those of time, sequence, gate, kind and call that are shown.
+    fn own_cells<'t>(&self, [time, sequence, gate, kind, call]: [&'t str; 5]) -> impl Iterator<Item = &'t str> {
+        let exchange = self.exchanges.then_some([kind, call]).into_iter().flatten();
+        [time, sequence].into_iter().chain(self.several.then_some(gate)).chain(exchange)
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::format::{FormatArgument, print_json};
 use scl_record::format::{GateTotals, Topic};
 use scl_record::recording::{Recording, Survey, SurveyedTopic, find_files};
-use scl_terminal::{Align, Problem, Table, bytes_text, print_err, print_out, timestamp};
+use scl_terminal::{Problem, Table, bytes_text, print_err, print_out, timestamp};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::time::{Duration, SystemTime};
@@ -46,15 +46,7 @@ fn to_text(recording: &Recording, survey: &Survey) -> String {
     let mut text = facts.text();
     let totals = recording.totals();
     if !survey.topics.is_empty() {
-        let mut gates = Table::new([
-            ("GATE", Align::Left),
-            ("KIND", Align::Left),
-            ("TYPE", Align::Left),
-            ("CODEC", Align::Left),
-            ("MESSAGES", Align::Right),
-            ("BYTES", Align::Right),
-            ("LOST", Align::Right),
-        ]);
+        let mut gates = Table::with_headings(&["GATE", "KIND", "TYPE", "CODEC"], &["MESSAGES", "BYTES", "LOST"]);
         for (topic, SurveyedTopic { channel, messages, bytes }) in &survey.topics {
             let lost = totals.get(&topic.gate_name()).map_or_else(|| "?".to_owned(), |totals| totals.lost.to_string());
             let metadata = &channel.metadata;
@@ -71,12 +63,7 @@ fn to_text(recording: &Recording, survey: &Survey) -> String {
         text += &gates.text();
     }
     if !survey.others.is_empty() {
-        let mut others = Table::new([
-            ("NOT RECORDED BY SCL", Align::Left),
-            ("ENCODING", Align::Left),
-            ("SCHEMA", Align::Left),
-            ("MESSAGES", Align::Right),
-        ]);
+        let mut others = Table::with_headings(&["NOT RECORDED BY SCL", "ENCODING", "SCHEMA"], &["MESSAGES"]);
         for other in &survey.others {
             others.row([&other.topic, &other.encoding, &other.schema_name, &other.messages.to_string()]);
         }

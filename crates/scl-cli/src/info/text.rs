@@ -5,7 +5,7 @@ use crate::list::state_text;
 use scl::runtime_dir::GateFigures;
 use scl_observe::{Component, Peer, connected_peers, message_count, peers};
 use scl_plan::{GateKind, GatePlan};
-use scl_terminal::{Align, Table, age_text, bytes_text, three_digits};
+use scl_terminal::{Table, age_text, bytes_text, three_digits};
 use std::time::SystemTime;
 
 impl Reading {
@@ -38,15 +38,7 @@ impl Reading {
             facts.row(["declared", &plan.declared_at]);
         }
         facts.row(["figures", &self.figures_text()]);
-        let mut gates = Table::new([
-            ("GATE", Align::Left),
-            ("KIND", Align::Left),
-            ("TYPE", Align::Left),
-            ("CODEC", Align::Left),
-            ("MSG/S", Align::Right),
-            ("DROPS", Align::Right),
-            ("PEERS", Align::Right),
-        ]);
+        let mut gates = Table::with_headings(&["GATE", "KIND", "TYPE", "CODEC"], &["MSG/S", "DROPS", "PEERS"]);
         for (index, gate) in component.gates().iter().enumerate() {
             let figures = component.figures(index);
             let connected = connected_peers(gate, figures).map_or_else(|| "?".to_owned(), |count| count.to_string());
@@ -160,10 +152,8 @@ fn options(plan: &GatePlan) -> Vec<(&'static str, String)> {
 }
 
 fn peer_table(peers: &[Peer<'_>]) -> String {
-    let (left, right) = (Align::Left, Align::Right);
-    let columns = [("PEER", left), ("CONNECTED", left), ("QUEUE", right), ("WAITING", right), ("TAKEN", right)];
-    let counts = [("REPLACED", right), ("DROPPED", right), ("LOST", right)];
-    let mut table = Table::new(columns.into_iter().chain(counts)).indented(2);
+    let counts = ["QUEUE", "WAITING", "TAKEN", "REPLACED", "DROPPED", "LOST"];
+    let mut table = Table::with_headings(&["PEER", "CONNECTED"], &counts).indented(2);
     for peer in peers {
         let connected = match peer.connected {
             Some(true) => "yes",

@@ -2,7 +2,7 @@
 //! ones.
 
 use super::Order;
-use super::rows::{COMPONENT_COLUMNS, GATE_COLUMNS, component_cells, gate_cells, is_text};
+use super::rows::{COMPONENT_COLUMNS, GATE_COLUMNS, TEXT_COLUMNS, component_cells, gate_cells};
 use super::view::View;
 use clap::ValueEnum;
 use ratatui::Frame;
@@ -187,13 +187,13 @@ impl TextTable<'_> {
             let style = Style::new().add_modifier(Modifier::BOLD);
             let is_sorted = heading == self.sorted_by;
             let style = if is_sorted { style.add_modifier(Modifier::UNDERLINED) } else { style };
-            Cell::from(self.aligned(column, heading.to_owned())).style(style)
+            Cell::from(Self::aligned(column, heading.to_owned())).style(style)
         };
         let rows = self.rows.iter().enumerate().map(|(number, row)| {
             Row::new(shown.iter().map(|&column| {
                 let text = escape(&row[column]).into_owned();
                 let text = if column == 0 { shorten(&text, name_width) } else { text };
-                Cell::from(self.aligned(column, text)).style(style(number, self.columns[column]))
+                Cell::from(Self::aligned(column, text)).style(style(number, self.columns[column]))
             }))
         });
         let constraints = shown.iter().map(|&column| match column {
@@ -208,8 +208,8 @@ impl TextTable<'_> {
         cells.max().unwrap_or(0).max(self.columns[column].len())
     }
 
-    fn aligned(&self, column: usize, text: String) -> Line<'static> {
-        if is_text(self.columns[column]) { Line::raw(text) } else { Line::raw(text).right_aligned() }
+    fn aligned(column: usize, text: String) -> Line<'static> {
+        if column < TEXT_COLUMNS { Line::raw(text) } else { Line::raw(text).right_aligned() }
     }
 }
 

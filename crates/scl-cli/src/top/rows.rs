@@ -14,10 +14,8 @@ pub(super) const GATE_COLUMNS: [&str; 9] =
 /// What stands for an unknown value.
 const UNKNOWN: &str = "-";
 
-/// Whether a column contains words, and not numbers.
-pub(super) fn is_text(heading: &str) -> bool {
-    ["COMPONENT", "STATE", "GATE", "KIND"].contains(&heading)
-}
+/// Both tables begin with this many columns of words; numbers follow.
+pub(super) const TEXT_COLUMNS: usize = 2;
 
 pub(super) fn component_cells(row: &ComponentRow) -> [String; 6] {
     let or_unknown = |text: Option<String>| text.unwrap_or_else(|| UNKNOWN.to_owned());
