@@ -99,8 +99,10 @@ class Error : public std::runtime_error {
 namespace detail {
 
 /// An exception class of its own for one kind of error.
-template <Errc kind> class ErrorOf : public Error {
+template <Errc own> class ErrorOf : public Error {
   public:
+    static constexpr Errc kind = own;
+
     explicit ErrorOf(const std::string& text) : Error(kind, text) {}
 };
 
@@ -180,110 +182,73 @@ inline const char* last_error() noexcept { return scl_error(); }
 
 namespace detail {
 
+/// What an error code says of a kind of error.
+struct Meaning {
+    Errc kind;
+    /// nullptr for the name of the status.
+    const char* text;
+    /// The same among the errors of the operating system, or nothing.
+    std::errc system;
+};
+
+inline constexpr Meaning meanings[] = {
+    {Errc::full, "the queue of a peer is full", std::errc::resource_unavailable_try_again},
+    {Errc::timeout, "not done in time", std::errc::timed_out},
+    {Errc::stopped, "stop requested", std::errc::interrupted},
+    {Errc::peer_lost, "the peer disconnected after the request was sent", std::errc::connection_reset},
+    {Errc::requester_gone, "the requester no longer waits for the reply", std::errc::broken_pipe},
+    {Errc::busy, "another thread is using this gate", std::errc::device_or_resource_busy},
+    {Errc::too_long, "the message is longer than the peer accepts", std::errc::message_size},
+    {Errc::decode, "the bytes received are not a message of the expected type", std::errc::bad_message},
+    {Errc::encode, "the codec cannot express the message", std::errc::invalid_argument},
+    {Errc::argument, nullptr, std::errc::invalid_argument},
+    {Errc::not_flushed, "not all peers have taken all messages", std::errc{}},
+    {Errc::kind, nullptr, std::errc::operation_not_supported},
+    {Errc::taken, "the component is already running", std::errc::address_in_use},
+    {Errc::handle, "the component is closed", std::errc::bad_file_descriptor},
+    {Errc::closed, "the component is closed", std::errc::operation_canceled},
+    {Errc::forked, "the component belongs to the parent process", std::errc::operation_not_permitted},
+};
+
 class Category final : public std::error_category {
   public:
     const char* name() const noexcept override { return "scl"; }
 
     std::string message(int code) const override {
-        switch (static_cast<Errc>(code)) {
-        case Errc::full:
-            return "the queue of a peer is full";
-        case Errc::timeout:
-            return "not done in time";
-        case Errc::stopped:
-            return "stop requested";
-        case Errc::peer_lost:
-            return "the peer disconnected after the request was sent";
-        case Errc::requester_gone:
-            return "the requester no longer waits for the reply";
-        case Errc::busy:
-            return "another thread is using this gate";
-        case Errc::too_long:
-            return "the message is longer than the peer accepts";
-        case Errc::decode:
-            return "the bytes received are not a message of the expected type";
-        case Errc::not_flushed:
-            return "not all peers have taken all messages";
-        case Errc::taken:
-            return "the component is already running";
-        case Errc::handle:
-        case Errc::closed:
-            return "the component is closed";
-        case Errc::forked:
-            return "the component belongs to the parent process";
-        case Errc::encode:
-            return "the codec cannot express the message";
-        default:
-            return scl_status_name(code);
-        }
+        const char* text = meaning(code).text;
+        return text != nullptr ? text : scl_status_name(code);
     }
 
     /// For programs that compare with `std::errc`, as they do with errors of the operating system.
     std::error_condition default_error_condition(int code) const noexcept override {
-        switch (static_cast<Errc>(code)) {
-        case Errc::full:
-            return std::errc::resource_unavailable_try_again;
-        case Errc::timeout:
-            return std::errc::timed_out;
-        case Errc::stopped:
-            return std::errc::interrupted;
-        case Errc::peer_lost:
-            return std::errc::connection_reset;
-        case Errc::requester_gone:
-            return std::errc::broken_pipe;
-        case Errc::busy:
-            return std::errc::device_or_resource_busy;
-        case Errc::too_long:
-            return std::errc::message_size;
-        case Errc::decode:
-            return std::errc::bad_message;
-        case Errc::argument:
-        case Errc::encode:
-            return std::errc::invalid_argument;
-        case Errc::handle:
-            return std::errc::bad_file_descriptor;
-        case Errc::kind:
-            return std::errc::operation_not_supported;
-        case Errc::taken:
-            return std::errc::address_in_use;
-        case Errc::closed:
-            return std::errc::operation_canceled;
-        case Errc::forked:
-            return std::errc::operation_not_permitted;
-        default:
-            return {code, *this};
+        std::errc system = meaning(code).system;
+        return system != std::errc{} ? system : std::error_condition(code, *this);
+    }
+
+  private:
+    static Meaning meaning(int code) noexcept {
+        for (const Meaning& meaning : meanings) {
+            if (static_cast<int>(meaning.kind) == code) {
+                return meaning;
+            }
         }
+        return {Errc::failed, nullptr, std::errc{}};
     }
 };
 
+/// Throws the exception class of a kind if it is one of these.
+template <class... Classes> void raise_one_of(Errc kind, const std::string& text) {
+    ((kind == Classes::kind ? throw Classes(text) : void()), ...);
+}
+
 /// Throws the exception class of a kind.
 [[noreturn]] inline void raise(Errc kind, const std::string& text) {
-    switch (kind) {
-    case Errc::stopped:
+    if (kind == Errc::stopped) {
         throw Stopped(text);
-    case Errc::timeout:
-        throw Timeout(text);
-    case Errc::full:
-        throw Full(text);
-    case Errc::peer_lost:
-        throw PeerLost(text);
-    case Errc::refused:
-        throw Refused(text);
-    case Errc::requester_gone:
-        throw RequesterGone(text);
-    case Errc::taken:
-        throw Taken(text);
-    case Errc::too_long:
-        throw TooLong(text);
-    case Errc::decode:
-        throw DecodeError(text);
-    case Errc::encode:
-        throw EncodeError(text);
-    case Errc::not_flushed:
-        throw NotFlushed(text);
-    default:
-        throw Error(kind, text);
     }
+    raise_one_of<Timeout, Full, PeerLost, Refused, RequesterGone, Taken, TooLong, DecodeError, EncodeError, NotFlushed>(
+        kind, text);
+    throw Error(kind, text);
 }
 
 /// The status of a call to something of the program, with a text that names it where the C library knows a handle only.

@@ -64,8 +64,6 @@ template <class T, class Format> class ReceivingGate : public Receiver<Receiving
 template <class T, class Format = Native> class Sub : public detail::ReceivingGate<T, Format> {
   public:
     using detail::ReceivingGate<T, Format>::ReceivingGate;
-    Sub(Sub&&) noexcept = default;
-    Sub& operator=(Sub&&) noexcept = default;
 
     /// Gives a gate of bytes a message type and a codec of the program's own.
     template <class Other, std::enable_if_t<std::is_same_v<Other, Bytes> && !std::is_same_v<T, Bytes>, int> = 0>
@@ -83,8 +81,6 @@ template <class T, class Format = Native> class Sub : public detail::ReceivingGa
 template <class T, class Format = Native> class Pull : public detail::ReceivingGate<T, Format> {
   public:
     using detail::ReceivingGate<T, Format>::ReceivingGate;
-    Pull(Pull&&) noexcept = default;
-    Pull& operator=(Pull&&) noexcept = default;
 
     /// Gives a gate of bytes a message type and a codec of the program's own.
     template <class Other, std::enable_if_t<std::is_same_v<Other, Bytes> && !std::is_same_v<T, Bytes>, int> = 0>

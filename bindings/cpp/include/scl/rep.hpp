@@ -114,8 +114,6 @@ class Rep : public detail::Receiver<Rep<A, B, Format>, Request<A, B, Format>> {
     using Request = scl::Request<A, B, Format>;
 
     Rep(const Component& component, const std::string& name) : Base(component, name) {}
-    Rep(Rep&&) noexcept = default;
-    Rep& operator=(Rep&&) noexcept = default;
 
     /// Gives a gate of bytes message types and a codec of the program's own.
     template <class Other, std::enable_if_t<std::is_same_v<Other, Bytes> && !std::is_same_v<A, Bytes>, int> = 0>

@@ -13,8 +13,6 @@ template <class A, class B, class Format = Native> class Req : public Gate {
     using Reply = B;
 
     Req(const Component& component, const std::string& name) : Gate(component, name) {}
-    Req(Req&&) noexcept = default;
-    Req& operator=(Req&&) noexcept = default;
 
     /// Gives a gate of bytes message types and a codec of the program's own.
     template <class Other, std::enable_if_t<std::is_same_v<Other, Bytes> && !std::is_same_v<A, Bytes>, int> = 0>

@@ -73,8 +73,6 @@ template <class T, class Format> class SendingGate : public Gate {
 template <class T, class Format = Native> class Pub : public detail::SendingGate<T, Format> {
   public:
     using detail::SendingGate<T, Format>::SendingGate;
-    Pub(Pub&&) noexcept = default;
-    Pub& operator=(Pub&&) noexcept = default;
 
     /// Gives a gate of bytes a message type and a codec of the program's own.
     template <class Other, std::enable_if_t<std::is_same_v<Other, Bytes> && !std::is_same_v<T, Bytes>, int> = 0>
@@ -85,8 +83,6 @@ template <class T, class Format = Native> class Pub : public detail::SendingGate
 template <class T, class Format = Native> class Push : public detail::SendingGate<T, Format> {
   public:
     using detail::SendingGate<T, Format>::SendingGate;
-    Push(Push&&) noexcept = default;
-    Push& operator=(Push&&) noexcept = default;
 
     /// Gives a gate of bytes a message type and a codec of the program's own.
     template <class Other, std::enable_if_t<std::is_same_v<Other, Bytes> && !std::is_same_v<T, Bytes>, int> = 0>
