@@ -1,6 +1,5 @@
 //! The gate behind a Python object: one call at a time uses it, and others may look at it meanwhile.
 
-use crate::failure::Failure;
 use scl::untyped::Gate;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -72,50 +71,34 @@ impl Claimed {
     fn lock(&self) -> MutexGuard<'_, Slot> {
         self.slot.lock().unwrap_or_else(PoisonError::into_inner)
     }
-
-    fn bring_back(&self, gate: Gate) {
-        let mut slot = self.lock();
-        if matches!(*slot, Slot::Away) {
-            *slot = Slot::Here(gate);
-        }
-    }
 }
 
 impl<'g> Claim<'g> {
     /// Runs one step of a call.
-    pub(crate) fn step<R>(&mut self, step: impl FnOnce(&mut Gate) -> Result<R, Failure>) -> Result<R, StepError> {
-        self.0.with(step).map_err(StepError::Unusable)?.map_err(StepError::Failed)
+    pub(crate) fn step<R>(&mut self, step: impl FnOnce(&mut Gate) -> R) -> Result<R, Unusable> {
+        self.0.with(step)
     }
 
     /// As [`step`](Self::step), after visitors had their turn: locks are not fair.
-    pub(crate) fn next_step<R>(&mut self, step: impl FnOnce(&mut Gate) -> Result<R, Failure>) -> Result<R, StepError> {
+    pub(crate) fn next_step<R>(&mut self, step: impl FnOnce(&mut Gate) -> R) -> Result<R, Unusable> {
         while self.0.visitors.load(Ordering::Acquire) > 0 {
             std::thread::sleep(Duration::from_micros(100));
         }
         self.step(step)
     }
 
-    /// Takes the gate along, for a call that needs it between its steps, too.
-    fn take(&mut self) -> Result<Gate, Unusable> {
-        let mut slot = self.0.lock();
+    /// Takes the gate along until the result is dropped, for a call that needs it between its steps, too.
+    pub(crate) fn borrow(self) -> Result<Borrowed<'g>, Unusable> {
+        let claimed = self.0;
+        let mut slot = claimed.lock();
         match std::mem::replace(&mut *slot, Slot::Away) {
-            Slot::Here(gate) => Ok(gate),
+            Slot::Here(gate) => Ok(Borrowed { gate: Some(gate), claim: self }),
             Slot::Away => Err(Unusable::Busy),
             Slot::Closed => {
                 *slot = Slot::Closed;
                 Err(Unusable::Closed)
             }
         }
-    }
-
-    fn bring_back(&mut self, gate: Gate) {
-        self.0.bring_back(gate);
-    }
-
-    /// Takes the gate along until the result is dropped.
-    pub(crate) fn borrow(mut self) -> Result<Borrowed<'g>, Unusable> {
-        let gate = self.take()?;
-        Ok(Borrowed { gate: Some(gate), claim: self })
     }
 }
 
@@ -135,15 +118,12 @@ impl Borrowed<'_> {
 impl Drop for Borrowed<'_> {
     fn drop(&mut self) {
         if let Some(gate) = self.gate.take() {
-            self.claim.bring_back(gate);
+            let mut slot = self.claim.0.lock();
+            if matches!(*slot, Slot::Away) {
+                *slot = Slot::Here(gate);
+            }
         }
     }
-}
-
-/// Why a step of a call did not succeed.
-pub(crate) enum StepError {
-    Unusable(Unusable),
-    Failed(Failure),
 }
 
 impl Drop for Claim<'_> {

@@ -172,7 +172,13 @@ impl Component {
             true => self.shared.check_open()?,
             false => self.shared.check()?,
         }
-        Ok(self.new_readiness(all_gates)?)
+        let component = self.component.lock().unwrap_or_else(PoisonError::into_inner);
+        let component = component.as_ref().ok_or_else(|| self.shared.ended())?;
+        let readiness = match all_gates {
+            true => component.readiness().map_err(|error| Failure::of_box(&error)),
+            false => component.readiness_of(&[]).map_err(|error| Failure::of_box(error.inner())),
+        };
+        Ok(Readiness::new(self.shared.keep(readiness?)))
     }
 
     #[getter]
@@ -206,16 +212,6 @@ impl Component {
         let gates = gates.map(|(plan, gate)| Py::new(py, Gate::new(plan.clone(), Arc::clone(&shared), gate)));
         let gates = gates.collect::<PyResult<Vec<_>>>()?;
         Ok(Self { component: shared.keep(Mutex::new(Some(component))), shared, gates, is_test })
-    }
-
-    fn new_readiness(&self, all_gates: bool) -> Result<Readiness, Failure> {
-        let component = self.component.lock().unwrap_or_else(PoisonError::into_inner);
-        let component = component.as_ref().ok_or_else(|| self.shared.ended())?;
-        let readiness = match all_gates {
-            true => component.readiness().map_err(|error| Failure::of_box(&error)),
-            false => component.readiness_of(&[]).map_err(|error| Failure::of_box(error.inner())),
-        };
-        readiness.map(|readiness| Readiness::new(self.shared.keep(readiness)))
     }
 }
 

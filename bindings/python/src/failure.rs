@@ -123,56 +123,30 @@ classes! {
     ReplyError { Encode => "EncodeError", TooLong => "TooLong", RequesterGone => "RequesterGone" }
 }
 
-impl From<TrySendError> for Failure {
-    fn from(error: TrySendError) -> Self {
-        match error {
-            TrySendError::Full { .. } => Self::of("Full", &error),
-            TrySendError::Send(error) => error.into(),
-            _ => Self::of("Error", &error),
+/// The class of an error that may also be that of a call without a time limit.
+macro_rules! classes_of_timed {
+    ($($error:ident { $variant:ident => $class:literal, $inner:ident })+) => { $(
+        impl From<$error> for Failure {
+            fn from(error: $error) -> Self {
+                match error {
+                    $error::$inner(error) => error.into(),
+                    $error::$variant { .. } => Self::of($class, &error),
+                    _ => Self::of("Error", &error),
+                }
+            }
         }
-    }
+    )+ };
 }
 
-impl From<SendTimeoutError> for Failure {
-    fn from(error: SendTimeoutError) -> Self {
-        match error {
-            SendTimeoutError::Timeout { .. } => Self::of("Full", &error),
-            SendTimeoutError::Send(error) => error.into(),
-            _ => Self::of("Error", &error),
-        }
-    }
-}
-
-impl From<scl::untyped::WaitError> for Failure {
-    fn from(error: scl::untyped::WaitError) -> Self {
-        use scl::untyped::WaitError;
-        match error {
-            WaitError::Recv(error) => error.into(),
-            WaitError::Blocking { source, .. } => Self::of(class_of(source), &error),
-            _ => Self::of("Timeout", &error),
-        }
-    }
-}
-
-impl From<RecvTimeoutError> for Failure {
-    fn from(error: RecvTimeoutError) -> Self {
-        match error {
-            RecvTimeoutError::Timeout { .. } => Self::of("Timeout", &error),
-            RecvTimeoutError::Recv(error) => error.into(),
-            _ => Self::of("Error", &error),
-        }
-    }
+classes_of_timed! {
+    TrySendError { Full => "Full", Send }
+    SendTimeoutError { Timeout => "Full", Send }
+    RecvTimeoutError { Timeout => "Timeout", Recv }
 }
 
 impl From<NotReady> for Failure {
     fn from(error: NotReady) -> Self {
         Self::of("NotReady", &error)
-    }
-}
-
-impl From<NotFlushed> for Failure {
-    fn from(error: NotFlushed) -> Self {
-        Self::of("NotFlushed", &error)
     }
 }
 

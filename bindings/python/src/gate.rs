@@ -1,6 +1,6 @@
 //! A gate of any kind, with bytes as its messages.
 
-use crate::claimed::{Claim, Claimed, StepError, Unusable};
+use crate::claimed::{Claim, Claimed, Unusable};
 use crate::failure::{Failure, no_panic};
 use crate::limit::Limit;
 use crate::native::Native;
@@ -20,7 +20,7 @@ use scl::plan::{GateKind, GatePlan, Payload};
 use scl::untyped::Gate as AnyGate;
 use std::pin::Pin;
 use std::sync::Arc;
-use std::task::Context;
+use std::task::{Context, Poll};
 use std::time::Duration;
 
 /// A gate. Which calls it has depends on its kind; the package offers no others.
@@ -32,6 +32,12 @@ pub(crate) struct Gate {
     shared: Arc<Shared>,
     /// Its component may end with it, and then hands over what is left.
     gate: Native<Claimed>,
+}
+
+/// What arrives at a gate.
+enum Received {
+    Message(Bytes),
+    Request(scl::Request<Bytes, Bytes>),
 }
 
 impl Gate {
@@ -63,11 +69,9 @@ impl Gate {
         Failure::new("Busy", format!("gate `{}` {text}", self.full_name()))
     }
 
-    pub(crate) fn failed(&self, error: StepError) -> Failure {
-        match error {
-            StepError::Unusable(unusable) => self.unusable(unusable),
-            StepError::Failed(failure) => failure,
-        }
+    /// Looks at the gate, also while a call uses it.
+    fn visit<R>(&self, look: impl FnOnce(&mut AnyGate) -> R) -> Result<R, Failure> {
+        self.gate.visit(look).map_err(|unusable| self.unusable(unusable))
     }
 
     /// As it is called in messages.
@@ -83,7 +87,7 @@ impl Gate {
     /// A call that does not wait, so it keeps the interpreter.
     fn at_once<R>(&self, step: impl FnOnce(&mut AnyGate) -> Result<R, Failure>) -> Result<R, Failure> {
         let mut claim = self.claim()?;
-        no_panic(|| claim.step(step).map_err(|error| self.failed(error)))
+        no_panic(|| claim.step(step).map_err(|unusable| self.unusable(unusable))?)
     }
 
     /// A call that tries at once, and if that was not enough, waits without the interpreter. `Ok(None)` when the time
@@ -96,12 +100,12 @@ impl Gate {
         mut wait_for: impl FnMut(&mut AnyGate, Duration) -> Result<Option<R>, Failure> + Send,
     ) -> PyResult<Option<R>> {
         let mut claim = self.claim()?;
-        let done = no_panic(|| claim.step(attempt).map_err(|error| self.failed(error)))?;
+        let done = no_panic(|| claim.step(attempt).map_err(|unusable| self.unusable(unusable))?)?;
         if done.is_some() || limit.is_zero() {
             return Ok(done);
         }
         wait(py, limit, &self.shared, |within| {
-            claim.next_step(|gate| wait_for(gate, within)).map_err(|error| self.failed(error))
+            claim.next_step(|gate| wait_for(gate, within)).map_err(|unusable| self.unusable(unusable))?
         })
     }
 
@@ -113,60 +117,46 @@ impl Gate {
         }
     }
 
-    fn try_receive(&self, gate: &mut AnyGate) -> Result<Option<Bytes>, Failure> {
+    fn try_receive(&self, gate: &mut AnyGate) -> Result<Option<Received>, Failure> {
         match gate {
-            AnyGate::Sub(gate) => Ok(gate.try_recv()?),
-            AnyGate::Pull(gate) => Ok(gate.try_recv()?),
+            AnyGate::Sub(gate) => Ok(gate.try_recv()?.map(Received::Message)),
+            AnyGate::Pull(gate) => Ok(gate.try_recv()?.map(Received::Message)),
+            AnyGate::Rep(gate) => Ok(gate.try_recv()?.map(Received::Request)),
             _ => self.has_no("recv"),
         }
     }
 
-    fn try_take_request(&self, gate: &mut AnyGate) -> Result<Option<scl::Request<Bytes, Bytes>>, Failure> {
+    fn receive(&self, gate: &mut AnyGate, within: Duration) -> Result<Result<Received, RecvTimeoutError>, Failure> {
         match gate {
-            AnyGate::Rep(gate) => Ok(gate.try_recv()?),
-            _ => self.has_no("recv_request"),
+            AnyGate::Sub(gate) => Ok(gate.recv_timeout(within).map(Received::Message)),
+            AnyGate::Pull(gate) => Ok(gate.recv_timeout(within).map(Received::Message)),
+            AnyGate::Rep(gate) => Ok(gate.recv_timeout(within).map(Received::Request)),
+            _ => self.has_no("recv"),
         }
     }
 
-    /// What a gate has, or else `None`, and then the readiness reports when it has something.
-    fn poll_received<R>(
-        &self,
-        readiness: &Readiness,
-        take: impl Fn(&mut AnyGate) -> Result<Option<R>, Failure>,
-    ) -> Result<Option<R>, Failure> {
-        self.at_once(|gate| {
-            if let Some(taken) = take(gate)? {
-                return Ok(Some(taken));
+    /// What was received as Python has it.
+    fn to_python<'py>(&self, py: Python<'py>, received: Received) -> PyResult<Bound<'py, PyAny>> {
+        match received {
+            Received::Message(message) => Ok(PyBytes::new(py, &message).into_any()),
+            Received::Request(request) => {
+                Ok(Bound::new(py, Request::new(request, Arc::clone(&self.shared)))?.into_any())
             }
-            let waker = readiness.waker();
-            match gate.receiving().map(|gate| gate.poll_ready(&mut Context::from_waker(&waker))) {
-                Some(std::task::Poll::Ready(ready)) => {
-                    ready?;
-                    take(gate)
-                }
-                _ => Ok(None),
-            }
-        })
+        }
     }
 
     /// Receives within a limit. When it is over, the last attempt finds the reason.
-    fn wait_to_receive<R: Send>(
-        &self,
-        py: Python<'_>,
-        limit: Limit,
-        attempt: impl FnOnce(&Self, &mut AnyGate) -> Result<Option<R>, Failure>,
-        receive: impl Fn(&Self, &mut AnyGate, Duration) -> Result<Result<R, RecvTimeoutError>, Failure> + Sync,
-    ) -> PyResult<R> {
-        let wait_for = |gate: &mut AnyGate, within| match receive(self, gate, within)? {
+    fn wait_to_receive(&self, py: Python<'_>, limit: Limit) -> PyResult<Received> {
+        let wait_for = |gate: &mut AnyGate, within| match self.receive(gate, within)? {
             Ok(received) => Ok(Some(received)),
             Err(RecvTimeoutError::Timeout { .. }) => Ok(None),
             Err(error) => Err(error.into()),
         };
-        if let Some(received) = self.try_then_wait(py, limit, |gate| attempt(self, gate), wait_for)? {
+        if let Some(received) = self.try_then_wait(py, limit, |gate| self.try_receive(gate), wait_for)? {
             return Ok(received);
         }
         let waited = limit.waited();
-        let last = self.at_once(|gate| receive(self, gate, Duration::ZERO))?;
+        let last = self.at_once(|gate| self.receive(gate, Duration::ZERO))?;
         Ok(last.map_err(|error| match error {
             RecvTimeoutError::Timeout { gate, peers, reason, .. } if waited.is_zero() => {
                 let reason = reason.map_or_else(String::new, |reason| format!(": {reason}"));
@@ -177,25 +167,6 @@ impl Gate {
             }
             error => error.into(),
         })?)
-    }
-
-    fn receive(&self, gate: &mut AnyGate, within: Duration) -> Result<Result<Bytes, RecvTimeoutError>, Failure> {
-        match gate {
-            AnyGate::Sub(gate) => Ok(gate.recv_timeout(within)),
-            AnyGate::Pull(gate) => Ok(gate.recv_timeout(within)),
-            _ => self.has_no("recv"),
-        }
-    }
-
-    fn take_request(
-        &self,
-        gate: &mut AnyGate,
-        within: Duration,
-    ) -> Result<Result<scl::Request<Bytes, Bytes>, RecvTimeoutError>, Failure> {
-        match gate {
-            AnyGate::Rep(gate) => Ok(gate.recv_timeout(within)),
-            _ => self.has_no("recv_request"),
-        }
     }
 }
 
@@ -280,16 +251,16 @@ impl Gate {
         Ok(sent)
     }
 
-    /// Waits for a message. `waited` is for the message of the error, if an event loop has waited before.
+    /// Waits for a message or a request. `waited` is for the message of the error, if an event loop has waited before.
     #[pyo3(signature = (timeout=None, waited=None))]
-    fn recv<'py>(&self, py: Python<'py>, timeout: Option<f64>, waited: Option<f64>) -> PyResult<Bound<'py, PyBytes>> {
+    fn recv<'py>(&self, py: Python<'py>, timeout: Option<f64>, waited: Option<f64>) -> PyResult<Bound<'py, PyAny>> {
         let limit = Limit::of_seconds(timeout)?.after(waited);
-        Ok(PyBytes::new(py, &self.wait_to_receive(py, limit, Self::try_receive, Self::receive)?))
+        self.to_python(py, self.wait_to_receive(py, limit)?)
     }
 
-    fn try_recv<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
+    fn try_recv<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let received = self.at_once(|gate| self.try_receive(gate))?;
-        Ok(received.map(|message| PyBytes::new(py, &message)))
+        received.map(|received| self.to_python(py, received)).transpose()
     }
 
     fn latest<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
@@ -301,29 +272,22 @@ impl Gate {
         Ok(newest.map(|message| PyBytes::new(py, &message)))
     }
 
-    /// Returns a message, or `None`, and then the readiness reports when there may be one.
-    fn poll_recv<'py>(&self, py: Python<'py>, readiness: &Readiness) -> PyResult<Option<Bound<'py, PyBytes>>> {
-        let received = self.poll_received(readiness, |gate| self.try_receive(gate))?;
-        Ok(received.map(|message| PyBytes::new(py, &message)))
-    }
-
-    /// As `recv`, at a `rep` gate.
-    #[pyo3(signature = (timeout=None, waited=None))]
-    fn recv_request(&self, py: Python<'_>, timeout: Option<f64>, waited: Option<f64>) -> PyResult<Request> {
-        let limit = Limit::of_seconds(timeout)?.after(waited);
-        let taken = self.wait_to_receive(py, limit, Self::try_take_request, Self::take_request)?;
-        Ok(Request::new(taken, Arc::clone(&self.shared)))
-    }
-
-    fn try_recv_request(&self) -> PyResult<Option<Request>> {
-        let taken = self.at_once(|gate| self.try_take_request(gate))?;
-        Ok(taken.map(|request| Request::new(request, Arc::clone(&self.shared))))
-    }
-
-    /// Returns a request, or `None`, and then the readiness reports when there may be one.
-    fn poll_recv_request(&self, readiness: &Readiness) -> PyResult<Option<Request>> {
-        let taken = self.poll_received(readiness, |gate| self.try_take_request(gate))?;
-        Ok(taken.map(|request| Request::new(request, Arc::clone(&self.shared))))
+    /// Returns what a gate has, or `None`, and then the readiness reports when there may be something.
+    fn poll_recv<'py>(&self, py: Python<'py>, readiness: &Readiness) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let received = self.at_once(|gate| {
+            if let Some(received) = self.try_receive(gate)? {
+                return Ok(Some(received));
+            }
+            let waker = readiness.waker();
+            match gate.receiving().map(|gate| gate.poll_ready(&mut Context::from_waker(&waker))) {
+                Some(Poll::Ready(ready)) => {
+                    ready?;
+                    self.try_receive(gate)
+                }
+                _ => Ok(None),
+            }
+        })?;
+        received.map(|received| self.to_python(py, received)).transpose()
     }
 
     /// Reports that the package could not decode the message or reply that the gate received last, or this request.
@@ -360,33 +324,30 @@ impl Gate {
         let request = Bytes::copy_from_slice(request.as_bytes());
         self.shared.check()?;
         // Not claimed: several calls may be in progress.
-        let requester = self.gate.visit(|gate| match gate {
+        let requester = self.visit(|gate| match gate {
             AnyGate::Req(requester) => Ok(requester.clone()),
             _ => self.has_no("call"),
-        });
-        let requester = requester.map_err(|unusable| self.unusable(unusable))??;
+        })??;
         Ok(PendingCall::start(Arc::clone(&self.shared), requester, request, timeout))
     }
 
     #[getter]
     fn is_connected(&self, py: Python<'_>) -> PyResult<bool> {
         self.shared.check_open()?;
-        let connected = detach(py, || self.gate.visit(|gate| gate.is_connected()))?;
-        Ok(connected.map_err(|unusable| self.unusable(unusable))?)
+        Ok(detach(py, || self.visit(|gate| gate.is_connected()))??)
     }
 
     /// In seconds.
     #[getter]
     fn latched_age(&self, py: Python<'_>) -> PyResult<Option<f64>> {
         self.shared.check_open()?;
-        let age = py.detach(|| self.gate.visit(|gate| gate.latched_age()));
-        Ok(age.map_err(|unusable| self.unusable(unusable))?.map(|age| age.as_secs_f64()))
+        let age = detach(py, || self.visit(|gate| gate.latched_age()))??;
+        Ok(age.map(|age| age.as_secs_f64()))
     }
 
     fn stats<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         self.shared.check_open()?;
-        let stats = detach(py, || self.gate.visit(|gate| stats::of_gate(gate)))?;
-        stats.map_err(|unusable| self.unusable(unusable))?.to_dict(py)
+        stats::to_dict(py, &detach(py, || self.visit(|gate| stats::of_gate(gate)))??)
     }
 
     fn __repr__(&self) -> String {

@@ -12,7 +12,7 @@ use scl::{CallError, Req};
 use std::future::poll_fn;
 use std::pin::{Pin, pin};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::task::{Context, Poll, Waker};
 use std::time::Duration;
 
@@ -25,8 +25,10 @@ pub(crate) struct PendingCall {
     call: Native<Mutex<Option<Call>>>,
 }
 
-/// Ends with the reply unless the call was cancelled.
-type Call = Pin<Box<dyn Future<Output = Option<Result<Bytes, CallError>>> + Send>>;
+type Call = Pin<Box<dyn Future<Output = Reply> + Send>>;
+
+/// `None` if the call was cancelled.
+type Reply = Option<Result<Bytes, CallError>>;
 
 impl PendingCall {
     /// Begins a call, which sends nothing before it is polled.
@@ -43,38 +45,26 @@ impl PendingCall {
 
     /// Waits for the reply no longer than a given time; `None` if there is none yet.
     pub(crate) fn drive(&self, driver: &Driver, within: Duration) -> Result<Option<Bytes>, Failure> {
-        let mut slot = self.lock();
-        let Some(call) = slot.as_mut() else { return self.answered() };
-        match driver.wait_for(call.as_mut(), within)? {
-            Some(done) => self.finish(&mut slot, done),
-            None => Ok(None),
-        }
+        self.advance(|call| Ok(driver.wait_for(call, within)?))
     }
 
     fn poll(&self, cx: &mut Context<'_>) -> Result<Option<Bytes>, Failure> {
-        let mut slot = self.lock();
-        let Some(call) = slot.as_mut() else { return self.answered() };
-        match call.as_mut().poll(cx) {
-            Poll::Ready(done) => self.finish(&mut slot, done),
+        self.advance(|call| match call.poll(cx) {
+            Poll::Ready(done) => Ok(Some(done)),
             Poll::Pending => Ok(None),
-        }
+        })
     }
 
-    fn finish(
+    /// Takes the call a step further; `None` if that was not the last one.
+    fn advance(
         &self,
-        slot: &mut Option<Call>,
-        reply: Option<Result<Bytes, CallError>>,
+        step: impl FnOnce(Pin<&mut (dyn Future<Output = Reply> + Send)>) -> Result<Option<Reply>, Failure>,
     ) -> Result<Option<Bytes>, Failure> {
+        let mut slot = self.call.lock().unwrap_or_else(PoisonError::into_inner);
+        let Some(call) = slot.as_mut() else { return Err(Failure::new("Answered", "this call is over")) };
+        let Some(reply) = step(call.as_mut())? else { return Ok(None) };
         *slot = None;
         Ok(reply.transpose()?)
-    }
-
-    fn answered(&self) -> Result<Option<Bytes>, Failure> {
-        Err(Failure::new("Answered", "this call is over"))
-    }
-
-    fn lock(&self) -> MutexGuard<'_, Option<Call>> {
-        self.call.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -109,7 +99,7 @@ async fn exchange(
     request: Bytes,
     timeout: Option<Duration>,
     cancelled: Arc<AtomicBool>,
-) -> Option<Result<Bytes, CallError>> {
+) -> Reply {
     let timeout = timeout.unwrap_or(requester.timeout());
     let mut call = pin!(requester.call_within(&request, timeout));
     poll_fn(|cx| match cancelled.load(Ordering::Acquire) {

@@ -21,9 +21,7 @@ impl Request {
     pub(crate) fn new(request: scl::Request<Bytes, Bytes>, shared: Arc<Shared>) -> Self {
         Self { message: request.message().clone(), request: shared.keep(Mutex::new(Some(request))), shared }
     }
-}
 
-impl Request {
     /// The request itself, unless it was answered.
     pub(crate) fn take(&self) -> Option<scl::Request<Bytes, Bytes>> {
         self.request.lock().unwrap_or_else(PoisonError::into_inner).take()

@@ -7,10 +7,7 @@ use scl::{GateStats, PeerStats};
 use std::time::Instant;
 
 /// The counts of a gate and of its connections.
-pub(crate) struct Stats {
-    gate: GateStats,
-    peers: Vec<PeerStats>,
-}
+pub(crate) type Stats = (GateStats, Vec<PeerStats>);
 
 pub(crate) fn of_gate(gate: &Gate) -> Stats {
     let peers = match gate {
@@ -18,17 +15,15 @@ pub(crate) fn of_gate(gate: &Gate) -> Stats {
         Gate::Push(gate) => gate.peer_stats(),
         _ => Vec::new(),
     };
-    Stats { gate: gate.stats(), peers }
+    (gate.stats(), peers)
 }
 
-impl Stats {
-    pub(crate) fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let dict = PyDict::new(py);
-        counts(&dict, &self.gate)?;
-        let connections = self.peers.iter().map(|peer| of_peer(py, peer)).collect::<PyResult<Vec<_>>>()?;
-        dict.set_item("connections", connections)?;
-        Ok(dict)
-    }
+pub(crate) fn to_dict<'py>(py: Python<'py>, (gate, peers): &Stats) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    counts(&dict, gate)?;
+    let connections = peers.iter().map(|peer| of_peer(py, peer)).collect::<PyResult<Vec<_>>>()?;
+    dict.set_item("connections", connections)?;
+    Ok(dict)
 }
 
 /// Sets items by the names of the fields.

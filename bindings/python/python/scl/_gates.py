@@ -90,9 +90,7 @@ class Gate:
             hint = did_you_mean(name, dir(type(self)))
             raise AttributeError(f"gate `{self.name}` has no attribute `{name}`{hint}", name=name, obj=self)
 
-    async def _until(
-        self, poll: Callable[[Readiness], R | None], timeout: float | None, last: Callable[[float], R]
-    ) -> R:
+    async def _until(self, poll: Callable[[Readiness], R | None], timeout: float | None, last: Callable[[], R]) -> R:
         """Waits as `Loops.until` does. One task at a time may do so."""
         if self._awaited:
             raise Busy(f"gate `{self.name}` is awaited by another task; one at a time may use a gate")
@@ -137,7 +135,7 @@ class _Sender(Gate, Generic[T]):
         await self._until(
             lambda readiness: self._native.poll_send(frame, readiness) or None,
             timeout,
-            lambda _waited: self._send(frame, 0) is None,
+            lambda: self._send(frame, 0) is None,
         )
 
 
@@ -150,6 +148,10 @@ class _Receiving(Gate, Generic[T]):
     _recv: Callable[..., Any]
     _poll: Callable[[Readiness], Any]
     _try: Callable[[], Any]
+
+    def __init__(self, native: NativeGate, loops: Loops, decode: Callable[[Any], T]) -> None:
+        super().__init__(native, loops)
+        self._set(_decode=decode, _recv=native.recv, _poll=native.poll_recv, _try=native.try_recv)
 
     def recv(self, timeout: float | None = None) -> T:
         """Waits for the next message or request, at most `timeout` seconds, with 0 not at all. Raises `Timeout` then.
@@ -181,12 +183,15 @@ class _Receiving(Gate, Generic[T]):
         """`recv` for asyncio. Cancel safe: a call that is cancelled has taken nothing."""
         started, rest = monotonic(), timeout
         while True:
-            received = await self._until(self._poll, rest, lambda _waited: self._recv(0, timeout))
+            received = await self._until(self._poll, rest, lambda: self._recv(0, timeout))
             try:
                 return self._decode(received)
             except DecodeError as error:
                 self._skip(error, received)
-            await _others_turn()
+            import asyncio
+
+            # Lets other tasks run, so that a stream of undecodable frames keeps none of them from it.
+            await asyncio.sleep(0)
             rest = _rest(timeout, started)
 
     def _skip(self, error: DecodeError, received: Any) -> None:
@@ -223,9 +228,8 @@ class _Receiver(_Receiving[T]):
     _can = "`recv`, `try_recv`, `latest` and iteration"
 
     def __init__(self, native: NativeGate, loops: Loops, codec: Codec) -> None:
-        super().__init__(native, loops)
-        self._set(type=codec.type, _decode=codec.decode)
-        self._set(_recv=native.recv, _poll=native.poll_recv, _try=native.try_recv)
+        super().__init__(native, loops, codec.decode)
+        self._set(type=codec.type)
 
     @overload
     def try_recv(self) -> T | None: ...
@@ -336,7 +340,7 @@ class Req(Gate, Generic[A, B]):
         call = self._native.start_call(self._encode(request), timeout)
         try:
             # The call has a time limit of its own.
-            reply = await self._loops.until(call.poll_reply, None, lambda _waited: b"")
+            reply = await self._loops.until(call.poll_reply, None, lambda: b"")
         finally:
             call.cancel()
         return self._decoded(reply)
@@ -382,11 +386,9 @@ class Rep(_Receiving[Request[A, B]], Generic[A, B]):
     _can = "`recv`, `try_recv` and iteration, which give requests with `reply`"
 
     def __init__(self, native: NativeGate, loops: Loops, request: Codec, reply: Codec) -> None:
-        super().__init__(native, loops)
         decode = request.decode
+        super().__init__(native, loops, lambda received: Request(received, decode(received.data), reply))
         self._set(type=request.type, reply_type=reply.type)
-        self._set(_decode=lambda received: Request(received, decode(received.data), reply))
-        self._set(_recv=native.recv_request, _poll=native.poll_recv_request, _try=native.try_recv_request)
 
     def try_recv(self) -> Request[A, B] | None:
         """Returns the next request if one has arrived, else `None`."""
@@ -396,10 +398,3 @@ class Rep(_Receiving[Request[A, B]], Generic[A, B]):
 def _rest(timeout: float | None, started: float) -> float | None:
     """What is left of the timeout of a call that has skipped something."""
     return None if timeout is None else max(0.0, timeout - (monotonic() - started))
-
-
-async def _others_turn() -> None:
-    """Lets other tasks run, so that a stream of undecodable frames keeps none of them from it."""
-    import asyncio
-
-    await asyncio.sleep(0)

@@ -30,8 +30,7 @@ class Waiters:
         """Waits until the next event. The gate was polled before, without an `await` in between."""
         import asyncio
 
-        loop = asyncio.get_running_loop()
-        event = loop.create_future()
+        event = asyncio.get_running_loop().create_future()
         self._waiting.add(event)
         try:
             await event
@@ -56,21 +55,8 @@ class Loops:
         self._component = component
         self._waiters: weakref.WeakKeyDictionary[asyncio.AbstractEventLoop, Waiters] = weakref.WeakKeyDictionary()
 
-    def here(self) -> Waiters:
-        """Those of the running event loop."""
-        import asyncio
-
-        loop = asyncio.get_running_loop()
-        waiters = self._waiters.get(loop)
-        if waiters is None:
-            waiters = self._waiters[loop] = Waiters(self._component, loop)
-        return waiters
-
     async def until(
-        self,
-        poll: Callable[[_native.Readiness], R | None],
-        timeout: float | None,
-        last: Callable[[float], R],
+        self, poll: Callable[[_native.Readiness], R | None], timeout: float | None, last: Callable[[], R]
     ) -> R:
         """Polls until there is a result; when the time is over, makes a last attempt, which may raise `Timeout`.
 
@@ -78,12 +64,15 @@ class Loops:
         """
         import asyncio
 
-        waiters = self.here()
+        loop = asyncio.get_running_loop()
+        waiters = self._waiters.get(loop)
+        if waiters is None:
+            waiters = self._waiters[loop] = Waiters(self._component, loop)
         found = poll(waiters.readiness)
         if found is not None:
             return found
         if timeout is not None and timeout <= 0:
-            return last(0.0)
+            return last()
         try:
             async with asyncio.timeout(timeout) as limit:
                 while found is None:
@@ -93,4 +82,4 @@ class Loops:
         except TimeoutError:
             if not limit.expired():
                 raise
-        return last(timeout or 0.0)
+        return last()

@@ -65,8 +65,3 @@ def kind_of(value: object) -> str:
     if isinstance(value, type):
         return f"the class `{name or value.__qualname__}` itself"
     return f"`{name or type(value).__qualname__}`"
-
-
-def is_protobuf_message(value: object) -> bool:
-    """Returns true for protobuf messages, without importing protobuf for other values."""
-    return hasattr(value, "DESCRIPTOR") and hasattr(value, "SerializeToString")
