@@ -7,8 +7,9 @@ use crate::options::Options;
 use crate::registry::Registry;
 use crate::status::*;
 use scl::host;
-use scl::plan::{Plan, SystemPlan, nearest};
+use scl::plan::{Plan, SystemPlan};
 use scl::untyped::{Closer, Component, GateError, Readiness};
+use scl_text::suggest::closest_name;
 use std::ffi::{c_char, c_void};
 use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 
@@ -266,7 +267,7 @@ impl Opened {
 
     fn unknown_gate(&self, name: &str) -> Failure {
         let names = || self.gates.iter().map(|(name, _)| name);
-        let nearest = nearest(name, names().map(String::as_str)).map(str::to_owned);
+        let nearest = closest_name(name, names().map(String::as_str)).map(str::to_owned);
         let component = self.name.clone();
         GateError::Unknown { component, gate: name.to_owned(), nearest, known: names().cloned().collect() }.into()
     }

@@ -21,7 +21,6 @@ mod tests;
 mod unreadable;
 
 pub use no_panic::{BUG, no_panic};
-use read::Unreadable;
 pub use request::{LookedIn, Request};
 pub use schemas::{Outline, Schemas, rust};
 #[cfg(feature = "protobuf")]
