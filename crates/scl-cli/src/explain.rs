@@ -83,8 +83,8 @@ pub(crate) fn all_rules() -> Vec<&'static Rule> {
     #[cfg(feature = "run")]
     let of_launch_files = &scl_run::LAUNCH_RULES[..];
     #[cfg(not(feature = "run"))]
-    let of_launch_files = &[];
-    [&ALL, of_launch_files].concat()
+    let of_launch_files = &[][..];
+    [&ALL[..], of_launch_files].concat()
 }
 
 /// The entry of a code, as Markdown; none if there is no such code.

@@ -2,7 +2,7 @@
 
 use super::CheckArguments;
 use crate::load::{load_file, request};
-use scl_loader::{Loaded, Request, load_bytes};
+use scl_loader::{Loaded, load_bytes};
 use std::path::Path;
 
 /// Reads and checks a file.
@@ -31,9 +31,10 @@ fn is_launch_file(path: &Path) -> bool {
 
 #[cfg(feature = "run")]
 mod launch {
-    use super::{CheckArguments, Loaded, Path, Request};
+    use super::{CheckArguments, Loaded, Path};
     use crate::load::{TOPOLOGY, load_file};
     use crate::run::names_of;
+    use scl_loader::Request;
     use scl_run::{LaunchTopology, check_launch_file};
     use scl_topology::model::Model;
 
@@ -41,8 +42,8 @@ mod launch {
         Request { kind: "launch", ..crate::load::request(path, arguments.max_size) }
     }
 
-    /// Checks a launch file that was read, with the names of its topology: the one that it names, or the one beside it. One
-    /// with errors has no names; it has to be checked by itself.
+    /// Checks a launch file that was read, with the names of its topology: the one that it names, or the one beside it.
+    /// One with errors has no names; it has to be checked by itself.
     pub(super) fn check(path: &Path, mut read: Loaded) -> Loaded {
         let Some(file) = read.file else { return read };
         let folder = path.parent().unwrap_or(Path::new(""));

@@ -60,8 +60,8 @@ impl LaunchDocument {
     ///
     /// # Errors
     ///
-    /// Every mistake of the file, sorted by place. If a part of the text cannot be read, only what is wrong with the text:
-    /// the rest may be its consequence.
+    /// Every mistake of the file, sorted by place. If a part of the text cannot be read, only what is wrong with the
+    /// text: the rest may be its consequence.
     pub(crate) fn read(&self, known: Option<&SystemNames>) -> Result<LaunchFile, Vec<Diagnostic>> {
         if self.document.is_partial {
             return Err(self.found.clone());

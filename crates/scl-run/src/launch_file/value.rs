@@ -1,5 +1,5 @@
-//! Values as they are written: what programs get, commands and variables, is the text in the file. YAML would make `104` of
-//! `0x68`, and `1.1` of `1.10`.
+//! Values as they are written: what programs get, commands and variables, is the text in the file. YAML would make
+//! `104` of `0x68`, and `1.1` of `1.10`.
 
 use scl_topology::yaml::{Node, NodeKind};
 

@@ -23,57 +23,108 @@ gateway: {prt: 7447, insecure: yes}
         )],
         &["run"],
         &expect![[r#"
-            error: unknown key `prt` in `gateway`
-             --> ./launch.yaml:10:11
-              = help: did you mean `port`?
-
-            error: `insecure` is `true` or `false`, not `yes`
-             --> ./launch.yaml:10:22
-              = help: did you mean `insecure: true`?
-
-            error: unknown key `adress` in host `board`
+            error: [SCL1201] unknown key `adress` in host `board`
              --> ./launch.yaml:4:11
+              |
+            4 |   board: {adress: 192.0.2.10, components: [sensor, dsplay], colour: red}
+              |           ^^^^^^
+              |
               = help: did you mean `address`?
 
-            error: unknown key `colour` in host `board`
-             --> ./launch.yaml:4:61
-              = note: the keys are `address`, `components`, `port`
-
-            error: unknown component `dsplay`
-             --> ./launch.yaml:4:31
+            error: [SCL1205] unknown component `dsplay`
+             --> ./launch.yaml:4:52
+              |
+            4 |   board: {adress: 192.0.2.10, components: [sensor, dsplay], colour: red}
+              |                                                    ^^^^^^
+              |
               = help: did you mean `display`?
               = note: the topology has the components `sensor`, `display`
 
-            error: `address` is an address alone, not `192.0.2.20:7447`
-             --> ./launch.yaml:5:12
+            error: [SCL1201] unknown key `colour` in host `board`
+             --> ./launch.yaml:4:61
+              |
+            4 |   board: {adress: 192.0.2.10, components: [sensor, dsplay], colour: red}
+              |                                                             ^^^^^^
+              |
+              = note: the keys are `address`, `components`, `port`
+
+            error: [SCL1202] `address` is an address alone, not `192.0.2.20:7447`
+             --> ./launch.yaml:5:21
+              |
+            5 |   ground: {address: 192.0.2.20:7447, components: sensor, port: 70000}
+              |                     ^^^^^^^^^^^^^^^
+              |
               = help: write `address: 192.0.2.20, port: 7447`
 
-            error: `port` is a number, 1 to 65535, not `70000`
-             --> ./launch.yaml:5:58
-
-            error: host `ground` has no list of `components`
-             --> ./launch.yaml:5:38
+            error: [SCL1202] host `ground` has no list of `components`
+             --> ./launch.yaml:5:50
+              |
+            5 |   ground: {address: 192.0.2.20:7447, components: sensor, port: 70000}
+              |                                                  ^^^^^^
+              |
               = help: write `components: [sensor, controller]`
 
-            error: `a b` cannot be the name of a host
+            error: [SCL1202] `port` is a number, 1 to 65535, not `70000`
+             --> ./launch.yaml:5:64
+              |
+            5 |   ground: {address: 192.0.2.20:7447, components: sensor, port: 70000}
+              |                                                                ^^^^^
+
+            error: [SCL1207] `a b` cannot be the name of a host
              --> ./launch.yaml:6:3
+              |
+            6 |   a b: {address: 192.0.2.30, components: [sensor]}
+              |   ^^^
+              |
               = note: it has up to 63 letters, digits, `_` and `-`, and starts with a letter or digit
 
-            error: no host can be called `authority`
+            error: [SCL1207] `authority` cannot be the name of a host
              --> ./launch.yaml:7:3
+              |
+            7 |   authority: {address: 192.0.2.40, components: [sensor]}
+              |   ^^^^^^^^^
+              |
               = note: this is the folder of the authority that signs the certificates
 
-            error: host `x` has no `address`
+            error: [SCL1204] host `x` has no `address`
              --> ./launch.yaml:8:3
+              |
+            8 |   x: {}
+              |   ^
+              |
               = help: write `address: 192.0.2.10`, as the other hosts reach it
 
-            error: host `x` has no list of `components`
+            error: [SCL1204] host `x` has no list of `components`
              --> ./launch.yaml:8:3
+              |
+            8 |   x: {}
+              |   ^
+              |
               = help: write `components: [sensor, controller]`
 
-            error: the entry of host `y` is not a mapping
-             --> ./launch.yaml:9:3
+            error: [SCL1203] the entry of host `y` is a mapping, not `192.0.2.50`
+             --> ./launch.yaml:9:6
+              |
+            9 |   y: 192.0.2.50
+              |      ^^^^^^^^^^
+              |
               = help: write `y: {address: 192.0.2.10, components: [sensor]}`
+
+            error: [SCL1201] unknown key `prt` in `gateway`
+              --> ./launch.yaml:10:11
+               |
+            10 | gateway: {prt: 7447, insecure: yes}
+               |           ^^^
+               |
+               = help: did you mean `port`?
+
+            error: [SCL1202] `insecure` is `true` or `false`, not `yes`
+              --> ./launch.yaml:10:32
+               |
+            10 | gateway: {prt: 7447, insecure: yes}
+               |                                ^^^
+               |
+               = help: did you mean `insecure: true`?
 
         "#]],
     );
@@ -95,26 +146,52 @@ gateway: {port: 7447}
         )],
         &["run"],
         &expect![[r#"
-            error: component `sensor` is on two hosts, `board` and `ground`
-             --> ./launch.yaml:5:33
-              = help: remove it from one of the lists
-
-            error: component `sensor` is on two hosts, `board` and `ground`
-             --> ./launch.yaml:5:33
-              = help: remove it from one of the lists
-
-            error: component `display` is on no host
+            error: [SCL1208] component `display` is on no host
              --> ./launch.yaml:3:1
+              |
+            3 | hosts:
+              | ^^^^^
+              |
               = help: add each to `components` of the host that runs it
 
-            error: the hosts `board` and `ground` have the same address, `192.0.2.10:7447`
-             --> ./launch.yaml:5:12
-              = help: on one machine, give each a `port` of its own
-
-            error: host `board` is not on loopback, and `gateway` has no `certificates`
-             --> ./launch.yaml:4:11
+            error: [SCL1208] host `board` is not on loopback, and `gateway` has no `certificates`
+             --> ./launch.yaml:4:20
+              |
+            4 |   board: {address: 192.0.2.10, components: [sensor]}
+              |                    ^^^^^^^^^^
+              |
               = help: write `gateway: {port: 7447, certificates: ./keys}`, and run `scl gateway keys`
               = note: without certificates everybody on the network could listen and send
+
+            error: [SCL1208] the hosts `board` and `ground` have the same address, `192.0.2.10:7447`
+             --> ./launch.yaml:5:21
+              |
+            4 |   board: {address: 192.0.2.10, components: [sensor]}
+              |                    ---------- first here
+            5 |   ground: {address: 192.0.2.10, components: [sensor, sensor]}
+              |                     ^^^^^^^^^^
+              |
+              = help: on one machine, give each a `port` of its own
+
+            error: [SCL1208] component `sensor` is on two hosts, `board` and `ground`
+             --> ./launch.yaml:5:46
+              |
+            4 |   board: {address: 192.0.2.10, components: [sensor]}
+              |                                             ------ first here
+            5 |   ground: {address: 192.0.2.10, components: [sensor, sensor]}
+              |                                              ^^^^^^
+              |
+              = help: remove it from one of the lists
+
+            error: [SCL1208] component `sensor` is on two hosts, `board` and `ground`
+             --> ./launch.yaml:5:54
+              |
+            4 |   board: {address: 192.0.2.10, components: [sensor]}
+              |                                             ------ first here
+            5 |   ground: {address: 192.0.2.10, components: [sensor, sensor]}
+              |                                                      ^^^^^^
+              |
+              = help: remove it from one of the lists
 
         "#]],
     );
@@ -123,40 +200,60 @@ gateway: {port: 7447}
         &[("launch.yaml", one)],
         &["run"],
         &expect![[r#"
-        error: the other hosts cannot connect to `0.0.0.0`
-         --> ./launch.yaml:2:13
-          = help: write the address of one of the host's network interfaces
+            error: [SCL1204] `gateway` is missing, which the hosts need
+             --> ./launch.yaml:2:1
+              |
+            2 | hosts: {a: {address: 0.0.0.0, components: [sensor, display]}}
+              | ^^^^^
+              |
+              = help: write `gateway: {port: 7447, certificates: ./keys}`
 
-        error: `gateway` is missing, which the hosts need
-         --> ./launch.yaml:2:1
-          = help: write `gateway: {port: 7447, certificates: ./keys}`
+            error: [SCL1208] the other hosts cannot connect to `0.0.0.0`
+             --> ./launch.yaml:2:22
+              |
+            2 | hosts: {a: {address: 0.0.0.0, components: [sensor, display]}}
+              |                      ^^^^^^^
+              |
+              = help: write the address of one of the host's network interfaces
 
-    "#]],
+        "#]],
     );
     let one = "components: {sensor: {command: ls}}\nhosts: []\ngateway: 7447\n";
     check(
         &[("launch.yaml", one)],
         &["run"],
         &expect![[r#"
-        error: `gateway` is a mapping, not `7447`
-         --> ./launch.yaml:3:1
-          = help: write `gateway: {port: 7447, certificates: ./keys}`
+            error: [SCL1203] `hosts` is a mapping from names to entries, not a list
+             --> ./launch.yaml:2:8
+              |
+            2 | hosts: []
+              |        ^^
+              |
+              = help: write `hosts: {board: {address: 192.0.2.10, components: [sensor]}}`
 
-        error: `hosts` is a mapping from names to entries, not a list
-         --> ./launch.yaml:2:1
-          = help: write `hosts: {board: {address: 192.0.2.10, components: [sensor]}}`
+            error: [SCL1203] `gateway` is a mapping, not `7447`
+             --> ./launch.yaml:3:10
+              |
+            3 | gateway: 7447
+              |          ^^^^
+              |
+              = help: write `gateway: {port: 7447, certificates: ./keys}`
 
-    "#]],
+        "#]],
     );
     let one = "components: {sensor: {command: ls}}\ngateway: {port: 7447}\n";
     check(
         &[("launch.yaml", one)],
         &["run"],
         &expect![[r#"
-        error: `gateway` has no effect without `hosts`
-         --> ./launch.yaml:2:1
-          = help: write `hosts: {board: {address: 192.0.2.10, components: [sensor]}}`
+            error: [SCL1206] `gateway` has no effect without `hosts`
+             --> ./launch.yaml:2:1
+              |
+            2 | gateway: {port: 7447}
+              | ^^^^^^^
+              |
+              = help: write `hosts: {board: {address: 192.0.2.10, components: [sensor]}}`
 
-    "#]],
+        "#]],
     );
 }
