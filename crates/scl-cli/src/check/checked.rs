@@ -3,7 +3,7 @@
 use super::CheckArguments;
 use super::deny::deny;
 use super::fix::{Outcome, fix_file};
-use super::source::load;
+use super::source::Source;
 use crate::exit::COULD_NOT_DO;
 use scl_loader::Loaded;
 use scl_topology::diagnostic::{Diagnostic, Severity};
@@ -23,8 +23,9 @@ pub(super) struct Checked {
 
 /// Checks a file, fixes it if asked to, and chooses what is shown.
 pub(super) fn check_file(path: &Path, arguments: &CheckArguments) -> Checked {
-    let mut loaded = load(path, arguments);
-    let outcome = arguments.fix.then(|| fix_file(path, &mut loaded, arguments)).flatten();
+    let source = Source::new(path, arguments);
+    let mut loaded = source.load();
+    let outcome = arguments.fix.then(|| fix_file(&source, &mut loaded, arguments.dry_run)).flatten();
     let all = std::mem::take(&mut loaded.diagnostics).into_iter().chain(refusals(&loaded, arguments));
     let all = all.map(|it| deny(it, &arguments.deny));
     let shown = all.filter(|it| arguments.lints || it.severity != Severity::Lint).collect();

@@ -7,8 +7,7 @@ mod replace_file;
 #[cfg(test)]
 mod tests;
 
-use super::CheckArguments;
-use super::source::load_text;
+use super::source::Source;
 use crate::load::{STDIN, shown_path};
 use damage::Damage;
 use diff::unified_diff;
@@ -16,7 +15,6 @@ use edit::{BYTE_ORDER_MARK, FixGroup, apply, groups};
 use replace_file::replace_file;
 use scl_loader::Loaded;
 use std::collections::HashSet;
-use std::path::Path;
 
 /// Maximum number of bytes that are checked in all, so that fixes that do not help end after some seconds.
 const MOST_BYTES: usize = 1 << 26;
@@ -38,23 +36,24 @@ pub(super) struct Outcome {
 
 /// Fixes a file that was loaded, and leaves the check of what it now holds in `loaded`; `None` if the file could not be
 /// read.
-pub(super) fn fix_file(path: &Path, loaded: &mut Loaded, arguments: &CheckArguments) -> Option<Outcome> {
-    let check = |text: &str| load_text(path, text, arguments);
+pub(super) fn fix_file(file: &Source<'_>, loaded: &mut Loaded, dry_run: bool) -> Option<Outcome> {
+    let check = |text: &str| file.load_text(text);
     let source = loaded.sources.file(loaded.file?);
     let mark = if source.has_byte_order_mark() { BYTE_ORDER_MARK } else { "" };
     let old = format!("{mark}{}", source.text());
     let Fixed { loaded: new_loaded, text: new, applied } = fix(std::mem::take(loaded), old.clone(), check);
     *loaded = new_loaded;
+    let path = file.path;
     let is_stdin = path.as_os_str() == STDIN;
     let out = match is_stdin {
-        _ if arguments.dry_run => unified_diff(&shown_path(path), &old, &new),
+        _ if dry_run => unified_diff(&shown_path(path), &old, &new),
         true => new.clone(),
         false => String::new(),
     };
-    let is_written = !arguments.dry_run;
+    let is_written = !dry_run;
     let replaces_file = is_written && !is_stdin && applied > 0;
     let error = if replaces_file { replace_file(path, &old, &new).err() } else { None };
-    if arguments.dry_run || error.is_some() {
+    if dry_run || error.is_some() {
         // What is said is about the file as it is.
         *loaded = check(&old);
     }

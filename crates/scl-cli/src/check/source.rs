@@ -5,21 +5,40 @@ use crate::load::{load_file, request};
 use scl_loader::{Loaded, load_bytes};
 use std::path::Path;
 
-/// Reads and checks a file.
-pub(super) fn load(path: &Path, arguments: &CheckArguments) -> Loaded {
-    match is_launch_file(path) {
-        #[cfg(feature = "run")]
-        true => launch::check(path, scl_loader::read(&launch::request(path, arguments))),
-        _ => load_file(path, arguments.max_size),
-    }
+/// A file that is checked, with `--fix` several times.
+pub(super) struct Source<'a> {
+    pub(super) path: &'a Path,
+    arguments: &'a CheckArguments,
+    #[cfg(feature = "run")]
+    topology: launch::Topology,
 }
 
-/// Checks a text in the place of what a file holds.
-pub(super) fn load_text(path: &Path, text: &str, arguments: &CheckArguments) -> Loaded {
-    match is_launch_file(path) {
-        #[cfg(feature = "run")]
-        true => launch::check(path, scl_loader::read_bytes(&launch::request(path, arguments), text.into())),
-        _ => load_bytes(&request(path, arguments.max_size), text.into()),
+impl<'a> Source<'a> {
+    pub(super) fn new(path: &'a Path, arguments: &'a CheckArguments) -> Self {
+        Self {
+            path,
+            arguments,
+            #[cfg(feature = "run")]
+            topology: launch::Topology::default(),
+        }
+    }
+
+    /// Reads and checks the file.
+    pub(super) fn load(&self) -> Loaded {
+        match is_launch_file(self.path) {
+            #[cfg(feature = "run")]
+            true => self.check_launch_file(scl_loader::read(&self.launch_request())),
+            _ => load_file(self.path, self.arguments.max_size),
+        }
+    }
+
+    /// Checks a text in the place of what the file holds.
+    pub(super) fn load_text(&self, text: &str) -> Loaded {
+        match is_launch_file(self.path) {
+            #[cfg(feature = "run")]
+            true => self.check_launch_file(scl_loader::read_bytes(&self.launch_request(), text.into())),
+            _ => load_bytes(&request(self.path, self.arguments.max_size), text.into()),
+        }
     }
 }
 
@@ -31,34 +50,55 @@ fn is_launch_file(path: &Path) -> bool {
 
 #[cfg(feature = "run")]
 mod launch {
-    use super::{CheckArguments, Loaded, Path};
+    use super::{Loaded, Path, Source};
     use crate::load::{TOPOLOGY, load_file};
     use crate::run::names_of;
     use scl_loader::Request;
-    use scl_run::{LaunchTopology, check_launch_file};
+    use scl_run::{LaunchTopology, SystemNames, check_launch_file};
     use scl_topology::model::Model;
+    use std::cell::RefCell;
+    use std::path::PathBuf;
 
-    pub(super) fn request(path: &Path, arguments: &CheckArguments) -> Request {
-        Request { kind: "launch", ..crate::load::request(path, arguments.max_size) }
+    /// The topology of a launch file with its names, if it has no errors. Read once: it may have many schemas, and
+    /// fixes change the launch file only.
+    #[derive(Default)]
+    pub(super) struct Topology(RefCell<Option<(PathBuf, Option<SystemNames>)>>);
+
+    impl Topology {
+        fn names(&self, path: &Path) -> Option<SystemNames> {
+            let mut known = self.0.borrow_mut();
+            if let Some((_, names)) = known.as_ref().filter(|(of, _)| of == path) {
+                return names.clone();
+            }
+            let names = names_of(&load_file(path, Default::default()));
+            *known = Some((path.to_owned(), names.clone()));
+            names
+        }
     }
 
-    /// Checks a launch file that was read, with the names of its topology: the one that it names, or the one beside it.
-    /// One with errors has no names; it has to be checked by itself.
-    pub(super) fn check(path: &Path, mut read: Loaded) -> Loaded {
-        let Some(file) = read.file else { return read };
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let names = |named: Option<&str>| {
-            let topology = folder.join(named.unwrap_or(TOPOLOGY));
-            if !topology.is_file() {
-                return named.map_or(LaunchTopology::None, |_| LaunchTopology::Missing);
-            }
-            let loaded = load_file(&topology, Default::default());
-            read.files_read.push(topology);
-            names_of(&loaded).map_or(LaunchTopology::None, LaunchTopology::Names)
-        };
-        let checked = check_launch_file(&read.sources, file, names);
-        let model = Model { cut_off: checked.is_partial, ..Model::default() };
-        Loaded { model, diagnostics: checked.diagnostics, ..read }
+    impl Source<'_> {
+        pub(super) fn launch_request(&self) -> Request {
+            Request { kind: "launch", ..crate::load::request(self.path, self.arguments.max_size) }
+        }
+
+        /// Checks a launch file that was read, with the names of its topology: the one that it names, or the one beside
+        /// it. One with errors has no names; it has to be checked by itself.
+        pub(super) fn check_launch_file(&self, mut read: Loaded) -> Loaded {
+            let Some(file) = read.file else { return read };
+            let folder = self.path.parent().unwrap_or(Path::new(""));
+            let names = |named: Option<&str>| {
+                let topology = folder.join(named.unwrap_or(TOPOLOGY));
+                if !topology.is_file() {
+                    return named.map_or(LaunchTopology::None, |_| LaunchTopology::Missing);
+                }
+                let names = self.topology.names(&topology);
+                read.files_read.push(topology);
+                names.map_or(LaunchTopology::None, LaunchTopology::Names)
+            };
+            let checked = check_launch_file(&read.sources, file, names);
+            let model = Model { cut_off: checked.is_partial, ..Model::default() };
+            Loaded { model, diagnostics: checked.diagnostics, ..read }
+        }
     }
 }
 
