@@ -92,8 +92,14 @@ pub fn damaged_key(node: &Node, source: &SourceFile, dialect: &Dialect) -> Optio
         let start = node.span.start as usize;
         Some(pitfall::missing_mark::colon_after(&(start..start + word.len()), source.text(), source))
     };
-    let look_alike = || pitfall::look_alike::in_word(node, node.text()?, "the entry", source);
-    pitfall::missing_space::in_node(node, source, dialect).or_else(without_colon).or_else(look_alike)
+    glued(node, source, dialect).or_else(without_colon)
+}
+
+/// The problem of a missing space after `:`, or of a character that looks like another, if that explains why a list or
+/// mapping is missing.
+fn glued(node: &Node, source: &SourceFile, dialect: &Dialect) -> Option<Diagnostic> {
+    let look_alike = || pitfall::look_alike::in_word(node, node.text()?, "the text", source);
+    pitfall::missing_space::in_node(node, source, dialect).or_else(look_alike)
 }
 
 /// The walk over the tree: where it reads, what it found so far.

@@ -6,7 +6,7 @@ use scl_topology::parse::Dialect;
 
 /// Launch files.
 pub(super) static LAUNCH: Dialect = Dialect {
-    noun: "a launch file",
+    noun: "launch file",
     minimal: "components:\n  sensor:\n    command: ./sensor",
     levels: 4,
     has_aliases: true,

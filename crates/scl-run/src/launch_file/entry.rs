@@ -6,7 +6,7 @@ use super::keys;
 use super::reader::{Keys, Reader, wrong};
 use super::rules::{CONTRADICTION, MISSING, WRONG_VALUE};
 use super::settings::Settings;
-use super::value::{text, texts};
+use super::value::{placed_texts, text, texts};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
 use scl_topology::yaml::Node;
@@ -159,13 +159,12 @@ impl Reader<'_> {
         if field.value.text() == Some(Opens::ANY) {
             return Some(Opens::Any);
         }
-        let Some(names) = texts(field.value) else {
+        let Some(names) = placed_texts(field.value) else {
             self.wrong_value(field);
             return None;
         };
-        let places = field.value.items().into_iter().flatten().map(|item| item.span);
-        names.iter().zip(places).for_each(|(name, place)| self.check_known(name, place));
-        Some(Opens::Also(names))
+        names.iter().for_each(|(name, place)| self.check_known(name, *place));
+        Some(Opens::Also(names.into_iter().map(|(name, _)| name).collect()))
     }
 
     fn read_replay(&mut self, replay: Field<'_>, keys: &Keys<'_, '_>) -> Option<Source> {

@@ -8,9 +8,7 @@ use scl_topology::parse::Field;
 impl Reader<'_> {
     /// Reads the variables in file order.
     pub(super) fn read_environment(&mut self, keys: &Keys<'_, '_>) -> Vec<(String, String)> {
-        let help = "write `environment: {RUST_LOG: info}`";
-        let entries = keys.get("environment").and_then(|field| self.entries(field, "`environment` is a mapping", help));
-        let variables = entries.map(|entries| self.names(entries, "`environment`").list).unwrap_or_default();
+        let variables = self.named_entries(keys, "environment", "write `environment: {RUST_LOG: info}`");
         variables.into_iter().filter_map(|field| self.read_variable(field)).collect()
     }
 

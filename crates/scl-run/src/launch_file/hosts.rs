@@ -7,7 +7,7 @@ use super::super::deployment::{Deployment, Host};
 use super::keys;
 use super::reader::{Keys, Reader, wrong};
 use super::rules::{CONTRADICTION, MISSING, WRONG_NAME, WRONG_VALUE};
-use super::value::{flag, number, texts};
+use super::value::{flag, number, placed_texts};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
 use scl_topology::yaml::Node;
@@ -137,8 +137,8 @@ impl Reader<'_> {
 
     fn read_names(&mut self, host: Field<'_>, keys: &Keys<'_, '_>, started: &[String]) -> Vec<(String, Span)> {
         let field = keys.get("components");
-        let names = field.and_then(|field| texts(field.value)).filter(|names| !names.is_empty());
-        let (Some(names), Some(field)) = (names, field) else {
+        let names = field.and_then(|field| placed_texts(field.value)).filter(|names| !names.is_empty());
+        let Some(names) = names else {
             let message = format!("host `{}` has no list of `components`", host.key);
             let problem = match field {
                 Some(field) => Some(wrong(&WRONG_VALUE, message, field)),
@@ -150,8 +150,6 @@ impl Reader<'_> {
                 .for_each(|problem| self.report(problem.help("write `components: [sensor, controller]`")));
             return Vec::new();
         };
-        let places = field.value.items().into_iter().flatten().map(|item| item.span);
-        let names: Vec<(String, Span)> = names.into_iter().zip(places).collect();
         names.iter().for_each(|(name, place)| self.check_is_component(name, *place, started));
         names
     }

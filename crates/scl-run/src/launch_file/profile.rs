@@ -86,8 +86,7 @@ impl Reader<'_> {
     /// Reads all profiles, whether or not they are used. A component that is not in `components` needs a command.
     pub(super) fn read_profiles(&mut self, top: &Keys<'_, '_>) -> Vec<Profile> {
         let help = "write `profiles: {python: {sensor: {command: ./sensor.py}}}`";
-        let profiles = top.get("profiles").and_then(|field| self.entries(field, "`profiles` is a mapping", help));
-        let profiles = profiles.map(|entries| self.names(entries, "`profiles`").list).unwrap_or_default();
+        let profiles = self.named_entries(top, "profiles", help);
         let started = top.names_of("components");
         profiles.into_iter().filter_map(|profile| self.read_profile(profile, &started)).collect()
     }

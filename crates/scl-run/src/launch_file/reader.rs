@@ -80,6 +80,12 @@ impl<'a> Reader<'a> {
         entries
     }
 
+    /// The entries of a key whose value is a mapping from names; none without the key.
+    pub(super) fn named_entries<'n>(&mut self, keys: &Keys<'n, '_>, key: &str, help: &str) -> Vec<Field<'n>> {
+        let entries = keys.get(key).and_then(|field| self.entries(field, &format!("`{key}` is a mapping"), help));
+        entries.map(|entries| self.names(entries, &format!("`{key}`")).list).unwrap_or_default()
+    }
+
     /// Reports a component that is not among these, which are those of `source`.
     pub(super) fn check_among(&mut self, name: &str, at: Span, known: &[String], source: &str) {
         if known.iter().any(|it| it == name) {

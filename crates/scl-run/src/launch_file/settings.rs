@@ -121,17 +121,12 @@ impl Reader<'_> {
         let message = format!("{what} is {}, not {}", form.description(), shown_value(form, field.value));
         let problem = wrong(&WRONG_VALUE, message, field);
         let meant = field.value.text().and_then(|text| likely(form, text.trim()));
-        self.report(match meant {
+        let Some(meant) = meant else { return self.report(problem) };
+        let problem = problem.help(format!("did you mean `{}: {meant}`?", field.key));
+        self.report(match form {
             // A number without a unit may be one of milliseconds.
-            Some(meant) if form == Form::Duration => {
-                let help = format!("did you mean `{}: {meant}`?", field.key);
-                problem.help(help).maybe_fix(field.value.span, meant)
-            }
-            Some(meant) => {
-                let help = format!("did you mean `{}: {meant}`?", field.key);
-                problem.help(help).fix(field.value.span, meant)
-            }
-            None => problem,
+            Form::Duration => problem.maybe_fix(field.value.span, meant),
+            _ => problem.fix(field.value.span, meant),
         });
     }
 }

@@ -32,9 +32,7 @@ impl Transports {
 impl Reader<'_> {
     pub(super) fn read_transports(&mut self, top: &Keys<'_, '_>) -> Transports {
         let all = self.read_setting(top, "transport", transport);
-        let help = "write `transports: {camera.frames: shm}`";
-        let gates = top.get("transports").and_then(|field| self.entries(field, "`transports` is a mapping", help));
-        let gates = gates.map(|entries| self.names(entries, "`transports`").list).unwrap_or_default();
+        let gates = self.named_entries(top, "transports", "write `transports: {camera.frames: shm}`");
         Transports { all, of_gates: gates.into_iter().filter_map(|field| self.read_gate(field)).collect() }
     }
 

@@ -1,6 +1,7 @@
 //! Values as they are written: what programs get, commands and variables, is the text in the file. YAML would make
 //! `104` of `0x68`, and `1.1` of `1.10`.
 
+use scl_topology::source::Span;
 use scl_topology::yaml::{Node, NodeKind};
 
 /// The text of a scalar, if it can be passed to a program.
@@ -30,6 +31,12 @@ pub(super) fn number(value: &Node) -> Option<u64> {
 /// The texts of a list; none if it is no list, or has anything else in it.
 pub(super) fn texts(value: &Node) -> Option<Vec<String>> {
     value.items()?.iter().map(|item| text(item).map(str::to_owned)).collect()
+}
+
+/// [`texts`] with their places.
+pub(super) fn placed_texts(value: &Node) -> Option<Vec<(String, Span)>> {
+    let places = value.items()?.iter().map(|item| item.span);
+    Some(texts(value)?.into_iter().zip(places).collect())
 }
 
 /// Describes an unexpected value in messages.

@@ -3,7 +3,7 @@
 use super::field::{Field, Fields};
 use super::topology_dialect::TOPOLOGY;
 use super::words::{COMPONENT_KEYS, is_kind};
-use super::{Reader, pitfall, scalar, shape};
+use super::{Reader, glued, pitfall, scalar, shape};
 use crate::diagnostic::Diagnostic;
 use crate::model::ComponentModel;
 use crate::source::Spanned;
@@ -195,12 +195,9 @@ impl Reader<'_> {
         }
     }
 
-    /// The problem of a missing space after `:`, or of a character that looks like another, if that explains why a list
-    /// or mapping is missing; else `otherwise`.
+    /// What explains why a list or mapping is missing, else `otherwise`.
     pub(super) fn glued_or(&self, node: &Node, otherwise: Diagnostic) -> Diagnostic {
-        let look_alike =
-            || scalar(node).and_then(|text| pitfall::look_alike::in_word(node, &text.value, "the text", self.source));
-        pitfall::missing_space::in_node(node, self.source, &TOPOLOGY).or_else(look_alike).unwrap_or(otherwise)
+        glued(node, self.source, &TOPOLOGY).unwrap_or(otherwise)
     }
 }
 

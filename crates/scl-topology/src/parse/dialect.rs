@@ -6,7 +6,7 @@ use crate::source::SourceFile;
 /// A kind of YAML file. The rules about YAML (`SCL01xx`) hold for each of them; what they say and propose differs.
 #[derive(Debug)]
 pub struct Dialect {
-    /// What messages call such a file: `a topology`.
+    /// What messages call such a file: `topology`.
     pub noun: &'static str,
     /// A small one, for the message about an empty file.
     pub minimal: &'static str,

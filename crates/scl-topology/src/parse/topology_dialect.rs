@@ -10,7 +10,7 @@ use crate::source::SourceFile;
 
 /// Topology files.
 pub(super) static TOPOLOGY: Dialect = Dialect {
-    noun: "a topology",
+    noun: "topology",
     minimal: "components:\n  - name: sensor\n    gates:\n      - measurements: pub",
     levels: 6,
     has_aliases: false,

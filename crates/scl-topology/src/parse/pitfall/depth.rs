@@ -20,7 +20,7 @@ pub(crate) const RULE: Rule = Rule {
 pub(in crate::parse) fn diagnose(at: Span, dialect: &Dialect) -> Diagnostic {
     let message = format!("the file is nested more than {MAX_DEPTH} levels deep here");
     RULE.at(message, at, format!("level {}", MAX_DEPTH + 1)).note(format!(
-        "{} needs {} levels; the limit keeps programs that read it from overflowing their stack",
+        "a {} needs {} levels; the limit keeps programs that read it from overflowing their stack",
         dialect.noun, dialect.levels
     ))
 }

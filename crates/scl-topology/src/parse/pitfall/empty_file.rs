@@ -33,9 +33,8 @@ pub(super) fn find(tree: &Tree, source: &SourceFile, dialect: &Dialect) -> Optio
         Some(_) => "no value here",
     };
     let span = if first == text.len() { source.span(0..0) } else { source.span(first..line.end.max(first)) };
-    let what = dialect.noun.trim_start_matches("a ");
-    let example = format!("a minimal {what}:\n{}", dialect.minimal);
-    Some(RULE.at(format!("the {what} is empty"), span, label).help(example))
+    let Dialect { noun, minimal, .. } = dialect;
+    Some(RULE.at(format!("the {noun} is empty"), span, label).help(format!("a minimal {noun}:\n{minimal}")))
 }
 
 #[cfg(test)]

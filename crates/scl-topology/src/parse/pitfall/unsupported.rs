@@ -138,7 +138,7 @@ pub(crate) const TAG: Rule = Rule {
 };
 
 pub(super) fn tag(tag: Span, dialect: &Dialect) -> Diagnostic {
-    TAG.at(format!("YAML tags are not supported in {}", dialect.noun), tag, "tag").help("remove the tag")
+    TAG.at(format!("YAML tags are not supported in a {}", dialect.noun), tag, "tag").help("remove the tag")
 }
 
 /// SCL0114.
@@ -160,7 +160,7 @@ pub(super) fn second_document(source: &SourceFile, at: Span, dialect: &Dialect) 
     let marker = rest.starts_with("---");
     let help = if marker { "remove the `---` line" } else { "remove the `...` line above" };
     let span = if marker { Span { end: at.start + 3, ..at } } else { at };
-    let message = format!("{} is one YAML document; a second one starts here", dialect.noun);
+    let message = format!("a {} is one YAML document; a second one starts here", dialect.noun);
     SECOND_DOCUMENT.at(message, span, "second document").help(help)
 }
 
@@ -204,7 +204,7 @@ pub(in crate::parse) fn diagnose_directive(source: &SourceFile, at: usize, diale
         .at("YAML directives are not supported", source.span(range), "directive")
         .help(help)
         .fix(removed, "")
-        .note(format!("{} is read as YAML 1.2; see SCL0108 for the words that differ", dialect.noun))
+        .note(format!("a {} is read as YAML 1.2; see SCL0108 for the words that differ", dialect.noun))
 }
 
 /// Lines that start with `%` before anything else than comments.
