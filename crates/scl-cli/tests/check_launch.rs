@@ -157,7 +157,15 @@ fn names_are_those_of_the_topology_that_the_file_names() {
     assert!(err.contains("the topology has the components `camera`, `controller`"), "{err}");
     // Mistakes of the topology are not those of the launch file.
     system.write("other.yaml", &TOPOLOGY.replace("pub", "teapot"));
-    assert_eq!(check(&system, &["launch.yaml"]).1, "launch.yaml: no mistakes\n");
+    let (_, err, code) = check(&system, &["launch.yaml"]);
+    expect![[r#"
+        warning: [SCL1209] the topology `other.yaml` has errors, so names are not checked
+         |
+         = help: run `scl check other.yaml`
+
+        launch.yaml: 1 warning
+    "#]].assert_eq(&err);
+    assert_eq!(code, Some(0));
 }
 
 #[test]

@@ -51,7 +51,7 @@ fn is_launch_file(path: &Path) -> bool {
 #[cfg(feature = "run")]
 mod launch {
     use super::{Loaded, Path, Source};
-    use crate::load::{TOPOLOGY, load_file};
+    use crate::load::{TOPOLOGY, load_file, shown_path};
     use crate::run::names_of;
     use scl_loader::Request;
     use scl_run::{LaunchTopology, SystemNames, check_launch_file};
@@ -82,7 +82,7 @@ mod launch {
         }
 
         /// Checks a launch file that was read, with the names of its topology: the one that it names, or the one beside
-        /// it. One with errors has no names; it has to be checked by itself.
+        /// it.
         pub(super) fn check_launch_file(&self, mut read: Loaded) -> Loaded {
             let Some(file) = read.file else { return read };
             let folder = self.path.parent().unwrap_or(Path::new(""));
@@ -91,9 +91,10 @@ mod launch {
                 if !topology.is_file() {
                     return named.map_or(LaunchTopology::None, |_| LaunchTopology::Missing);
                 }
-                let names = self.topology.names(&topology);
+                let names = self.topology.names(&topology).map(LaunchTopology::Names);
+                let names = names.unwrap_or_else(|| LaunchTopology::Wrong(shown_path(&topology)));
                 read.files_read.push(topology);
-                names.map_or(LaunchTopology::None, LaunchTopology::Names)
+                names
             };
             let checked = check_launch_file(&read.sources, file, names);
             let model = Model { cut_off: checked.is_partial, ..Model::default() };

@@ -3,7 +3,7 @@
 use super::LaunchFile;
 use super::dialect::LAUNCH;
 use super::reader::Reader;
-use super::rules::WRONG_VALUE;
+use super::rules::{UNCHECKED, WRONG_VALUE};
 use crate::system_names::SystemNames;
 use scl_terminal::Problem;
 use scl_topology::diagnostic::{Diagnostic, Diagnostics, render};
@@ -94,8 +94,10 @@ impl LaunchDocument {
 /// What was found of the topology of a launch file.
 #[derive(Debug)]
 pub enum LaunchTopology {
-    /// There is none that could be read: names are not checked.
+    /// There is none: names are not checked.
     None,
+    /// This one has errors, so names cannot be checked.
+    Wrong(String),
     /// The launch file names one that does not exist.
     Missing,
     /// These names are in it.
@@ -122,11 +124,19 @@ pub fn check_launch_file(
     let found = topology(document.topology().map(|(path, _)| path));
     let known = if let LaunchTopology::Names(names) = &found { Some(names) } else { None };
     let mut diagnostics = document.read(known).err().unwrap_or_default();
-    if let (LaunchTopology::Missing, Some((path, field))) = (&found, document.topology()) {
-        let message = format!("the topology file does not exist: `{path}`");
-        let problem = WRONG_VALUE.at(message, field.span, "").note("paths are from the folder of the launch file");
-        diagnostics.insert(0, problem);
-    }
+    let of_topology = match (&found, document.topology()) {
+        (LaunchTopology::Missing, Some((path, field))) => {
+            let message = format!("the topology file does not exist: `{path}`");
+            Some(WRONG_VALUE.at(message, field.span, "").note("paths are from the folder of the launch file"))
+        }
+        (LaunchTopology::Wrong(path), _) => {
+            let problem =
+                UNCHECKED.without_place(format!("the topology `{path}` has errors, so names are not checked"));
+            Some(problem.help(format!("run `scl check {path}`")))
+        }
+        _ => None,
+    };
+    diagnostics.splice(0..0, of_topology);
     CheckedLaunchFile { diagnostics, is_partial: document.document.is_partial }
 }
 

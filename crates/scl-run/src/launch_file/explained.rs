@@ -85,7 +85,7 @@ mod tests {
     /// The promise: the wrong example of a rule has this mistake and no other, and the right one has none.
     #[test]
     fn examples_are_what_they_say() {
-        for rule in LAUNCH_RULES {
+        for rule in LAUNCH_RULES.iter().filter(|rule| !rule.example.is_empty()) {
             let codes = |text: &str| {
                 let found = LaunchDocument::parse("launch.yaml", text).read(None).err().unwrap_or_default();
                 found.iter().map(|problem| problem.code()).collect::<Vec<_>>()

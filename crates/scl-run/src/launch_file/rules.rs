@@ -120,6 +120,24 @@ pub(super) const HOSTS: Rule = Rule {
     ..RULE
 };
 
+pub(super) const UNCHECKED: Rule = Rule {
+    code: "SCL1209",
+    severity: Severity::Warning,
+    title: "names that could not be checked",
+    explanation: "The topology of the launch file has errors, so it is not known which components and gates there are. Correct \
+                  the topology first; `scl run` starts nothing before.",
+    ..RULE
+};
+
 /// All of them, by their codes.
-pub const LAUNCH_RULES: [&Rule; 8] =
-    [&UNKNOWN_KEY, &WRONG_VALUE, &WRONG_SHAPE, &MISSING, &UNKNOWN_NAME, &CONTRADICTION, &WRONG_NAME, &HOSTS];
+pub const LAUNCH_RULES: [&Rule; 9] = [
+    &UNKNOWN_KEY,
+    &WRONG_VALUE,
+    &WRONG_SHAPE,
+    &MISSING,
+    &UNKNOWN_NAME,
+    &CONTRADICTION,
+    &WRONG_NAME,
+    &HOSTS,
+    &UNCHECKED,
+];
