@@ -2,6 +2,8 @@
 
 use crate::exit::COULD_NOT_DO;
 use clap::Args;
+#[cfg(feature = "run")]
+use scl_run::launch_keys;
 use scl_terminal::{print_err, print_out};
 use scl_topology::catalogue::{self, ALL};
 use scl_topology::diagnostic::{Rule, Severity};
@@ -96,16 +98,7 @@ pub(crate) fn explain_rule(code: &str) -> Option<String> {
     catalogue::explain(code).or(of_launch_files)
 }
 
-/// The keys of launch files with the names that other tools use for them, if this program reads such files.
-#[cfg(feature = "run")]
-fn launch_keys() -> Vec<(Entry, &'static [&'static str])> {
-    let entry = |key: scl_run::LaunchKey| {
-        let scl_run::LaunchKey { word, also, what, summary, text } = key;
-        (Entry { word, what, summary, text }, also)
-    };
-    scl_run::launch_keys().into_iter().map(entry).collect()
-}
-
+/// This program reads no launch files.
 #[cfg(not(feature = "run"))]
 fn launch_keys() -> Vec<(Entry, &'static [&'static str])> {
     Vec::new()

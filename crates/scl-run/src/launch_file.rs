@@ -133,5 +133,5 @@ impl Reader<'_> {
 mod tests;
 
 pub use document::{CheckedLaunchFile, LaunchTopology, check_launch_file};
-pub use explained::{LaunchKey, explain_launch_rule, launch_keys};
+pub use explained::{explain_launch_rule, launch_keys};
 pub use rules::LAUNCH_RULES;

@@ -45,7 +45,7 @@ mod units;
 
 pub use deployment::{Deployment, Host};
 pub use launch_file::EXAMPLE as EXAMPLE_LAUNCH_FILE;
-pub use launch_file::{CheckedLaunchFile, LaunchKey, LaunchTopology, check_launch_file, launch_keys};
+pub use launch_file::{CheckedLaunchFile, LaunchTopology, check_launch_file, launch_keys};
 pub use launch_file::{LAUNCH_RULES, explain_launch_rule};
 pub use log_file::{LogEntry, LogFolder, LogReader, LogStream};
 pub use orphan_guard::{GUARD_WORD, START_WORD, keep_watch, start_component};

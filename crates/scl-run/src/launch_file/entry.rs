@@ -6,7 +6,7 @@ use super::keys;
 use super::reader::{Keys, Reader, wrong};
 use super::rules::{CONTRADICTION, MISSING, WRONG_VALUE};
 use super::settings::Settings;
-use super::value::{placed_texts, text, texts};
+use super::value::{placed_texts, text, texts, word};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
 use scl_topology::yaml::Node;
@@ -139,9 +139,9 @@ impl Reader<'_> {
             source,
             environment: self.read_environment(&keys),
             opens: keys.get("opens").and_then(|field| self.read_opens(field)),
-            input: self.read_setting(&keys, "input", standard_input),
+            input: self.read_setting(&keys, "input", |value| word(value, &StandardInput::WORDS)),
             settings: self.read_settings(&keys),
-            place: self.place(field.key_span),
+            place: self.source.place(field.key_span),
         })
     }
 
@@ -194,11 +194,6 @@ impl Reader<'_> {
             self.check_among(name, at, &known.components, "the topology");
         }
     }
-}
-
-fn standard_input(value: &Node) -> Option<StandardInput> {
-    let word = value.text()?;
-    StandardInput::WORDS.into_iter().find(|(name, _)| *name == word).map(|(_, input)| input)
 }
 
 /// The program and arguments of a command: a list as it is, the words of a text. `None` if the value is not a command.

@@ -5,34 +5,20 @@ use super::keys::{COMPONENT, GATEWAY, HOST, Key, TOP};
 use super::rules::LAUNCH_RULES;
 use scl_topology::catalogue::entry;
 use scl_topology::diagnostic::render;
+use scl_topology::grammar::Entry;
 
-/// A key of launch files with its documentation.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct LaunchKey {
-    /// As in the file.
-    pub word: &'static str,
-    /// Names that other tools use for it.
-    pub also: &'static [&'static str],
-    /// Where it stands: `key of a host`.
-    pub what: &'static str,
-    /// What it means, in one sentence.
-    pub summary: &'static str,
-    /// Everything there is to know, as Markdown.
-    pub text: String,
-}
-
-/// Every key of launch files, in the order of the page.
-pub fn launch_keys() -> Vec<LaunchKey> {
+/// Every key of launch files, in the order of the page, and the names that other tools use for it.
+pub fn launch_keys() -> Vec<(Entry, &'static [&'static str])> {
     let all = [
         (TOP, "key of a launch file"),
         (COMPONENT, "key of a program"),
         (HOST, "key of a host"),
         (GATEWAY, "key of `gateway`"),
     ];
-    all.iter().flat_map(|(keys, what)| keys.iter().map(|key| explained(key, what))).collect()
+    all.iter().flat_map(|(keys, what)| keys.iter().map(|key| (explained(key, what), key.also))).collect()
 }
 
-fn explained(key: &Key, what: &'static str) -> LaunchKey {
+fn explained(key: &Key, what: &'static str) -> Entry {
     // Links lead to other parts of the page.
     let sentences = without_links(key.meaning);
     let summary = key.meaning.split(". ").next().unwrap_or_default().trim_end_matches('.');
@@ -44,7 +30,7 @@ fn explained(key: &Key, what: &'static str) -> LaunchKey {
         without_links(&key.form.description()),
         without_links(key.default),
     );
-    LaunchKey { word: key.name, also: key.also, what, summary, text }
+    Entry { word: key.name, what, summary, text }
 }
 
 /// `[Hosts](#hosts)` as `Hosts`.

@@ -83,26 +83,18 @@ impl Reader<'_> {
     }
 
     fn read_gateway(&mut self, field: Field<'_>) -> Gateway {
-        let place = field.key_span;
-        let Some(entries) = self.entries(field, "`gateway` is a mapping", GATEWAY_EXAMPLE) else {
-            // What is missing in it has been said.
-            return Gateway {
-                place,
-                port: None,
-                has_port: true,
-                certificates: None,
-                has_certificates: true,
-                insecure: false,
-            };
-        };
-        let keys = self.keys(entries, keys::GATEWAY, "`gateway`");
+        let entries = self.entries(field, "`gateway` is a mapping", GATEWAY_EXAMPLE);
+        let keys = entries.map(|entries| self.keys(entries, keys::GATEWAY, "`gateway`"));
+        let keys = keys.as_ref();
+        // What is missing in something else than a mapping has been said.
+        let may_have = |key| keys.is_none_or(|keys| keys.may_have(key));
         Gateway {
-            place,
-            port: self.read_setting(&keys, "port", port),
-            has_port: keys.may_have("port"),
-            certificates: keys.get("certificates").and_then(|field| self.read_path(field)),
-            has_certificates: keys.may_have("certificates"),
-            insecure: self.read_setting(&keys, "insecure", flag).unwrap_or_default(),
+            place: field.key_span,
+            port: keys.and_then(|keys| self.read_setting(keys, "port", port)),
+            has_port: may_have("port"),
+            certificates: keys.and_then(|keys| self.read_path(keys.get("certificates")?)),
+            has_certificates: may_have("certificates"),
+            insecure: keys.and_then(|keys| self.read_setting(keys, "insecure", flag)).unwrap_or_default(),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::super::policy::Restart;
 use super::super::terminal::StandardInput;
+use scl_text::list::either;
 
 /// A key of a mapping.
 pub(super) struct Key {
@@ -21,9 +22,6 @@ pub(super) struct Key {
 /// What the value of a key looks like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Form {
-    Command,
-    Path,
-    Variables,
     /// One of these words.
     Word(&'static [&'static str]),
     Duration,
@@ -32,46 +30,29 @@ pub(super) enum Form {
     Flag,
     Processors,
     Priority,
-    Count,
-    Address,
     Port,
-    Names,
-    NamesOrAny,
-    /// A mapping with parts of its own.
-    Mapping(&'static str),
+    /// Something else, as this description says.
+    Other(&'static str),
 }
+
+const COMMAND: Form = Form::Other("a command");
+const PATH: Form = Form::Other("a path");
+const VARIABLES: Form = Form::Other("a mapping from names to texts or numbers");
 
 impl Form {
     /// For messages (`restart_delay` is ...) and for the tables.
     pub(super) fn description(self) -> String {
         match self {
-            Form::Command => "a command".to_owned(),
-            Form::Path => "a path".to_owned(),
-            Form::Variables => "a mapping from names to texts or numbers".to_owned(),
-            Form::Word(words) => alternatives(words),
+            Form::Word(words) => either(words),
             Form::Duration => "a time like `500ms` or `3s`".to_owned(),
             Form::DelayRange => "a range like `100ms..5s`, or one time".to_owned(),
             Form::RestartLimit => "a number of restarts and a time, like `5 in 1m`".to_owned(),
             Form::Flag => "`true` or `false`".to_owned(),
             Form::Processors => "a list of processors like `[2, 3]`, counted from 0, or one of them".to_owned(),
             Form::Priority => "`fifo:1` to `fifo:99`".to_owned(),
-            Form::Count => "a number like `4096`".to_owned(),
-            Form::Address => "an IP address or a DNS name".to_owned(),
             Form::Port => "a number, 1 to 65535".to_owned(),
-            Form::Names => "a list of components like `[sensor, controller]`".to_owned(),
-            Form::NamesOrAny => "a list of components like `[sensor, controller]`, or `any`".to_owned(),
-            Form::Mapping(description) => description.to_owned(),
+            Form::Other(description) => description.to_owned(),
         }
-    }
-}
-
-fn alternatives(words: &[&str]) -> String {
-    match words {
-        [words @ .., last] if !words.is_empty() => {
-            let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
-            format!("{} or `{last}`", words.join(", "))
-        }
-        _ => words.concat(),
     }
 }
 
@@ -88,7 +69,7 @@ const INPUTS: &[&str] = &{
     [empty, terminal]
 };
 
-const KEY: Key = Key { name: "", also: &[], form: Form::Command, default: "", meaning: "", in_defaults: false };
+const KEY: Key = Key { name: "", also: &[], form: COMMAND, default: "", meaning: "", in_defaults: false };
 
 /// Whether a key at the top of the file is the user's own, which is ignored as in a topology file.
 pub(super) fn is_own(key: &str) -> bool {
@@ -101,7 +82,7 @@ pub(super) const TOP: &[Key] = &[
     Key {
         name: "components",
         also: &["nodes", "services", "processes"],
-        form: Form::Mapping("a mapping from names to entries"),
+        form: Form::Other("a mapping from names to entries"),
         default: "required",
         meaning: "The components to start.",
         ..KEY
@@ -109,7 +90,7 @@ pub(super) const TOP: &[Key] = &[
     Key {
         name: "defaults",
         also: &["default"],
-        form: Form::Mapping("a mapping with keys of entries"),
+        form: Form::Other("a mapping with keys of entries"),
         default: "nothing",
         meaning: "Applies to every component whose entry lacks the key.",
         ..KEY
@@ -117,7 +98,7 @@ pub(super) const TOP: &[Key] = &[
     Key {
         name: "environment",
         also: &["env"],
-        form: Form::Variables,
+        form: VARIABLES,
         default: "none",
         meaning: "Variables for all programs and builds, added to those of `scl run`.",
         ..KEY
@@ -125,7 +106,7 @@ pub(super) const TOP: &[Key] = &[
     Key {
         name: "gateway",
         also: &["gateways", "bridge"],
-        form: Form::Mapping("a mapping with [keys of its own](#hosts)"),
+        form: Form::Other("a mapping with [keys of its own](#hosts)"),
         default: "required with `hosts`",
         meaning: "How the gateways of the hosts reach each other. See [Hosts](#hosts).",
         ..KEY
@@ -133,21 +114,21 @@ pub(super) const TOP: &[Key] = &[
     Key {
         name: "hosts",
         also: &["machines"],
-        form: Form::Mapping("a mapping from names to [entries](#hosts)"),
+        form: Form::Other("a mapping from names to [entries](#hosts)"),
         default: "one host",
         meaning: "Which components run on which host, chosen with `--host`. See [Hosts](#hosts).",
         ..KEY
     },
     Key {
         name: "profiles",
-        form: Form::Mapping("a mapping from names to mappings like `components`"),
+        form: Form::Other("a mapping from names to mappings like `components`"),
         default: "none",
         meaning: "Other programs or settings for components, chosen with `--profile`.",
         ..KEY
     },
     Key {
         name: "topology",
-        form: Form::Path,
+        form: PATH,
         default: "`topology.yaml`, if there is one",
         meaning: "The topology file, from the folder of the launch file.",
         ..KEY
@@ -161,7 +142,7 @@ pub(super) const TOP: &[Key] = &[
     },
     Key {
         name: "transports",
-        form: Form::Mapping("a mapping from gates like `camera.frames` to transports"),
+        form: Form::Other("a mapping from gates like `camera.frames` to transports"),
         default: "none",
         meaning: "The transport of single connections, by a gate at either end. See [Transports](#transports).",
         ..KEY
@@ -202,7 +183,7 @@ pub(super) const COMPONENT: &[Key] = &[
     Key {
         name: "descriptors",
         also: &["nofile", "ulimit", "ulimits", "fds"],
-        form: Form::Count,
+        form: Form::Other("a number like `4096`"),
         default: "as `scl run`",
         meaning: "How many file descriptors the program may open. See [Processors and priority](#processors-and-priority).",
         in_defaults: true,
@@ -210,7 +191,7 @@ pub(super) const COMPONENT: &[Key] = &[
     Key {
         name: "environment",
         also: &["env"],
-        form: Form::Variables,
+        form: VARIABLES,
         default: "none",
         meaning: "Variables for this program. They win over those of all programs.",
         ..KEY
@@ -234,7 +215,7 @@ pub(super) const COMPONENT: &[Key] = &[
     Key {
         name: "opens",
         also: &["plays", "also"],
-        form: Form::NamesOrAny,
+        form: Form::Other("a list of components like `[sensor, controller]`, or `any`"),
         default: "its own component",
         meaning: "Components that the program may open besides its own. See [The right program](#the-right-program).",
         ..KEY
@@ -258,7 +239,7 @@ pub(super) const COMPONENT: &[Key] = &[
     Key {
         name: "replay",
         also: &["play", "recording"],
-        form: Form::Path,
+        form: PATH,
         default: "none",
         meaning: "In place of a command: plays the component from this recording, from the working directory.",
         ..KEY
@@ -298,7 +279,7 @@ pub(super) const COMPONENT: &[Key] = &[
     Key {
         name: "working_directory",
         also: &["folder", "directory", "cwd", "working_dir", "dir"],
-        form: Form::Path,
+        form: PATH,
         default: "the folder of the launch file",
         meaning: "Where the program and its build run, from the folder of the launch file.",
         in_defaults: true,
@@ -310,7 +291,7 @@ pub(super) const HOST: &[Key] = &[
     Key {
         name: "address",
         also: &["ip", "hostname", "addr", "host"],
-        form: Form::Address,
+        form: Form::Other("an IP address or a DNS name"),
         default: "required",
         meaning: "Where the gateway of the host listens, and where the other hosts find it.",
         ..KEY
@@ -318,7 +299,7 @@ pub(super) const HOST: &[Key] = &[
     Key {
         name: "components",
         also: &["nodes", "services", "processes"],
-        form: Form::Names,
+        form: Form::Other("a list of components like `[sensor, controller]`"),
         default: "required",
         meaning: "What runs there. Every component of the topology is on one host.",
         ..KEY
@@ -337,7 +318,7 @@ pub(super) const GATEWAY: &[Key] = &[
     Key {
         name: "certificates",
         also: &["keys", "certs", "tls"],
-        form: Form::Path,
+        form: PATH,
         default: "required, unless all hosts are on loopback",
         meaning: "The folder with the certificates, from the folder of the launch file. `scl gateway keys` makes it.",
         ..KEY

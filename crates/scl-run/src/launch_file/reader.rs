@@ -94,11 +94,6 @@ impl<'a> Reader<'a> {
         let problem = unknown_name(format!("unknown component `{name}`"), name, at, known);
         self.report(problem.note(format!("{source} has the components {}", quoted_list(known))));
     }
-
-    /// `launch.yaml:3:5`.
-    pub(super) fn place(&self, span: Span) -> String {
-        self.source.place(span)
-    }
 }
 
 /// The keys of a mapping, and those that it may have.

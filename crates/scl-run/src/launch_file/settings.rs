@@ -5,7 +5,7 @@ use super::super::policy::{Policy, Restart, RestartDelay, RestartLimit};
 use super::keys::{Form, form_of};
 use super::reader::{Keys, Reader, wrong};
 use super::rules::WRONG_VALUE;
-use super::value::{flag, number, shown, texts};
+use super::value::{flag, number, shown, texts, word};
 use scl_terminal::{closest_name, parse_duration};
 use scl_topology::parse::Field;
 use scl_topology::yaml::{Node, NodeKind};
@@ -69,7 +69,7 @@ impl Reader<'_> {
     /// Reads the settings of a mapping, whose keys have been checked.
     pub(super) fn read_settings(&mut self, keys: &Keys<'_, '_>) -> Settings {
         Settings {
-            restart: self.read_setting(keys, "restart", restart),
+            restart: self.read_setting(keys, "restart", |value| word(value, &Restart::WORDS)),
             restart_delay: self.read_setting(keys, "restart_delay", |value| restart_delay(value.text()?)),
             restart_limit: self.read_setting(keys, "restart_limit", |value| restart_limit(value.text()?)),
             essential: self.read_setting(keys, "essential", flag),
@@ -123,11 +123,9 @@ impl Reader<'_> {
         let meant = field.value.text().and_then(|text| likely(form, text.trim()));
         let Some(meant) = meant else { return self.report(problem) };
         let problem = problem.help(format!("did you mean `{}: {meant}`?", field.key));
-        self.report(match form {
-            // A number without a unit may be one of milliseconds.
-            Form::Duration => problem.maybe_fix(field.value.span, meant),
-            _ => problem.fix(field.value.span, meant),
-        });
+        let span = field.value.span;
+        // A number without a unit may be one of milliseconds.
+        self.report(if form == Form::Duration { problem.maybe_fix(span, meant) } else { problem.fix(span, meant) });
     }
 }
 
@@ -144,7 +142,7 @@ fn likely(form: Form, text: &str) -> Option<String> {
         Form::Flag => match text.to_lowercase().as_str() {
             "yes" | "on" | "y" | "1" => Some("true".to_owned()),
             "no" | "off" | "n" | "0" => Some("false".to_owned()),
-            word => closest_name(word, ["true", "false"]).map(str::to_owned),
+            other => closest_name(other, ["true", "false"]).map(str::to_owned),
         },
         Form::Port => text.parse::<u16>().ok().filter(|port| *port != 0).map(|port| port.to_string()),
         // A number without its unit: seconds, as nearly every other tool has it.
@@ -163,11 +161,6 @@ fn likely(form: Form, text: &str) -> Option<String> {
         }
         _ => None,
     }
-}
-
-fn restart(value: &Node) -> Option<Restart> {
-    let word = value.text()?;
-    Restart::WORDS.into_iter().find(|(name, _)| *name == word).map(|(_, restart)| restart)
 }
 
 fn any_duration(text: &str) -> Option<Duration> {
