@@ -1,6 +1,5 @@
 //! `scl deploy`: the files by which a service manager runs a system.
 
-use crate::exit::exit_code_of_all;
 use crate::run::component_names;
 use clap::{Args, Subcommand};
 use scl_run::{Unit, UnitOptions, systemd_units};
@@ -57,7 +56,7 @@ pub(crate) struct SystemdArguments {
 }
 
 /// The body of `scl deploy`.
-pub(crate) fn deploy(arguments: &DeployArguments) -> ExitCode {
+pub(crate) fn deploy(arguments: &DeployArguments) -> Result<ExitCode, Vec<Problem>> {
     let Manager::Systemd(arguments) = &arguments.manager;
     let run = scl_run::Options {
         folder: arguments.folder.clone(),
@@ -67,9 +66,8 @@ pub(crate) fn deploy(arguments: &DeployArguments) -> ExitCode {
         ..scl_run::Options::default()
     };
     let options = UnitOptions { run, user: arguments.user.clone() };
-    let units = systemd_units(&options, &component_names);
-    let written = units.and_then(|units| write(&arguments.output, &units).map_err(|problem| vec![problem]));
-    exit_code_of_all(written.map(|()| ExitCode::SUCCESS))
+    let units = systemd_units(&options, &component_names)?;
+    write(&arguments.output, &units).map(|()| ExitCode::SUCCESS).map_err(|problem| vec![problem])
 }
 
 fn write(folder: &Path, units: &[Unit]) -> Result<(), Problem> {

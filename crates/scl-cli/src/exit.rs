@@ -27,13 +27,14 @@ impl Outcome for Result<ExitCode, Problem> {
     }
 }
 
-/// The exit code of a command that may meet several problems.
 #[cfg(feature = "run")]
-pub(crate) fn exit_code_of_all(result: Result<ExitCode, Vec<Problem>>) -> ExitCode {
-    result.unwrap_or_else(|problems| {
-        print_problems(&problems);
-        ExitCode::from(COULD_NOT_DO)
-    })
+impl Outcome for Result<ExitCode, Vec<Problem>> {
+    fn exit_code(self) -> ExitCode {
+        self.unwrap_or_else(|problems| {
+            print_problems(&problems);
+            ExitCode::from(COULD_NOT_DO)
+        })
+    }
 }
 
 /// Prints problems, each followed by an empty line.

@@ -190,6 +190,6 @@ fn no_log(system: &str, folder: &LogFolder, component: &str) -> Problem {
     let problem = problem.did_you_mean_or(component, names(), |problem| {
         problem.help("`scl run` writes logs of the components that it starts")
     });
-    let problem = problem.note(format!("looked in `{}`", folder.path().display()));
+    let problem = problem.note(format!("looked in `{}`", folder.path.display()));
     if components.is_empty() { problem } else { problem.note(format!("logs: {}", quoted_list(names()))) }
 }

@@ -1,10 +1,10 @@
 //! `scl restart` and `scl stop`: asking the `scl run` of the components, and showing what happened.
 
-use crate::exit::{exit_code_of_all, print_problems};
+use crate::exit::print_problems;
 use crate::format::FormatArgument;
 use crate::load::{named_after_here, system_of_folder};
 use clap::Args;
-use scl_run::control::{Command, ComponentReport, Wish, ask};
+use scl_run::control::{Command, ComponentReport, ControlOptions, ask};
 use scl_terminal::{Problem, escape};
 use serde_json::json;
 use std::process::ExitCode;
@@ -33,7 +33,7 @@ pub(crate) struct RestartArguments {
 }
 
 /// The body of `scl restart`.
-pub(crate) fn restart(arguments: &RestartArguments) -> ExitCode {
+pub(crate) fn restart(arguments: &RestartArguments) -> Result<ExitCode, Vec<Problem>> {
     request(Command::Restart, &arguments.components, !arguments.no_build, &arguments.request)
 }
 
@@ -58,7 +58,7 @@ pub(crate) struct StopArguments {
 }
 
 /// The body of `scl stop`.
-pub(crate) fn stop(arguments: &StopArguments) -> ExitCode {
+pub(crate) fn stop(arguments: &StopArguments) -> Result<ExitCode, Vec<Problem>> {
     request(Command::Stop, &arguments.components, false, &arguments.request)
 }
 
@@ -73,11 +73,7 @@ struct RequestArguments {
 }
 
 /// Asks, waits, prints what happened, and returns the exit code.
-fn request(command: Command, components: &[String], build: bool, arguments: &RequestArguments) -> ExitCode {
-    exit_code_of_all(ask_and_print(command, components, build, arguments))
-}
-
-fn ask_and_print(
+fn request(
     command: Command,
     components: &[String],
     build: bool,
@@ -85,7 +81,7 @@ fn ask_and_print(
 ) -> Result<ExitCode, Vec<Problem>> {
     let system = arguments.system.as_deref();
     let (here, named_after_here) = (&system_of_folder, &named_after_here);
-    let done = ask(&Wish { command, components, system, here, named_after_here, build })?;
+    let done = ask(&ControlOptions { command, components, system, here, named_after_here, build })?;
     let reports = done.components;
     arguments.format.print(|| json!({ "components": reports }), || reports.iter().map(line).collect());
     print_problems(&done.problems);

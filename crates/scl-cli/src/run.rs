@@ -1,11 +1,10 @@
 //! `scl run`: builds and starts the program of every component, shows what they print, and stops them together.
 
-use crate::exit::exit_code_of_all;
 use crate::load::{MaxSize, load_file, show_errors};
 use clap::Args;
 use scl_loader::Loaded;
 use scl_run::SystemNames;
-use scl_terminal::parse_duration;
+use scl_terminal::{Problem, parse_duration};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -91,7 +90,7 @@ pub(crate) struct StartArguments {
 }
 
 /// The body of `scl run`.
-pub(crate) fn run(arguments: &RunArguments) -> ExitCode {
+pub(crate) fn run(arguments: &RunArguments) -> Result<ExitCode, Vec<Problem>> {
     let options = scl_run::Options {
         folder: arguments.folder.clone(),
         profiles: arguments.profiles.clone(),
@@ -103,8 +102,8 @@ pub(crate) fn run(arguments: &RunArguments) -> ExitCode {
         run_for: arguments.run_for,
         grace: arguments.grace,
     };
-    let all_ended_well = scl_run::run(&options, &component_names);
-    exit_code_of_all(all_ended_well.map(|well| if well { ExitCode::SUCCESS } else { ExitCode::FAILURE }))
+    let all_ended_well = scl_run::run(&options, &component_names)?;
+    Ok(if all_ended_well { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 /// The body of `scl __start`.

@@ -4,71 +4,30 @@ use super::ending::Ending;
 use super::event::Event;
 use super::family::{Family, MARK, with_inherited};
 use super::log_file::LogStream;
-use super::notify::{Datagrams, Notified};
+use super::member::{Member, Role};
+use super::notify::{Datagrams, NotifySocket};
 use super::orphan_guard::{OrphanGuard, bound_command};
 use super::orphans;
 use super::output::Output;
 use super::plan::COMPONENT;
 use super::process_group;
-use super::program::Program;
 use super::terminal::{Loan, Terminal};
 use rustix::io::Errno;
 use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process_group, waitid};
 use std::io::{self, Read};
 use std::os::unix::process::CommandExt;
 use std::process::{Child, Stdio};
+use std::sync::Arc;
 use std::sync::mpsc::Sender;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
-
-/// What a program is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Role {
-    /// It makes the program of a component.
-    Build,
-    /// It runs a component.
-    Component,
-    /// It connects the components to those of other hosts.
-    Gateway,
-}
-
-/// What a build writes to its standard output for `scl run` and not for the user.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Messages(Arc<Mutex<Vec<u8>>>);
-
-impl Messages {
-    /// What has been written so far.
-    pub(crate) fn take(&self) -> Vec<u8> {
-        std::mem::take(&mut self.lock())
-    }
-
-    fn read(&self, mut from: impl Read) -> io::Result<()> {
-        let mut buffer = vec![0; 64 * 1024];
-        loop {
-            match from.read(&mut buffer)? {
-                0 => return Ok(()),
-                count => self.lock().extend_from_slice(&buffer[..count]),
-            }
-        }
-    }
-
-    fn lock(&self) -> MutexGuard<'_, Vec<u8>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
 
 /// How a program is started, besides what it is.
 #[derive(Debug)]
 pub(crate) struct Start<'a> {
     /// Its number in events.
     pub(crate) process: usize,
-    /// Its number in the output.
-    pub(crate) label: usize,
-    pub(crate) role: Role,
     /// Where it says that it is ready and alive.
-    pub(crate) notify: Option<Notified<'a>>,
-    /// Where its standard output goes, if not to the user.
-    pub(crate) messages: Option<&'a Messages>,
+    pub(crate) notify: Option<&'a NotifySocket>,
     /// The terminal that it may read from.
     pub(crate) terminal: Option<Terminal>,
 }
@@ -78,12 +37,14 @@ pub(crate) struct Start<'a> {
 #[derive(Debug)]
 pub(crate) struct Running {
     process: Child,
-    group: Pid,
+    /// Its process group, which has the number of its first process.
+    pub(crate) group: Pid,
     /// `None` for builds: processes that they leave behind, such as a compiler's server, are not ended.
     family: Option<Arc<Family>>,
-    terminal: Option<Terminal>,
+    /// The terminal that is lent to it.
+    pub(crate) terminal: Option<Terminal>,
     /// Whether its processes have got SIGINT from the terminal.
-    is_interrupted: bool,
+    pub(crate) is_interrupted: bool,
 }
 
 impl Running {
@@ -93,56 +54,53 @@ impl Running {
     ///
     /// If no process can be started, or the guard has ended.
     pub(crate) fn start(
-        program: &Program,
-        start: &Start<'_>,
+        member: &Member<'_>,
+        start: Start<'_>,
         guard: &mut OrphanGuard,
         output: &Arc<Output>,
         events: &Sender<Event>,
     ) -> io::Result<Self> {
+        let Member { program, label, role, policy, messages, .. } = member;
+        let Start { process: number, notify, terminal } = start;
         let mut command = bound_command(&program.command, &program.placement);
         // What is set for us, by systemd or another `scl run`, is not for our children.
         for name in ["NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID", COMPONENT] {
             command.env_remove(name);
         }
-        let mark = (start.role != Role::Build).then(|| guard.run_mark().of_program(start.process));
+        let mark = (*role != Role::Build).then(|| format!("{}{number}", guard.run_mark));
         let command = command
             .current_dir(&program.folder)
-            .envs(start.notify.iter().flat_map(Notified::variables))
+            .envs(notify.iter().flat_map(|socket| socket.variables(policy.alive_within)))
             .envs(program.environment.iter().map(|(key, value)| (key, value)))
             .envs(mark.iter().map(|mark| (MARK, with_inherited(mark))))
             .process_group(0)
-            .stdin(start.terminal.as_ref().map_or_else(Stdio::null, |_| Stdio::inherit()))
+            .stdin(terminal.as_ref().map_or_else(Stdio::null, |_| Stdio::inherit()))
             .stdout(Stdio::piped())
             .stderr(Stdio::piped());
         let mut process = orphans::spawn(command)?;
         let group = Pid::from_child(&process);
         let (out, err) = (process.stdout.take(), process.stderr.take());
         let family = mark.map(|mark| Arc::new(Family::new(group, mark)));
-        let terminal = start.terminal.clone();
+        let lent = terminal.clone();
         let running = Self { process, group, family: family.clone(), terminal, is_interrupted: false };
         guard.watch(group)?;
-        let (number, pressed) = (start.process, events.clone());
+        let pressed = events.clone();
         let pressed = move |key| _ = pressed.send(Event::Key { process: number, key });
-        let loan = start.terminal.clone().map(|terminal| terminal.lend(group, pressed));
+        let loan = lent.map(|terminal| terminal.lend(group, pressed));
         let loan = loan.transpose().inspect_err(|_| guard.forget(group))?;
         // Standard output has only what the components print.
-        let out_stream = if start.role == Role::Build { LogStream::Stderr } else { LogStream::Stdout };
-        let (label, shown) = (start.label, Arc::clone(output));
-        match start.messages.cloned() {
+        let out_stream = if *role == Role::Build { LogStream::Stderr } else { LogStream::Stdout };
+        let (label, shown) = (*label, Arc::clone(output));
+        match messages.clone() {
             // What cannot be read is missed where it is needed.
-            Some(messages) => watch_stream(start.process, out, events, move |out| _ = messages.read(out)),
-            None => watch_stream(start.process, out, events, move |out| shown.copy_lines(label, out_stream, out)),
+            Some(messages) => watch_stream(number, out, events, move |out| _ = messages.read(out)),
+            None => watch_stream(number, out, events, move |out| shown.copy_lines(label, out_stream, out)),
         }
         let shown = Arc::clone(output);
-        watch_stream(start.process, err, events, move |err| shown.copy_lines(label, LogStream::Stderr, err));
-        let datagrams = start.notify.map(|notify| notify.socket.datagrams().clone());
-        watch_end(start.process, group, family, loan, datagrams, events.clone());
+        watch_stream(number, err, events, move |err| shown.copy_lines(label, LogStream::Stderr, err));
+        let datagrams = notify.map(|notify| notify.datagrams.clone());
+        watch_end(number, group, family, loan, datagrams, events.clone());
         Ok(running)
-    }
-
-    /// Its process group, which has the number of its first process.
-    pub(crate) fn group(&self) -> Pid {
-        self.group
     }
 
     /// Sends a signal to the program's process group.
@@ -151,19 +109,9 @@ impl Running {
         let _ = kill_process_group(self.group, signal);
     }
 
-    /// Takes note that the terminal has sent SIGINT to the program's process group.
-    pub(crate) fn take_interrupt(&mut self) {
-        self.is_interrupted = true;
-    }
-
     /// Stops with the program and continues with it, after Ctrl-Z on its terminal.
     pub(crate) fn suspend(&self) {
         self.terminal.iter().for_each(|terminal| terminal.suspend(self.group));
-    }
-
-    /// Whether the terminal is lent to it.
-    pub(crate) fn has_terminal(&self) -> bool {
-        self.terminal.is_some()
     }
 
     /// Asks every process of the group to end, and when it has, what has left it. Returns those that were stopped,

@@ -11,7 +11,7 @@ mod client;
 mod protocol;
 mod silent_clients;
 
-pub use ask::{Done, Wish, ask};
+pub use ask::{ControlOptions, Done, ask};
 pub use client::{ControlledRun, NoAnswer, find_runs};
 pub use protocol::{BuildCommand, Command, ComponentReport, Request, Response, VERSION};
 
@@ -29,15 +29,15 @@ const PATIENCE: Duration = Duration::from_secs(2);
 
 /// The control socket of this process. Dropping this value removes it.
 pub(crate) struct ControlSocket {
-    file: OwnFile,
+    pub(crate) file: OwnFile,
     accept: Box<dyn Fn(UnixListener) -> io::Result<()> + Send + Sync>,
 }
 
 /// A request, and where its response goes.
 #[derive(Debug)]
-pub(crate) struct Asked {
+pub(crate) struct ReceivedRequest {
     pub(crate) request: Request,
-    client: UnixStream,
+    client: Arc<UnixStream>,
     named_after: Option<PathBuf>,
 }
 
@@ -51,21 +51,17 @@ impl ControlSocket {
     pub(crate) fn open(
         folder: &Path,
         named_after: Option<PathBuf>,
-        receive: impl Fn(Asked) + Clone + Send + Sync + 'static,
+        receive: impl Fn(ReceivedRequest) + Clone + Send + Sync + 'static,
     ) -> io::Result<Self> {
         let (file, listener) = OwnFile::bind(folder, "control", |path| UnixListener::bind(path))?;
-        let receive = move |request, client| receive(Asked { request, client, named_after: named_after.clone() });
+        let receive =
+            move |request, client| receive(ReceivedRequest { request, client, named_after: named_after.clone() });
         let accept = move |listener| {
             let receive = receive.clone();
             thread::Builder::new().spawn(move || accept_clients(&listener, &receive)).map(drop)
         };
         accept(listener)?;
         Ok(Self { file, accept: Box::new(accept) })
-    }
-
-    /// Whether its file was removed, so that clients cannot find it.
-    pub(crate) fn is_gone(&self) -> bool {
-        self.file.is_gone()
     }
 
     /// Listens again in the folder, which exists again.
@@ -78,14 +74,14 @@ impl ControlSocket {
     }
 }
 
-impl Asked {
+impl ReceivedRequest {
     /// Sends the response without waiting: it fits into the socket's buffer. A client that has gone gets none.
     pub(crate) fn answer(self, response: &Response) {
         send(&self.client, &Response { named_after: self.named_after, ..response.clone() });
     }
 }
 
-fn accept_clients(listener: &UnixListener, receive: &(impl Fn(Request, UnixStream) + Clone + Send + 'static)) {
+fn accept_clients(listener: &UnixListener, receive: &(impl Fn(Request, Arc<UnixStream>) + Clone + Send + 'static)) {
     let silent = Arc::new(SilentClients::default());
     loop {
         let Ok((client, _)) = listener.accept() else {
@@ -93,31 +89,29 @@ fn accept_clients(listener: &UnixListener, receive: &(impl Fn(Request, UnixStrea
             thread::sleep(Duration::from_millis(100));
             continue;
         };
-        // Without a descriptor or a thread for it, the client sees the end of the connection.
-        let Ok(number) = silent.add(&client) else { continue };
-        let (receive, all) = (receive.clone(), Arc::clone(&silent));
+        let client = Arc::new(client);
+        silent.add(&client);
+        let (receive, all, own) = (receive.clone(), Arc::clone(&silent), Arc::clone(&client));
         let served = thread::Builder::new().spawn(move || {
-            let line = read_line(&client);
-            all.remove(number);
-            if let Ok(line) = line {
-                serve(client, &line, receive);
+            let line = read_line(&own);
+            all.remove(&own);
+            match line.map(|line| Request::parse(&line)) {
+                Ok(Ok(request)) => receive(request, own),
+                Ok(Err(error)) => send(&own, &Response::error(error)),
+                // It was disconnected, or has sent no line.
+                Err(_) => {}
             }
         });
+        // Without a thread for it, the client sees the end of the connection.
         if served.is_err() {
-            silent.remove(number);
+            silent.remove(&client);
         }
     }
 }
 
-fn serve(client: UnixStream, line: &str, receive: impl Fn(Request, UnixStream)) {
-    match Request::parse(line) {
-        Ok(request) => receive(request, client),
-        Err(error) => send(&client, &Response::error(error)),
-    }
-}
-
 fn send(mut client: &UnixStream, response: &Response) {
-    let line = format!("{}\n", response.to_json());
+    // Strings and numbers can always be written.
+    let line = serde_json::to_string(response).unwrap_or_default() + "\n";
     let _ = client.set_nonblocking(true).and_then(|()| client.write_all(line.as_bytes()));
 }
 

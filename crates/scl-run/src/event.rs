@@ -1,6 +1,6 @@
 //! What the threads of a run tell its supervisor.
 
-use super::control::Asked;
+use super::control::ReceivedRequest;
 use super::ending::Ending;
 use super::lifecycle::Notice;
 use super::terminal::Key;
@@ -26,5 +26,5 @@ pub(crate) enum Event {
     /// A signal asks us to stop.
     Signalled(Signal),
     /// Another `scl` asks for something.
-    Asked(Asked),
+    Requested(ReceivedRequest),
 }

@@ -4,6 +4,7 @@
 //! the parent ends. What has cleared its environment and lost its parent before anybody has looked is found by none of
 //! them.
 
+use super::lock::lock;
 use super::process_group::{PAUSE, look_while};
 use super::process_stat::{ProcessStat, running_processes};
 use rustix::event::{PollFd, PollFlags, poll};
@@ -11,42 +12,22 @@ use rustix::process::{Pid, PidfdFlags, Signal, getpid, kill_process, kill_proces
 use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::io;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 use std::thread;
 
 /// The variable with the mark: that of the run, and the number of the program in it. Where one `scl run` is a program
 /// of another one, it has the marks of both.
 pub(crate) const MARK: &str = "SCL_STARTED_BY";
 
-/// The mark of all processes of one `scl run`.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct RunMark(String);
-
-impl RunMark {
-    /// That of this process.
-    ///
-    /// # Errors
-    ///
-    /// If `/proc` cannot be read.
-    pub(crate) fn of_this_process() -> io::Result<Self> {
-        let process = getpid();
-        let stat = ProcessStat::of(process).ok_or_else(|| io::Error::other("`/proc` does not show this process"))?;
-        Ok(Self(format!("{process}.{}.", stat.started)))
-    }
-
-    /// One that was written with [`as_str`](Self::as_str).
-    pub(crate) fn read(text: &str) -> Self {
-        Self(text.to_owned())
-    }
-
-    pub(crate) fn as_str(&self) -> &str {
-        &self.0
-    }
-
-    /// That of one program, by its number.
-    pub(crate) fn of_program(&self, number: usize) -> String {
-        format!("{}{number}", self.0)
-    }
+/// The mark of all processes that this `scl run` starts. The mark of one program has its number behind it.
+///
+/// # Errors
+///
+/// If `/proc` cannot be read.
+pub(crate) fn run_mark() -> io::Result<String> {
+    let process = getpid();
+    let stat = ProcessStat::of(process).ok_or_else(|| io::Error::other("`/proc` does not show this process"))?;
+    Ok(format!("{process}.{}.", stat.started))
 }
 
 /// The value of [`MARK`] for a program with this mark.
@@ -77,7 +58,7 @@ impl Family {
 
     /// Looks for its running processes, and remembers them.
     pub(crate) fn look(&self) -> HashMap<Pid, ProcessStat> {
-        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut known = lock(&self.known);
         let found = relatives(running_processes(), |process, stat| {
             let is_known = known.get(&process) == Some(&stat.started);
             is_known || stat.group == Some(self.group) || (stat.started >= self.since && has_mark(process, &self.mark))
@@ -136,14 +117,14 @@ fn wait_for_end(process: Pid, started: u64) {
 }
 
 /// Kills the processes of these groups, those with a mark of this run, and what they have started.
-pub(crate) fn kill_run(groups: &HashSet<Pid>, run: &RunMark) {
+pub(crate) fn kill_run(groups: &HashSet<Pid>, run_mark: &str) {
     for group in groups {
         // It has usually ended already.
         let _ = kill_process_group(*group, Signal::KILL);
     }
     kill_all(|| {
         relatives(running_processes(), |process, stat| {
-            stat.group.is_some_and(|group| groups.contains(&group)) || has_mark(process, run.as_str())
+            stat.group.is_some_and(|group| groups.contains(&group)) || has_mark(process, run_mark)
         })
     });
 }

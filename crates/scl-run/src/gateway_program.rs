@@ -3,7 +3,7 @@
 use super::component::Component;
 use super::program::is_executable;
 use scl_terminal::{Problem, print_err};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 /// The name of its file.
@@ -33,7 +33,8 @@ pub(crate) fn check(gateway: &Component) -> Result<(), Vec<Problem>> {
     command.arg("check").args(arguments).current_dir(&gateway.program.folder);
     command.envs(gateway.program.environment.iter().cloned()).stdin(Stdio::null()).stdout(Stdio::null());
     let failed = |problem: Problem| vec![problem.note("nothing was started")];
-    let output = command.output().map_err(|error| failed(cannot_run(program.as_ref(), &error)))?;
+    let cannot_run = |error| failed(Problem::new(format!("cannot run `{}`: {error}", program.display())));
+    let output = command.output().map_err(cannot_run)?;
     if output.status.success() {
         return Ok(());
     }
@@ -45,8 +46,4 @@ fn missing() -> Problem {
     Problem::new(format!("the program `{PROGRAM}` is not installed, which connects the hosts"))
         .help("install it: `cargo install scl-gateway`; in the repository of SCL: `cargo build -p scl-gateway`")
         .note("it is looked for beside `scl`, then in PATH")
-}
-
-fn cannot_run(program: &Path, error: &std::io::Error) -> Problem {
-    Problem::new(format!("cannot run `{}`: {error}", program.display()))
 }

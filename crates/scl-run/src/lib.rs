@@ -18,6 +18,7 @@ mod family;
 mod gateway_program;
 mod launch_file;
 mod lifecycle;
+mod lock;
 mod log_file;
 mod member;
 mod notify;
@@ -55,12 +56,11 @@ pub use system_names::{SystemNames, running_systems};
 pub use terminal::{KEYS_WORD, tell_keys};
 pub use units::{Unit, UnitOptions, systemd_units};
 
-use children::{Messages, Role};
 use component::Component;
 use ending::{Ending, name_of};
 use event::Event;
 use log_file::LogFile;
-use member::Member;
+use member::{Member, Messages, Role};
 use nix::sys::signal::SigSet;
 use orphan_guard::{OrphanGuard, STOP_SIGNALS};
 use output::Output;
@@ -142,7 +142,7 @@ fn run_plan(plan: &mut RunPlan, options: &Options, surroundings: Surroundings<'_
     orphans::adopt().map_err(|error| failed("take care of orphaned processes", error))?;
     let sockets = Sockets::open(plan, &sender)?;
     let guard = OrphanGuard::start().map_err(|error| failed("start the guard", error))?;
-    let mut supervisor = Supervisor::new(surroundings, guard, sockets.notify());
+    let mut supervisor = Supervisor::new(surroundings, guard, sockets.as_ref().map(|sockets| &*sockets.notify));
     if options.no_build {
         plan.find_programs_built_before()?;
     } else if !plan.builds.is_empty() {
@@ -161,8 +161,8 @@ fn run_plan(plan: &mut RunPlan, options: &Options, surroundings: Surroundings<'_
     let members = programs.enumerate();
     let members = members.map(|(index, (program, role))| member(program, role, plan.builds.len() + index));
     let members: Vec<Member<'_>> = members.collect();
-    let control = sockets.open_control(&sender);
-    sockets.keep(control.as_ref(), output);
+    let control = sockets.as_ref().and_then(|sockets| sockets.open_control(&sender));
+    sockets.iter().for_each(|sockets| sockets.keep(control.as_ref(), output));
     // With `--no-build`, a restart builds nothing either.
     let builds = if options.no_build { &[][..] } else { plan.builds.as_slice() };
     // Processes that a build leaves behind, such as a compiler's server, are not ended.
@@ -189,20 +189,15 @@ fn run_builds(
             program.command.extend(cargo::MESSAGES.map(OsString::from));
         }
         let policy = Policy { stop_within: grace, ..Policy::default() };
-        let messages_of_member = messages.clone();
-        let member = Member {
-            name: build.label(),
-            label,
-            role: Role::Build,
-            program: &program,
-            policy,
-            messages: messages_of_member,
-            entry: None,
-        };
+        let (name, role, messages_of_member) = (build.label(), Role::Build, messages.clone());
+        let member = Member { name, label, role, program: &program, policy, messages: messages_of_member, entry: None };
         match supervisor.run(&[member], &[], None) {
             Outcome::InOrder => {}
-            Outcome::Failed(ending) => return Err(failed_build(build, ending, "nothing was started")),
-            Outcome::Stopped(signal) => return Err(stopped_build(signal)),
+            Outcome::Failed(ending) => return Err(failed_build(build, ending)),
+            Outcome::Stopped(signal) => {
+                let signal = name_of(signal);
+                return Err(Problem::new(format!("stopped on {signal} during a build, so nothing was started")));
+            }
         }
         built.push(messages.map_or_else(Vec::new, |messages| cargo::read_artifacts(&messages.take())));
     }
@@ -214,17 +209,13 @@ fn member(component: &Component, role: Role, label: usize) -> Member<'_> {
     Member { name, label, role, program, policy: policy.clone(), messages: None, entry: entry.as_deref() }
 }
 
-/// What a failed build means for the user; `consequence` follows a "so".
-fn failed_build(build: &Build, ending: Option<Ending>, consequence: &str) -> Problem {
-    let problem = Problem::new(format!("the build of {} failed, so {consequence}", build.owner()));
+/// What a failed build means for the user.
+fn failed_build(build: &Build, ending: Option<Ending>) -> Problem {
+    let problem = Problem::new(format!("the build of {} failed, so nothing was started", build.owner()));
     let Some(ending) = ending else { return problem };
     let problem = problem.note(format!("`{}` {ending}", build.shown_command()));
     // As shells report it.
     if ending == Ending::Exited(127) { problem.help("install the command that was not found") } else { problem }
-}
-
-fn stopped_build(signal: Signal) -> Problem {
-    Problem::new(format!("stopped on {} during a build, so nothing was started", name_of(signal)))
 }
 
 /// Turns the signals that ask us to stop into events.

@@ -34,18 +34,22 @@ use rustix::process::Signal;
 /// A component, and all that is known of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Lifecycle {
-    policy: Policy,
-    state: State,
-    restarts: Restarts,
-    starts: usize,
+    pub(crate) policy: Policy,
+    pub(crate) state: State,
+    /// The restarts that the policy has asked for.
+    pub(crate) restarts: Restarts,
+    /// Number of processes so far.
+    pub(crate) starts: usize,
     /// When the process was started.
     started: Time,
     /// When the next sign of life is due.
     alive_until: Option<Time>,
     /// What the process has last said of itself.
     status: String,
-    failure: Option<String>,
-    last_ending: Option<Ending>,
+    /// Why it failed last.
+    pub(crate) failure: Option<String>,
+    /// How its last process ended.
+    pub(crate) last_ending: Option<Ending>,
 }
 
 impl Lifecycle {
@@ -63,34 +67,6 @@ impl Lifecycle {
             failure: None,
             last_ending: None,
         }
-    }
-
-    pub(crate) fn state(&self) -> State {
-        self.state
-    }
-
-    pub(crate) fn policy(&self) -> &Policy {
-        &self.policy
-    }
-
-    /// Number of processes so far.
-    pub(crate) fn starts(&self) -> usize {
-        self.starts
-    }
-
-    /// Number of restarts that the policy has asked for.
-    pub(crate) fn restarts(&self) -> usize {
-        self.restarts.total()
-    }
-
-    /// Why it failed last.
-    pub(crate) fn failure(&self) -> Option<&str> {
-        self.failure.as_deref()
-    }
-
-    /// How its last process ended.
-    pub(crate) fn last_ending(&self) -> Option<Ending> {
-        self.last_ending
     }
 
     /// When [`Input::Time`] is due, if nothing else happens before.

@@ -14,14 +14,14 @@ pub use entry::{LogEntry, LogStream};
 pub use folder::LogFolder;
 pub use reader::LogReader;
 
-use entry::Entry;
+use super::lock::lock;
 use reader::last_run;
 use std::fs::{self, DirBuilder, File, OpenOptions};
 use std::io::{self, Write};
 use std::os::unix::fs::{DirBuilderExt, OpenOptionsExt};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
-use std::time::SystemTime;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A file that would become longer is closed, and the next one begun.
 const LONGEST_FILE: u64 = 4 << 20;
@@ -37,8 +37,8 @@ const LONGEST_TEXT: usize = 64 << 10;
 pub(crate) struct LogFile {
     component: String,
     path: PathBuf,
-    /// The number of the last run before those of this process.
-    earlier_runs: u64,
+    /// The number of the last process whose standard output was begun, and of that whose standard error was.
+    runs: [AtomicU64; 2],
     state: Mutex<State>,
 }
 
@@ -59,29 +59,32 @@ impl LogFile {
     pub(crate) fn open(folder: &LogFolder, component: &str) -> Result<Self, String> {
         let path = folder.file_of(component).ok_or_else(|| format!("`{component}` cannot be the name of a file"))?;
         let open = || {
-            DirBuilder::new().mode(0o700).recursive(true).create(folder.path())?;
+            DirBuilder::new().mode(0o700).recursive(true).create(&folder.path)?;
             let file = open_for_append(&path)?;
             let length = file.metadata()?.len();
             io::Result::Ok((file, length))
         };
         let (file, length) = open().map_err(|error| format!("cannot write `{}`: {error}", path.display()))?;
-        let earlier_runs = last_run(folder, component);
+        let runs = [last_run(folder, component); 2].map(AtomicU64::new);
         // A line that a killed process left without its end is not continued.
         let state = State { file: Some(file), length, is_torn: length > 0, has_failed: false };
-        Ok(Self { component: component.to_owned(), path, earlier_runs, state: Mutex::new(state) })
+        Ok(Self { component: component.to_owned(), path, runs, state: Mutex::new(state) })
     }
 
-    /// Adds a line without its line break. `run` counts the processes of this component that were started by this
-    /// process, from 1.
+    /// The number of the process whose stream begins.
+    pub(crate) fn begin(&self, stream: LogStream) -> u64 {
+        self.runs[stream as usize].fetch_add(1, Ordering::Relaxed) + 1
+    }
+
+    /// Adds a line without its line break; `run` is from [`begin`](Self::begin).
     ///
     /// # Errors
     /// The first failure, as a text for the user. Later ones are silent, and the next line is tried again: a full disk
     /// may have room later.
     pub(crate) fn write(&self, stream: LogStream, run: u64, text: &[u8]) -> Result<(), String> {
-        let run = self.earlier_runs + run;
-        let entry = Entry { time: SystemTime::now(), component: &self.component, stream, run, text };
-        let line = entry.to_line(LONGEST_TEXT);
-        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        // Strings and numbers always become JSON.
+        let line = serde_json::to_string(&LogEntry::new(&self.component, stream, run, text)).unwrap_or_default() + "\n";
+        let mut state = lock(&self.state);
         let written = state.write(&self.path, line.as_bytes());
         match written {
             Err(error) if !std::mem::replace(&mut state.has_failed, true) => Err(format!(

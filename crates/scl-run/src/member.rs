@@ -1,8 +1,10 @@
 //! The programs that the supervisor starts and watches.
 
-use super::children::{Messages, Role};
+use super::lock::lock;
 use super::policy::Policy;
 use super::program::Program;
+use std::io::{self, Read};
+use std::sync::{Arc, Mutex};
 
 /// A program to supervise.
 #[derive(Debug)]
@@ -17,4 +19,41 @@ pub(crate) struct Member<'p> {
     pub(crate) messages: Option<Messages>,
     /// Where the launch file has its entry.
     pub(crate) entry: Option<&'p str>,
+}
+
+/// What a program is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// It makes the program of a component.
+    Build,
+    /// It runs a component.
+    Component,
+    /// It connects the components to those of other hosts.
+    Gateway,
+}
+
+/// What a build writes to its standard output for `scl run` and not for the user.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Messages(Arc<Mutex<Vec<u8>>>);
+
+impl Messages {
+    /// What has been written so far.
+    pub(crate) fn take(&self) -> Vec<u8> {
+        std::mem::take(&mut lock(&self.0))
+    }
+
+    /// Takes in what is written until the stream ends.
+    ///
+    /// # Errors
+    ///
+    /// If the stream cannot be read.
+    pub(crate) fn read(&self, mut from: impl Read) -> io::Result<()> {
+        let mut buffer = vec![0; 64 * 1024];
+        loop {
+            match from.read(&mut buffer)? {
+                0 => return Ok(()),
+                count => lock(&self.0).extend_from_slice(&buffer[..count]),
+            }
+        }
+    }
 }

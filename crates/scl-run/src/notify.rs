@@ -5,6 +5,7 @@
 
 use super::event::Event;
 use super::lifecycle::Notice;
+use super::lock::lock;
 use super::own_file::OwnFile;
 use rustix::cmsg_space;
 use rustix::event::{PollFd, PollFlags, poll};
@@ -17,7 +18,7 @@ use std::mem::MaybeUninit;
 use std::os::unix::net::UnixDatagram;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::Sender;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
@@ -36,9 +37,9 @@ const MOST_KEPT: usize = 4096;
 /// The socket where programs say that they are ready and alive. Dropping this value removes it.
 #[derive(Debug)]
 pub(crate) struct NotifySocket {
-    file: OwnFile,
+    pub(crate) file: OwnFile,
     runtime_folder: PathBuf,
-    datagrams: Datagrams,
+    pub(crate) datagrams: Datagrams,
 }
 
 /// What arrives at the socket, on its way to the supervisor.
@@ -47,14 +48,6 @@ pub(crate) struct Datagrams {
     /// The last one has the file. Programs may be connected to earlier ones, whose file was removed.
     sockets: Arc<Mutex<Vec<Arc<UnixDatagram>>>>,
     events: Sender<Event>,
-    reading: Arc<Mutex<()>>,
-}
-
-/// What a program is told about the socket.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Notified<'a> {
-    pub(crate) socket: &'a NotifySocket,
-    pub(crate) alive_within: Option<Duration>,
 }
 
 impl NotifySocket {
@@ -66,14 +59,9 @@ impl NotifySocket {
     /// If the socket cannot be bound.
     pub(crate) fn open(folder: &Path, runtime_folder: &Path, events: Sender<Event>) -> io::Result<Self> {
         let (file, socket) = OwnFile::bind(folder, "notify", |path| UnixDatagram::bind(path))?;
-        let datagrams = Datagrams { sockets: Arc::default(), events, reading: Arc::default() };
+        let datagrams = Datagrams { sockets: Arc::default(), events };
         datagrams.read_from(socket)?;
         Ok(Self { file, runtime_folder: runtime_folder.to_owned(), datagrams })
-    }
-
-    /// Whether its file was removed, so that programs cannot reach it.
-    pub(crate) fn is_gone(&self) -> bool {
-        self.file.is_gone()
     }
 
     /// Listens again in the folder, which exists again.
@@ -85,19 +73,13 @@ impl NotifySocket {
         self.datagrams.read_from(self.file.bind_again(|path| UnixDatagram::bind(path))?)
     }
 
-    pub(crate) fn datagrams(&self) -> &Datagrams {
-        &self.datagrams
-    }
-}
-
-impl Notified<'_> {
     /// The variables by which programs find the socket, and the folder of their system: it stays the same when the one
     /// that they would choose by themselves is removed, as at a logout. `WATCHDOG_PID` is left out, so that also a
     /// program behind a shell is meant.
-    pub(crate) fn variables(&self) -> Vec<(&'static str, String)> {
-        let path = self.socket.file.path().display().to_string();
-        let watchdog = self.alive_within.map(|limit| ("WATCHDOG_USEC", limit.as_micros().to_string()));
-        let folder = self.socket.runtime_folder.to_str().map(|folder| (RUNTIME_DIR, folder.to_owned()));
+    pub(crate) fn variables(&self, alive_within: Option<Duration>) -> Vec<(&'static str, String)> {
+        let path = self.file.path.display().to_string();
+        let watchdog = alive_within.map(|limit| ("WATCHDOG_USEC", limit.as_micros().to_string()));
+        let folder = self.runtime_folder.to_str().map(|folder| (RUNTIME_DIR, folder.to_owned()));
         [("NOTIFY_SOCKET", path)].into_iter().chain(watchdog).chain(folder).collect()
     }
 }
@@ -106,14 +88,10 @@ impl Datagrams {
     fn read_from(&self, socket: UnixDatagram) -> io::Result<()> {
         sockopt::set_socket_passcred(&socket, true)?;
         let socket = Arc::new(socket);
-        self.lock().push(Arc::clone(&socket));
+        lock(&self.sockets).push(Arc::clone(&socket));
         let datagrams = self.clone();
         thread::Builder::new().spawn(move || while wait(&socket).and_then(|()| datagrams.take()).is_ok() {})?;
         Ok(())
-    }
-
-    fn lock(&self) -> MutexGuard<'_, Vec<Arc<UnixDatagram>>> {
-        self.sockets.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Makes events of what has arrived: when this returns, all that programs said before has been sent.
@@ -123,9 +101,7 @@ impl Datagrams {
     /// If the socket cannot be read, or the supervisor has ended.
     pub(crate) fn take(&self) -> io::Result<()> {
         // One thread at a time: none returns before the events of datagrams that another thread has read are sent.
-        let _reading = self.reading.lock().unwrap_or_else(PoisonError::into_inner);
-        let sockets = self.lock().clone();
-        sockets.iter().try_for_each(|socket| self.take_from(socket))
+        lock(&self.sockets).iter().try_for_each(|socket| self.take_from(socket))
     }
 
     fn take_from(&self, socket: &UnixDatagram) -> io::Result<()> {
@@ -196,10 +172,10 @@ mod tests {
         let program = UnixDatagram::unbound().unwrap();
         for number in 0..20_000 {
             let text = number.to_string();
-            program.send_to(format!("STATUS={text}").as_bytes(), socket.file.path()).unwrap();
+            program.send_to(format!("STATUS={text}").as_bytes(), &socket.file.path).unwrap();
             // The thread of the socket may be the one that reads it.
             thread::yield_now();
-            socket.datagrams().take().unwrap();
+            socket.datagrams.take().unwrap();
             let event = received.try_recv();
             let is_expected =
                 matches!(&event, Ok(Event::Notified { notice: Notice::Status(status), .. }) if *status == text);

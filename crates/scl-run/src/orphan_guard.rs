@@ -7,7 +7,7 @@
 //! - One `scl __guard` holds the read end of a pipe whose write end only `scl run` holds. When the pipe ends, it kills
 //!   the whole process group of each component, and all processes that come from the programs of this run.
 
-use super::family::{RunMark, kill_run};
+use super::family::{kill_run, run_mark};
 use super::orphans;
 use super::placement::Placement;
 use rustix::process::{Pid, Signal, getppid, set_parent_process_death_signal};
@@ -72,7 +72,8 @@ pub(crate) const STOP_SIGNALS: [i32; 3] = [SIGINT, SIGTERM, SIGHUP];
 pub(crate) struct OrphanGuard {
     process: Child,
     pipe: Option<ChildStdin>,
-    run_mark: RunMark,
+    /// The mark of the processes that it kills besides the groups.
+    pub(crate) run_mark: String,
 }
 
 impl OrphanGuard {
@@ -82,18 +83,13 @@ impl OrphanGuard {
     ///
     /// If no process can be started.
     pub(crate) fn start() -> io::Result<Self> {
-        let run_mark = RunMark::of_this_process()?;
+        let run_mark = run_mark()?;
         let mut command = this_program();
-        let command = command.args([GUARD_WORD, run_mark.as_str()]).process_group(0);
+        let command = command.args([GUARD_WORD, &run_mark]).process_group(0);
         let command = command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null());
         let mut process = orphans::spawn(command)?;
         let pipe = process.stdin.take();
         Ok(Self { process, pipe, run_mark })
-    }
-
-    /// The mark of the processes that it kills besides the groups.
-    pub(crate) fn run_mark(&self) -> &RunMark {
-        &self.run_mark
     }
 
     /// Adds the process group of a component that has just been started.
@@ -139,6 +135,6 @@ pub fn keep_watch(run_mark: &str) -> ExitCode {
             groups.remove(&group)
         };
     }
-    kill_run(&groups, &RunMark::read(run_mark));
+    kill_run(&groups, run_mark);
     ExitCode::SUCCESS
 }

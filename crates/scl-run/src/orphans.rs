@@ -3,13 +3,14 @@
 //! program.
 
 use super::family::{kill_all, relatives};
+use super::lock::lock;
 use super::process_stat::{children, running_processes};
 use rustix::process::{Pid, WaitOptions, getpid, set_child_subreaper, waitpid};
 use signal_hook::consts::SIGCHLD;
 use signal_hook::iterator::Signals;
 use std::io;
 use std::process::{Child, Command};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::Mutex;
 use std::thread;
 use std::time::Duration;
 
@@ -26,7 +27,7 @@ const PAUSE: Duration = Duration::from_millis(50);
 /// If no process can be started.
 pub(crate) fn spawn(command: &mut Command) -> io::Result<Child> {
     // Held, so that a child that ends at once is known before anybody looks.
-    let mut started = started();
+    let mut started = lock(&STARTED);
     let child = command.spawn()?;
     started.push(Pid::from_child(&child));
     Ok(child)
@@ -36,7 +37,7 @@ pub(crate) fn spawn(command: &mut Command) -> io::Result<Child> {
 pub(crate) fn wait(child: &mut Child) {
     let _ = child.wait();
     let ended = Pid::from_child(child);
-    started().retain(|child| *child != ended);
+    lock(&STARTED).retain(|child| *child != ended);
 }
 
 /// From now on this process inherits what its descendants leave, and reaps it.
@@ -58,7 +59,7 @@ pub(crate) fn adopt() -> io::Result<()> {
 
 /// The orphans that this process has at the moment.
 pub(crate) fn adopted() -> Vec<Pid> {
-    let started = started();
+    let started = lock(&STARTED);
     children(getpid()).into_iter().filter(|child| !started.contains(child)).collect()
 }
 
@@ -75,8 +76,4 @@ fn reap() {
         // One that still runs is reaped later.
         let _ = waitpid(Some(orphan), WaitOptions::NOHANG);
     }
-}
-
-fn started() -> MutexGuard<'static, Vec<Pid>> {
-    STARTED.lock().unwrap_or_else(PoisonError::into_inner)
 }

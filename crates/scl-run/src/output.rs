@@ -8,6 +8,7 @@
 mod backlog;
 
 use super::event::Event;
+use super::lock::lock;
 use super::log_file::{LogFile, LogStream};
 use anstream::ColorChoice;
 use backlog::Backlog;
@@ -16,9 +17,8 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::os::fd::AsFd;
 use std::os::unix::fs::MetadataExt;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::Sender;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
@@ -43,21 +43,14 @@ const COLOURS: [AnsiColors; 10] = [
 pub(crate) struct Output {
     names: Vec<String>,
     width: usize,
-    colour_out: bool,
-    colour_err: bool,
+    /// Whether standard output and standard error show colours.
+    colours: [bool; 2],
     /// Of standard output and of standard error; the same if they go to the same file, where their order shows.
     backlogs: [Arc<Backlog>; 2],
     /// Where the loss of the reader is reported, once.
     events: Mutex<Option<Sender<Event>>>,
     /// In the order of the names; `None` for those without a log.
-    logs: Vec<Option<Log>>,
-}
-
-/// A component's log, and how often each of its streams was begun, which numbers its processes.
-#[derive(Debug)]
-struct Log {
-    file: LogFile,
-    runs: [AtomicU64; 2],
+    logs: Vec<Option<LogFile>>,
 }
 
 impl Output {
@@ -65,16 +58,14 @@ impl Output {
     /// of the last of them; the others have none. Starts the threads that write.
     pub(crate) fn start(names: Vec<String>, logs: Vec<Option<LogFile>>, events: Sender<Event>) -> Arc<Self> {
         let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
-        let wants_colour = |choice| !matches!(choice, ColorChoice::Never);
-        let colour_out = wants_colour(anstream::AutoStream::choice(&io::stdout()));
-        let colour_err = wants_colour(anstream::AutoStream::choice(&io::stderr()));
+        let choices = [anstream::AutoStream::choice(&io::stdout()), anstream::AutoStream::choice(&io::stderr())];
+        let colours = choices.map(|choice| !matches!(choice, ColorChoice::Never));
         let unlogged = names.len().saturating_sub(logs.len());
-        let log = |file: Option<LogFile>| file.map(|file| Log { file, runs: Default::default() });
-        let logs = (0..unlogged).map(|_| None).chain(logs.into_iter().map(log)).collect();
+        let logs = (0..unlogged).map(|_| None).chain(logs).collect();
         let out = Arc::<Backlog>::default();
         let err = if is_one_file() { Arc::clone(&out) } else { Arc::default() };
         let (backlogs, events) = ([out, err], Mutex::new(Some(events)));
-        let output = Arc::new(Self { names, width, colour_out, colour_err, backlogs, events, logs });
+        let output = Arc::new(Self { names, width, colours, backlogs, events, logs });
         let [out, err] = &output.backlogs;
         let distinct = if Arc::ptr_eq(out, err) { &output.backlogs[..1] } else { &output.backlogs };
         for backlog in distinct {
@@ -98,8 +89,11 @@ impl Output {
             if !line.ends_with(b"\n") {
                 line.push(b'\n');
             }
-            if let Some((log, run)) = log {
-                self.log(&log.file, stream, run, &line[prefix.len()..line.len() - 1]);
+            // The first failure of each log is reported; the program goes on.
+            if let Some((log, run)) = log
+                && let Err(report) = log.write(stream, run, &line[prefix.len()..line.len() - 1])
+            {
+                self.announce(&report);
             }
             self.backlog(stream).add_line(program, stream, &line);
             line.truncate(prefix.len());
@@ -109,22 +103,19 @@ impl Output {
 
     /// Reports on a program.
     pub(crate) fn report(&self, program: usize, text: &str) {
-        self.write_report(&format!("{}  {text}\n", self.painted_name(program, LogStream::Stderr)));
+        let name = self.painted_name(program, LogStream::Stderr);
+        self.backlog(LogStream::Stderr).add_report(&format!("{name}  {text}\n"));
     }
 
     /// Reports on the whole run.
     pub(crate) fn announce(&self, text: &str) {
-        self.write_report(&format!("scl: {text}\n"));
+        self.backlog(LogStream::Stderr).add_report(&format!("scl: {text}\n"));
     }
 
     /// Waits until everything is written, or until no reader has taken anything for as long as this.
     pub(crate) fn finish(&self, patience: Duration) {
         // Standard error last: the other may have something to report.
         self.backlogs.iter().for_each(|backlog| backlog.finish(patience));
-    }
-
-    fn write_report(&self, line: &str) {
-        self.backlog(LogStream::Stderr).add_report(line.as_bytes());
     }
 
     fn backlog(&self, stream: LogStream) -> &Backlog {
@@ -145,29 +136,18 @@ impl Output {
                 ));
             }
             if written.is_lost {
-                let events = self.events.lock().unwrap_or_else(PoisonError::into_inner).take();
+                let events = lock(&self.events).take();
                 // After the supervisor has finished, nothing receives or needs the event.
                 let _ = events.map(|events| events.send(Event::OutputLost));
             }
         }
     }
 
-    /// The first failure of each log is reported; the programs go on.
-    fn log(&self, file: &LogFile, stream: LogStream, run: u64, text: &[u8]) {
-        if let Err(report) = file.write(stream, run, text) {
-            self.announce(&report);
-        }
-    }
-
     fn painted_name(&self, program: usize, stream: LogStream) -> String {
         let name = format!("{:width$}", self.names[program], width = self.width);
-        let coloured = match stream {
-            LogStream::Stdout => self.colour_out,
-            LogStream::Stderr => self.colour_err,
-        };
         // A component's build has its name, and so its colour.
         let first = self.names.iter().position(|name| *name == self.names[program]).unwrap_or(program);
-        if coloured { name.color(COLOURS[first % COLOURS.len()]).to_string() } else { name }
+        if self.colours[stream as usize] { name.color(COLOURS[first % COLOURS.len()]).to_string() } else { name }
     }
 }
 
@@ -178,11 +158,4 @@ fn is_one_file() -> bool {
         Ok::<_, io::Error>((metadata.dev(), metadata.ino()))
     };
     matches!((identity(&io::stdout()), identity(&io::stderr())), (Ok(out), Ok(err)) if out == err)
-}
-
-impl Log {
-    /// The number of the process whose stream begins.
-    fn begin(&self, stream: LogStream) -> u64 {
-        self.runs[stream as usize].fetch_add(1, Ordering::Relaxed) + 1
-    }
 }

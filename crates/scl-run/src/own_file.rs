@@ -13,7 +13,7 @@ const PREFIX: &str = "run.";
 /// A socket's file. Dropping this value removes it.
 #[derive(Debug)]
 pub(crate) struct OwnFile {
-    path: PathBuf,
+    pub(crate) path: PathBuf,
 }
 
 impl OwnFile {
@@ -52,13 +52,9 @@ impl OwnFile {
         ready.map(|()| socket)
     }
 
-    /// Whether it was removed.
+    /// Whether it was removed, so that nobody can find the socket.
     pub(crate) fn is_gone(&self) -> bool {
         self.path.symlink_metadata().is_err()
-    }
-
-    pub(crate) fn path(&self) -> &Path {
-        &self.path
     }
 }
 
@@ -88,9 +84,7 @@ pub(crate) fn process_of(path: &Path, ending: &str) -> Option<u32> {
 ///
 /// [`io::ErrorKind::WouldBlock`] if the process accepts no connections at the moment.
 pub(crate) fn connect(path: &Path) -> io::Result<UnixStream> {
-    let connected = connect_at_once(path);
-    remove_if_dead(path, connected.as_ref().err());
-    connected
+    connect_at_once(path).inspect_err(|error| remove_if_dead(path, error))
 }
 
 /// Connects without waiting: a process that is stopped accepts nothing, and connections would wait for it.
@@ -107,15 +101,15 @@ fn connect_at_once(path: &Path) -> io::Result<UnixStream> {
 pub(crate) fn remove_stale(folder: &Path) {
     for path in sockets_in(folder, "notify") {
         let connected = UnixDatagram::unbound().and_then(|socket| socket.connect(&path));
-        remove_if_dead(&path, connected.as_ref().err());
+        let _ = connected.inspect_err(|error| remove_if_dead(&path, error));
     }
     for path in sockets_in(folder, "control") {
         let _ = connect(&path);
     }
 }
 
-fn remove_if_dead(path: &Path, error: Option<&io::Error>) {
-    if error.is_some_and(|error| error.kind() == io::ErrorKind::ConnectionRefused) {
+fn remove_if_dead(path: &Path, error: &io::Error) {
+    if error.kind() == io::ErrorKind::ConnectionRefused {
         let _ = fs::remove_file(path);
     }
 }
@@ -134,9 +128,9 @@ mod tests {
         fs::write(path("run.x.control"), "").unwrap();
         let (own, _listener) = OwnFile::bind(folder.path(), "control", |path| UnixListener::bind(path)).unwrap();
         let (_notify, _socket) = OwnFile::bind(folder.path(), "notify", |path| UnixDatagram::bind(path)).unwrap();
-        assert_eq!(fs::metadata(own.path()).unwrap().permissions().mode() & 0o777, 0o600);
+        assert_eq!(fs::metadata(&own.path).unwrap().permissions().mode() & 0o777, 0o600);
         remove_stale(folder.path());
-        assert_eq!(sockets_in(folder.path(), "control"), [own.path()]);
+        assert_eq!(sockets_in(folder.path(), "control"), [own.path.as_path()]);
         assert_eq!(sockets_in(folder.path(), "notify").len(), 1);
         assert!(path("run.x.control").exists());
         drop(own);

@@ -113,12 +113,12 @@ impl RunPlan {
 
 /// The system's folder, and the path of its launch file, which need not exist.
 fn find_folder(place: &Path) -> Result<(PathBuf, PathBuf), Problem> {
-    let message = |words| format!("cannot run `{}`: {words}", place.display());
     let folder = if place.is_file() { place.parent().unwrap_or(Path::new("")) } else { place };
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     // Programs run elsewhere, so their paths must not depend on our working folder.
     let folder = folder.canonicalize().map_err(|error| {
-        Problem::new(message(error.to_string())).help("give the folder of a system, or a launch file")
+        Problem::new(format!("cannot run `{}`: {error}", place.display()))
+            .help("give the folder of a system, or a launch file")
     })?;
     let launch_path = if place.is_file() { place.to_owned() } else { place.join(LAUNCH_FILE) };
     Ok((folder, launch_path))

@@ -56,24 +56,12 @@ impl Restart {
     ];
 }
 
-impl Default for RestartDelay {
-    fn default() -> Self {
-        Self { first: Duration::from_millis(100), longest: Duration::from_secs(5) }
-    }
-}
-
-impl Default for RestartLimit {
-    fn default() -> Self {
-        Self { count: 5, within: Duration::from_secs(60) }
-    }
-}
-
 impl Default for Policy {
     fn default() -> Self {
         Self {
             restart: Restart::default(),
-            delay: RestartDelay::default(),
-            limit: RestartLimit::default(),
+            delay: RestartDelay { first: Duration::from_millis(100), longest: Duration::from_secs(5) },
+            limit: RestartLimit { count: 5, within: Duration::from_secs(60) },
             essential: true,
             stop_within: Duration::from_secs(5),
             ready_within: None,

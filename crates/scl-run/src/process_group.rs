@@ -95,17 +95,11 @@ pub(crate) fn stopped(group: Pid) -> Vec<Pid> {
 
 /// The running processes of the group. Empty only if there are none.
 fn members(group: Pid) -> Vec<Pid> {
-    let seen = look_for_members(group);
+    let is_member = |process: &Pid| ProcessStat::of(*process).is_some_and(|stat| stat.group == Some(group));
+    let look = || -> Vec<Pid> { all_processes().filter(is_member).collect() };
+    let seen = look();
     // A process may start another one behind the first look and end before that look comes to it.
-    if seen.is_empty() { look_for_members(group) } else { seen }
-}
-
-fn look_for_members(group: Pid) -> Vec<Pid> {
-    all_processes().filter(|process| is_member(*process, group)).collect()
-}
-
-fn is_member(process: Pid, group: Pid) -> bool {
-    ProcessStat::of(process).is_some_and(|stat| stat.group == Some(group))
+    if seen.is_empty() { look() } else { seen }
 }
 
 /// What a process does with a signal.

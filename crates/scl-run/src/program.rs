@@ -113,15 +113,12 @@ impl Program {
         }
     }
 
-    /// Whether it is a text that a shell was given, so that the shell's processes are the program.
-    pub(crate) fn is_shell_text(&self) -> bool {
-        shell_text(&self.command).is_some()
-    }
-
     /// The absolute path of a program in the search path.
     pub(crate) fn find_installed(&self, name: &OsStr) -> Option<PathBuf> {
-        let folders = search_path(self).into_iter();
-        folders.map(|folder| self.folder.join(folder).join(name)).find(|file| is_executable(file))
+        let own = self.environment.iter().rev().find(|(key, _)| key == "PATH").map(|(_, value)| value.into());
+        let path: OsString = own.or_else(|| std::env::var_os("PATH")).unwrap_or_default();
+        let mut files = std::env::split_paths(&path).map(|folder| self.folder.join(folder).join(name));
+        files.find(|file| is_executable(file))
     }
 
     /// As [`check`](Self::check), but only whether a program without a path is installed.
@@ -138,12 +135,6 @@ impl Program {
 
 fn is_path(name: &OsStr) -> bool {
     name.as_encoded_bytes().contains(&b'/')
-}
-
-fn search_path(program: &Program) -> Vec<PathBuf> {
-    let own = program.environment.iter().rev().find(|(key, _)| key == "PATH").map(|(_, value)| OsString::from(value));
-    let path = own.or_else(|| std::env::var_os("PATH")).unwrap_or_default();
-    std::env::split_paths(OsStr::new(&path)).collect()
 }
 
 pub(crate) fn is_executable(path: &Path) -> bool {

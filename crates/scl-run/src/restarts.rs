@@ -13,18 +13,14 @@ const RESET_AFTER: Duration = Duration::from_secs(60);
 /// The restarts of one component.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Restarts {
-    total: usize,
+    /// Number of restarts so far.
+    pub(crate) total: usize,
     in_a_row: u32,
     /// The last ones, at most as many as the limit allows.
     recent: VecDeque<Time>,
 }
 
 impl Restarts {
-    /// Number of restarts so far.
-    pub(crate) fn total(&self) -> usize {
-        self.total
-    }
-
     /// Counts a restart and returns the delay before it; `None` if the limit is reached.
     pub(crate) fn next(&mut self, now: Time, delay: RestartDelay, limit: RestartLimit) -> Option<Duration> {
         let last = self.recent.back().copied();
@@ -48,10 +44,11 @@ impl Restarts {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::policy::Policy;
 
     fn delays(times: &[u64], limit: RestartLimit) -> Vec<Option<u128>> {
         let mut restarts = Restarts::default();
-        let next = |at: &u64| restarts.next(Duration::from_secs(*at), RestartDelay::default(), limit);
+        let next = |at: &u64| restarts.next(Duration::from_secs(*at), Policy::default().delay, limit);
         times.iter().map(next).map(|delay| delay.map(|delay| delay.as_millis())).collect()
     }
 

@@ -22,16 +22,17 @@ pub(crate) enum RunEvent {
 }
 
 /// The components, and whether they are being stopped.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct RunState {
     components: Vec<Lifecycle>,
     /// The one that is stopped when all others have ended: what they send while they stop passes through it.
     last: Option<usize>,
     /// When all are stopped without being asked.
     until: Option<Time>,
-    stopping: Option<Signal>,
+    /// The signal by which they are being stopped.
+    pub(crate) stopping: Option<Signal>,
     /// Whether the stop was asked for, and not the consequence of a failure.
-    asked: bool,
+    pub(crate) asked: bool,
     /// Time of the first stop request.
     requested: Option<Time>,
     /// The pauses since then, which the times of events leave out.
@@ -43,30 +44,11 @@ impl RunState {
     /// Components to be started at once, which are stopped at a time, if any; `last` is stopped after all others.
     pub(crate) fn new(policies: impl IntoIterator<Item = Policy>, last: Option<usize>, until: Option<Time>) -> Self {
         let components = policies.into_iter().map(Lifecycle::new).collect();
-        Self {
-            components,
-            last,
-            until,
-            stopping: None,
-            asked: false,
-            requested: None,
-            paused: Duration::ZERO,
-            killing: false,
-        }
+        Self { components, last, until, ..Self::default() }
     }
 
     pub(crate) fn components(&self) -> &[Lifecycle] {
         &self.components
-    }
-
-    /// The signal by which the components are being stopped.
-    pub(crate) fn stopping(&self) -> Option<Signal> {
-        self.stopping
-    }
-
-    /// Whether the stop was requested, rather than caused by a failure.
-    pub(crate) fn was_asked(&self) -> bool {
-        self.asked
     }
 
     /// Whether a stop was requested, so that the next request kills.
@@ -76,12 +58,12 @@ impl RunState {
 
     /// Whether every component has ended.
     pub(crate) fn is_over(&self) -> bool {
-        self.components.iter().all(|component| matches!(component.state(), State::Ended(_)))
+        self.components.iter().all(|component| matches!(component.state, State::Ended(_)))
     }
 
     /// Whether every component has said that it is ready.
     pub(crate) fn is_ready(&self) -> bool {
-        self.components.iter().all(|component| component.state() == State::Ready)
+        self.components.iter().all(|component| component.state == State::Ready)
     }
 
     /// The first component whose failure is that of the run.
@@ -144,14 +126,14 @@ impl RunState {
     }
 
     fn is_working(&self, index: usize) -> bool {
-        self.components.get(index).is_some_and(|it| matches!(it.state(), State::Running | State::Ready))
+        self.components.get(index).is_some_and(|it| matches!(it.state, State::Running | State::Ready))
     }
 
     /// Whether no component is left that needs the last one. Alone, it runs until it is asked to stop.
     fn only_last_is_left(&self) -> bool {
         let Some(last) = self.last else { return false };
         let mut others = self.components.iter().enumerate().filter(|(index, _)| *index != last).peekable();
-        others.peek().is_some() && others.all(|(_, other)| matches!(other.state(), State::Ended(_)))
+        others.peek().is_some() && others.all(|(_, other)| matches!(other.state, State::Ended(_)))
     }
 
     /// Stops the last one when its turn has come.
@@ -203,7 +185,7 @@ impl RunState {
 }
 
 fn has_failed_the_run(component: &Lifecycle) -> bool {
-    component.policy().essential && component.state() == State::Ended(Verdict::Failed)
+    component.policy.essential && component.state == State::Ended(Verdict::Failed)
 }
 
 #[cfg(test)]

@@ -24,8 +24,8 @@ const LOOK: Duration = Duration::from_secs(1);
 /// The socket for notices, and where the one for requests belongs.
 #[derive(Debug)]
 pub(crate) struct Sockets {
-    notify: Option<Arc<NotifySocket>>,
-    folders: Option<Folders>,
+    pub(crate) notify: Arc<NotifySocket>,
+    folders: Folders,
     named_after: Option<PathBuf>,
 }
 
@@ -43,18 +43,18 @@ impl Sockets {
     /// # Errors
     ///
     /// One problem.
-    pub(crate) fn open(plan: &RunPlan, events: &Sender<Event>) -> Result<Self, Vec<Problem>> {
+    pub(crate) fn open(plan: &RunPlan, events: &Sender<Event>) -> Result<Option<Self>, Vec<Problem>> {
         let needs_notices =
             |component: &Component| component.policy.ready_within.is_some() || component.policy.alive_within.is_some();
         match Self::try_open(plan, events) {
-            Ok(sockets) => Ok(sockets),
+            Ok(sockets) => Ok(Some(sockets)),
             Err(error) if plan.programs().any(needs_notices) => {
                 let problem = Problem::new(format!("cannot listen for `ready_within` and `alive_within`: {error}"));
                 Err(vec![problem.help("set `SCL_RUNTIME_DIR` to a folder of yours with a short path")])
             }
             Err(error) => {
                 print_err(&format!("note: `scl stop` and `scl restart` cannot reach this run: {error}\n"));
-                Ok(Self { notify: None, folders: None, named_after: None })
+                Ok(None)
             }
         }
     }
@@ -66,22 +66,17 @@ impl Sockets {
         remove_stale(&folder);
         let notify = NotifySocket::open(&folder, &folders.runtime, events.clone());
         let notify = notify.map_err(|error| format!("cannot bind a socket in `{}`: {error}", folder.display()))?;
-        Ok(Self { notify: Some(Arc::new(notify)), folders: Some(folders), named_after: plan.named_after.clone() })
-    }
-
-    pub(crate) fn notify(&self) -> Option<&NotifySocket> {
-        self.notify.as_deref()
+        Ok(Self { notify: Arc::new(notify), folders, named_after: plan.named_after.clone() })
     }
 
     /// Opens the socket for requests. Without a system, clients could not find it.
     pub(crate) fn open_control(&self, events: &Sender<Event>) -> Option<Arc<ControlSocket>> {
         let events = events.clone();
-        let receive = move |asked| {
+        let receive = move |request| {
             // After the supervisor has finished, the client sees the end of the connection.
-            let _ = events.send(Event::Asked(asked));
+            let _ = events.send(Event::Requested(request));
         };
-        let folders = self.folders.as_ref()?;
-        let folder = folders.runtime.join(folders.system.as_ref()?);
+        let folder = self.folders.runtime.join(self.folders.system.as_ref()?);
         match ControlSocket::open(&folder, self.named_after.clone(), receive) {
             Ok(socket) => Some(Arc::new(socket)),
             Err(error) => {
@@ -94,16 +89,15 @@ impl Sockets {
     /// From now on binds the sockets again when they were removed with their folder, as `/run/user/UID` is at a logout:
     /// programs that are started later, and other commands, find them in the folder with which the system was started.
     pub(crate) fn keep(&self, control: Option<&Arc<ControlSocket>>, output: &Arc<Output>) {
-        let (Some(folders), Some(notify)) = (self.folders.clone(), &self.notify) else { return };
-        let (notify, control) = (Arc::downgrade(notify), control.map(Arc::downgrade));
-        let output = Arc::clone(output);
+        let (notify, control) = (Arc::downgrade(&self.notify), control.map(Arc::downgrade));
+        let (folders, output) = (self.folders.clone(), Arc::clone(output));
         thread::spawn(move || {
             let mut is_known = false;
             loop {
                 thread::sleep(LOOK);
                 let Some(notify) = notify.upgrade() else { return };
-                let control = control.as_ref().and_then(Weak::upgrade).filter(|control| control.is_gone());
-                if !notify.is_gone() && control.is_none() {
+                let control = control.as_ref().and_then(Weak::upgrade).filter(|control| control.file.is_gone());
+                if !notify.file.is_gone() && control.is_none() {
                     is_known = false;
                     continue;
                 }
@@ -130,7 +124,7 @@ impl Folders {
 
     fn restore(&self, notify: &NotifySocket, control: Option<&ControlSocket>) -> Result<(), Box<dyn Error>> {
         self.create()?;
-        if notify.is_gone() {
+        if notify.file.is_gone() {
             notify.restore()?;
         }
         Ok(control.map_or(Ok(()), ControlSocket::restore)?)

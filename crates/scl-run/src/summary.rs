@@ -1,8 +1,7 @@
 //! The last lines of a run: which components failed and why, and which were restarted.
 
-use super::children::Role;
 use super::lifecycle::{Lifecycle, State, Verdict};
-use super::member::Member;
+use super::member::{Member, Role};
 use super::run_state::RunState;
 
 /// A line for each component that failed or was restarted.
@@ -12,16 +11,16 @@ pub(crate) fn lines(members: &[Member<'_>], state: &RunState) -> Vec<String> {
 }
 
 fn line(member: &Member<'_>, component: &Lifecycle) -> Option<String> {
-    let failure = component.failure().unwrap_or("ended");
-    let restarts = match component.restarts() {
+    let failure = component.failure.as_deref().unwrap_or("ended");
+    let restarts = match component.restarts.total {
         0 => String::new(),
         1 => "restarted once".to_owned(),
         2 => "restarted twice".to_owned(),
         more => format!("restarted {more} times"),
     };
-    let has_failed = component.state() == State::Ended(Verdict::Failed);
+    let has_failed = component.state == State::Ended(Verdict::Failed);
     let name = member.name;
-    let kind = match (member.role, component.policy().essential) {
+    let kind = match (member.role, component.policy.essential) {
         (Role::Gateway, _) => "program",
         (_, true) => "component",
         (_, false) => "non-essential component",

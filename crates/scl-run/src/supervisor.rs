@@ -16,13 +16,14 @@
 
 mod process;
 
-use super::children::{Role, Running, Start};
-use super::control::{Asked, BuildCommand, Command, Response};
+use super::children::{Running, Start};
+use super::command_line::shell_text;
+use super::control::{BuildCommand, Command, ReceivedRequest, Response};
 use super::ending::{Ending, name_of};
 use super::event::Event;
 use super::lifecycle::{Action, Input, Notice, State};
-use super::member::Member;
-use super::notify::{Notified, NotifySocket};
+use super::member::{Member, Role};
+use super::notify::NotifySocket;
 use super::orphan_guard::OrphanGuard;
 use super::output::Output;
 use super::program::Build;
@@ -108,12 +109,12 @@ impl<'a> Supervisor<'a> {
         if members.iter().any(|member| member.role != Role::Build) {
             summary::lines(members, &run.state).iter().for_each(|line| self.surroundings.output.announce(line));
         }
-        match (run.state.failed(), run.state.stopping()) {
+        match (run.state.failed(), run.state.stopping) {
             // Build tools have codes of their own for being interrupted.
-            (Some(index), Some(signal)) if members[index].role == Role::Build && run.state.was_asked() => {
+            (Some(index), Some(signal)) if members[index].role == Role::Build && run.state.asked => {
                 Outcome::Stopped(signal)
             }
-            (Some(index), _) => Outcome::Failed(run.state.components()[index].last_ending()),
+            (Some(index), _) => Outcome::Failed(run.state.components()[index].last_ending),
             (None, Some(signal)) => Outcome::Stopped(signal),
             (None, None) => Outcome::InOrder,
         }
@@ -143,8 +144,9 @@ impl<'a> Supervisor<'a> {
             Event::LeaderEnded { process, ending } => {
                 let Some((index, _)) = self.find(|it| it.number == process) else { return };
                 // The processes that a shell has started are the program: `./one & ./two &`.
-                let goes_on = run.members[index].program.is_shell_text() && ending.is_in_order(None);
-                if !(goes_on && matches!(run.state.components()[index].state(), State::Running | State::Ready)) {
+                let is_shell_text = shell_text(&run.members[index].program.command).is_some();
+                let goes_on = is_shell_text && ending.is_in_order(None);
+                if !(goes_on && matches!(run.state.components()[index].state, State::Running | State::Ready)) {
                     self.apply(run, RunEvent::One(index, Input::LeaderEnded));
                 }
             }
@@ -157,7 +159,7 @@ impl<'a> Supervisor<'a> {
                 self.apply(run, RunEvent::One(index, Input::Exited(ending)));
             }
             Event::Notified { group, notice } => {
-                let Some((index, _)) = self.find(|it| it.running.group() == group && it.ended.is_none()) else {
+                let Some((index, _)) = self.find(|it| it.running.group == group && it.ended.is_none()) else {
                     return;
                 };
                 let input = match notice {
@@ -170,7 +172,7 @@ impl<'a> Supervisor<'a> {
                 let Some((_, process)) = self.find(|it| it.number == process) else { return };
                 match key {
                     Key::Interrupt => {
-                        process.running.take_interrupt();
+                        process.running.is_interrupted = true;
                         self.take(run, Event::Signalled(Signal::INT));
                     }
                     Key::Suspend => process.running.suspend(),
@@ -179,7 +181,7 @@ impl<'a> Supervisor<'a> {
             Event::StoppedByTerminal { process, signal } => {
                 let Some((index, process)) = self.find(|it| it.number == process) else { return };
                 // With the terminal, it was stopped before it had it.
-                if !process.running.has_terminal() {
+                if process.running.terminal.is_none() {
                     let text = stopped_by_terminal(&run.members[index], signal);
                     self.report(index, &run.members[index], text);
                 }
@@ -187,7 +189,7 @@ impl<'a> Supervisor<'a> {
             Event::Signalled(signal) => {
                 if !run.state.is_requested() {
                     let name = name_of(signal);
-                    let text = match run.state.stopping() {
+                    let text = match run.state.stopping {
                         None => format!("stopping on {name}; once more kills at once"),
                         Some(_) => format!("already stopping; {name} once more kills at once"),
                     };
@@ -196,30 +198,30 @@ impl<'a> Supervisor<'a> {
                 self.apply(run, RunEvent::Stop(signal));
             }
             Event::OutputLost => self.apply(run, RunEvent::OutputLost),
-            Event::Asked(asked) => self.take_request(run, asked),
+            Event::Requested(request) => self.take_request(run, request),
         }
     }
 
-    fn take_request(&mut self, run: &mut Run<'_>, asked: Asked) {
+    fn take_request(&mut self, run: &mut Run<'_>, received: ReceivedRequest) {
         let names: Vec<&str> = run.members.iter().map(|member| member.name).collect();
-        let chosen = asked.request.components.iter().filter(|name| names.contains(&name.as_str()));
+        let chosen = received.request.components.iter().filter(|name| names.contains(&name.as_str()));
         let chosen: String = chosen.map(|name| format!(" {name}")).collect();
-        match asked.request.command {
+        match received.request.command {
             Command::List => {}
             Command::Builds => {
-                let builds = run.builds.iter().filter_map(|build| build.only_for(&asked.request.components));
+                let builds = run.builds.iter().filter_map(|build| build.only_for(&received.request.components));
                 let builds = builds.map(|build| BuildCommand::of(&build)).collect();
-                return asked.answer(&Response { builds, ..Response::of(Vec::new()) });
+                return received.answer(&Response { builds, ..Response::of(Vec::new()) });
             }
             Command::Stop => self.surroundings.output.announce(&format!("requested: `scl stop{chosen}`")),
             Command::Restart => {
-                if let Some(problem) = unusable(run, &asked.request.components) {
-                    return asked.answer(&Response::error(problem));
+                if let Some(problem) = unusable(run, &received.request.components) {
+                    return received.answer(&Response::error(problem));
                 }
                 self.surroundings.output.announce(&format!("requested: `scl restart{chosen}`"));
             }
         }
-        for event in run.requests.take(asked, &names, &run.state) {
+        for event in run.requests.take(received, &names, &run.state) {
             self.apply(run, event);
         }
     }
@@ -229,7 +231,7 @@ impl<'a> Supervisor<'a> {
         let mut actions: VecDeque<_> = run.state.step(run.now(), event).into();
         while let Some((index, action)) = actions.pop_front() {
             match action {
-                Action::Start if run.state.components()[index].state() == State::Starting => {
+                Action::Start if run.state.components()[index].state == State::Starting => {
                     let input = match self.start(index, &run.members[index]) {
                         Ok(()) => Input::Started,
                         Err(error) => Input::CannotStart(error.to_string()),
@@ -269,24 +271,16 @@ impl<'a> Supervisor<'a> {
             self.discard(index);
         }
         let notify = self.notify.filter(|_| member.role != Role::Build);
-        let notify = notify.map(|socket| Notified { socket, alive_within: member.policy.alive_within });
         let terminal = match member.program.input {
             StandardInput::Empty => None,
             StandardInput::Terminal => Terminal::open()
                 .inspect_err(|why| self.report(index, member, format!("its standard input is empty: {why}")))
                 .ok(),
         };
-        let start = Start {
-            process: self.next_process,
-            label: member.label,
-            role: member.role,
-            notify,
-            messages: member.messages.as_ref(),
-            terminal,
-        };
-        let Surroundings { output, sender, .. } = &self.surroundings;
-        let running = Running::start(member.program, &start, &mut self.guard, output, sender)?;
         let number = self.next_process;
+        let start = Start { process: number, notify, terminal };
+        let Surroundings { output, sender, .. } = &self.surroundings;
+        let running = Running::start(member, start, &mut self.guard, output, sender)?;
         self.next_process += 1;
         self.processes[index] = Some(Process::new(number, running));
         Ok(())
@@ -295,7 +289,7 @@ impl<'a> Supervisor<'a> {
     /// Kills what is left of a process, and frees its number.
     fn discard(&mut self, index: usize) {
         if let Some(process) = self.processes[index].take() {
-            self.guard.forget(process.running.group());
+            self.guard.forget(process.running.group);
         }
     }
 
@@ -324,7 +318,7 @@ impl<'a> Supervisor<'a> {
         }
         let pid = |index: usize| {
             let living = self.processes[index].as_ref().filter(|process| process.ended.is_none());
-            living.map(|process| process.running.group().as_raw_pid())
+            living.map(|process| process.running.group.as_raw_pid())
         };
         run.requests.answer(&run.state, &pid);
     }

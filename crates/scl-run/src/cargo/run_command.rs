@@ -58,17 +58,15 @@ impl CargoRun {
             if !is_joined && WITH_VALUE.contains(&name) {
                 value = Some(rest.next()?.clone());
             }
-            let chosen = |name: &str| {
-                value.clone().map(|value| if name == "--bin" { Target::Bin(value) } else { Target::Example(value) })
-            };
             match name {
                 "--" => break,
                 "-q" | "--quiet" => {}
                 "--message-format" => return None,
                 "--bin" | "--example" if target != Target::Only => return None,
                 "--bin" | "--example" => {
-                    target = chosen(name)?;
-                    choice = vec![name.to_owned(), value?];
+                    let value = value?;
+                    choice = vec![name.to_owned(), value.clone()];
+                    target = if name == "--bin" { Target::Bin(value) } else { Target::Example(value) };
                 }
                 _ => {
                     build.push(word.clone());

@@ -4,13 +4,12 @@ use super::client::{ControlledRun, NoAnswer, find_runs};
 use super::protocol::{Command, ComponentReport, Request, Response};
 use scl::runtime_dir::{Announcement, ComponentProcess, ComponentState, RuntimeDir, SystemDir};
 use scl_terminal::{Problem, choose_system, named_system, quoted_list};
-use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::thread;
 
 /// What to do, and in which system.
-pub struct Wish<'a> {
+pub struct ControlOptions<'a> {
     /// Stop or restart.
     pub command: Command,
     /// The components; all if empty.
@@ -46,21 +45,21 @@ struct Answering {
 /// # Errors
 ///
 /// Every reason why nothing was done.
-pub fn ask(wish: &Wish<'_>) -> Result<Done, Vec<Problem>> {
+pub fn ask(options: &ControlOptions<'_>) -> Result<Done, Vec<Problem>> {
     let variables = |name: &str| -> Option<OsString> { std::env::var_os(name) };
     let dir = RuntimeDir::existing(&variables).map_err(|error| vec![Problem::new(error.to_string())])?;
-    let Some(dir) = dir else { return Err(vec![no_run(wish, None)]) };
-    let named = named_system(wish.system, &variables).map_err(|problem| vec![problem])?;
+    let Some(dir) = dir else { return Err(vec![no_run(options, None)]) };
+    let named = named_system(options.system, &variables).map_err(|problem| vec![problem])?;
     let mut runs = find_runs(dir.path(), named.as_deref());
-    let systems: BTreeSet<String> = runs.iter().map(|run| run.system.clone()).collect();
-    let systems: Vec<String> = systems.into_iter().collect();
-    let system = choose_system(wish.system, &variables, &systems, wish.here).map_err(|problem| vec![problem])?;
+    let mut systems: Vec<String> = runs.iter().map(|run| run.system.clone()).collect();
+    systems.dedup();
+    let system = choose_system(options.system, &variables, &systems, options.here).map_err(|problem| vec![problem])?;
     runs.retain(|run| system.as_ref() == Some(&run.system));
     let folder = system.and_then(|name| dir.existing_system(&name).ok().flatten());
     let mut done = Done::default();
     let answering = list(runs, &mut done.problems);
     if named.is_none() {
-        let here = (wish.named_after_here)();
+        let here = (options.named_after_here)();
         let other = |it: &Answering| {
             let problem = it.run.other_system(it.named_after.as_deref(), here.as_deref())?;
             Some(problem.help(format!("if you mean the one that runs: `--system {}`", it.run.system)))
@@ -70,18 +69,18 @@ pub fn ask(wish: &Wish<'_>) -> Result<Done, Vec<Problem>> {
             return Err(others);
         }
     }
-    let requests = match assign(wish, answering, folder.as_ref()) {
+    let requests = match assign(options, answering, folder.as_ref()) {
         Ok(requests) => requests,
         // The runs that do not answer may have what was not found.
         Err(_) if !done.problems.is_empty() => return Err(done.problems),
         Err(problems) => return Err(problems),
     };
-    if !wish.components.is_empty() {
+    if !options.components.is_empty() {
         // All of them were found elsewhere.
         done.problems.clear();
     }
-    if wish.command == Command::Restart
-        && wish.build
+    if options.command == Command::Restart
+        && options.build
         && let Err(problem) = build(&requests)
     {
         return Ok(Done { problems: vec![problem], ..Done::default() });
@@ -102,7 +101,7 @@ pub fn ask(wish: &Wish<'_>) -> Result<Done, Vec<Problem>> {
             Err(problem) => done.problems.push(problem),
         }
     }
-    if wish.command == Command::Stop && wish.components.is_empty() {
+    if options.command == Command::Stop && options.components.is_empty() {
         done.problems.extend(folder.iter().flat_map(still_running));
     }
     if done.components.is_empty() && !done.problems.is_empty() { Err(done.problems) } else { Ok(done) }
@@ -158,30 +157,30 @@ fn without_run(name: &str, holder: ComponentProcess, command: Command) -> Proble
 
 /// Which run is asked for what.
 fn assign(
-    wish: &Wish<'_>,
+    options: &ControlOptions<'_>,
     runs: Vec<Answering>,
     folder: Option<&SystemDir>,
 ) -> Result<Vec<(ControlledRun, Request)>, Vec<Problem>> {
-    if wish.components.is_empty() {
+    if options.components.is_empty() {
         if runs.is_empty() {
-            return Err(vec![no_run(wish, folder)]);
+            return Err(vec![no_run(options, folder)]);
         }
-        return Ok(runs.into_iter().map(|it| (it.run, Request::new(wish.command, Vec::new()))).collect());
+        return Ok(runs.into_iter().map(|it| (it.run, Request::new(options.command, Vec::new()))).collect());
     }
     let mut chosen: Vec<Vec<String>> = vec![Vec::new(); runs.len()];
     let mut problems = Vec::new();
-    for name in wish.components {
+    for name in options.components {
         match run_of(name, &runs) {
             Some(index) if chosen[index].contains(name) => {}
             Some(index) => chosen[index].push(name.clone()),
-            None => problems.push(not_run(wish, name, &runs, folder)),
+            None => problems.push(not_run(options, name, &runs, folder)),
         }
     }
     if !problems.is_empty() {
         return Err(problems);
     }
     let asked = runs.into_iter().zip(chosen).filter(|(_, names)| !names.is_empty());
-    Ok(asked.map(|(it, names)| (it.run, Request::new(wish.command, names))).collect())
+    Ok(asked.map(|(it, names)| (it.run, Request::new(options.command, names))).collect())
 }
 
 /// The run that has a component: one where it has a process, if any.
@@ -191,13 +190,13 @@ fn run_of(name: &str, runs: &[Answering]) -> Option<usize> {
     having.max_by_key(|(_, report)| report.pid.is_some()).map(|(index, _)| index)
 }
 
-fn not_run(wish: &Wish<'_>, name: &str, runs: &[Answering], folder: Option<&SystemDir>) -> Problem {
+fn not_run(options: &ControlOptions<'_>, name: &str, runs: &[Answering], folder: Option<&SystemDir>) -> Problem {
     if let Some(ComponentState::Running(holder)) = folder.map(|folder| folder.state(name)) {
-        return without_run(name, holder, wish.command);
+        return without_run(name, holder, options.command);
     }
     let names: Vec<&str> = runs.iter().flat_map(|run| &run.components).map(|it| it.component.as_str()).collect();
     if names.is_empty() {
-        return no_run(wish, folder);
+        return no_run(options, folder);
     }
     let problem = Problem::new(format!("no `scl run` has a component `{name}`"));
     let problem = problem.did_you_mean(name, names.iter().copied());
@@ -211,8 +210,8 @@ fn missing_session() -> Option<PathBuf> {
     session.map(PathBuf::from).filter(|session| !session.exists())
 }
 
-fn no_run(wish: &Wish<'_>, folder: Option<&SystemDir>) -> Problem {
-    let message = match wish.system {
+fn no_run(options: &ControlOptions<'_>, folder: Option<&SystemDir>) -> Problem {
+    let message = match options.system {
         Some(system) => format!("no `scl run` is running in system `{system}`"),
         None => "no `scl run` is running".to_owned(),
     };

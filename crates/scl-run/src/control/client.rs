@@ -148,7 +148,9 @@ impl ControlledRun {
     /// Looks whether an answer may still come: a stop takes as long as the programs take, but how they are is known at
     /// once.
     fn look(&self, command: Command, began: Instant) -> Result<(), NoAnswer> {
-        if self.is_stopped() {
+        // By a signal or by a debugger.
+        let stat = Pid::from_raw(self.process.cast_signed()).and_then(ProcessStat::of);
+        if stat.is_some_and(|stat| stat.is_stopped || stat.is_traced) {
             return Err(NoAnswer::Stopped);
         }
         match (began.elapsed() >= PATIENCE, command) {
@@ -160,11 +162,5 @@ impl ControlledRun {
                 _ => Ok(()),
             },
         }
-    }
-
-    /// Whether its process is stopped, by a signal or by a debugger.
-    fn is_stopped(&self) -> bool {
-        let stat = Pid::from_raw(self.process.cast_signed()).and_then(ProcessStat::of);
-        stat.is_some_and(|stat| stat.is_stopped || stat.is_traced)
     }
 }

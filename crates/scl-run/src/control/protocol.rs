@@ -138,10 +138,4 @@ impl Response {
     pub fn error(text: impl Into<String>) -> Self {
         Self { error: Some(text.into()), ..Self::of(Vec::new()) }
     }
-
-    /// The line, without its end.
-    pub fn to_json(&self) -> String {
-        // Strings and numbers can always be written.
-        serde_json::to_string(self).unwrap_or_default()
-    }
 }

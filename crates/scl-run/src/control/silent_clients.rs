@@ -1,53 +1,35 @@
 //! The clients of the control socket that have not sent a request yet. A new client always gets a place: the oldest of
 //! them is disconnected for it, so that clients that say nothing do not keep others out.
 
+use super::super::lock::lock;
 use std::collections::VecDeque;
-use std::io;
 use std::net::Shutdown;
 use std::os::unix::net::UnixStream;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 
 /// How many there may be. A client usually sends its request as soon as it is connected.
 const MOST: usize = 32;
 
-/// The silent clients, oldest first, with their numbers.
+/// The silent clients, oldest first.
 #[derive(Debug, Default)]
-pub(super) struct SilentClients(Mutex<Clients>);
-
-#[derive(Debug, Default)]
-struct Clients {
-    next: u64,
-    silent: VecDeque<(u64, UnixStream)>,
-}
+pub(super) struct SilentClients(Mutex<VecDeque<Arc<UnixStream>>>);
 
 impl SilentClients {
-    /// Adds a client and returns its number. Disconnects the oldest one if there are too many.
-    ///
-    /// # Errors
-    ///
-    /// If the process is out of file descriptors.
-    pub(super) fn add(&self, client: &UnixStream) -> io::Result<u64> {
-        let client = client.try_clone()?;
-        let mut clients = self.lock();
-        let number = clients.next;
-        clients.next += 1;
-        clients.silent.push_back((number, client));
-        if clients.silent.len() > MOST
-            && let Some((_, oldest)) = clients.silent.pop_front()
+    /// Adds a client. Disconnects the oldest one if there are too many.
+    pub(super) fn add(&self, client: &Arc<UnixStream>) {
+        let mut silent = lock(&self.0);
+        silent.push_back(Arc::clone(client));
+        if silent.len() > MOST
+            && let Some(oldest) = silent.pop_front()
         {
             // Ends the read of its thread.
             let _ = oldest.shutdown(Shutdown::Both);
         }
-        Ok(number)
     }
 
     /// Takes a client out that has sent its request or has gone.
-    pub(super) fn remove(&self, number: u64) {
-        self.lock().silent.retain(|(other, _)| *other != number);
-    }
-
-    fn lock(&self) -> MutexGuard<'_, Clients> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    pub(super) fn remove(&self, client: &Arc<UnixStream>) {
+        lock(&self.0).retain(|other| !Arc::ptr_eq(other, client));
     }
 }
 
@@ -63,18 +45,19 @@ mod tests {
         let mut add = || {
             let (near, far) = UnixStream::pair().unwrap();
             far.set_nonblocking(true).unwrap();
-            let number = clients.add(&near).unwrap();
-            ends.push((near, far));
-            number
+            let near = Arc::new(near);
+            clients.add(&near);
+            ends.push((Arc::clone(&near), far));
+            near
         };
         let first = add();
-        let second = add();
-        clients.remove(first);
+        add();
+        clients.remove(&first);
         (2..=MOST).for_each(|_| _ = add());
-        assert_eq!(clients.lock().silent.len(), MOST);
+        assert_eq!(lock(&clients.0).len(), MOST);
         add();
         let is_disconnected = |mut far: &UnixStream| far.read(&mut [0]).is_ok_and(|count| count == 0);
         let disconnected: Vec<usize> = (0..ends.len()).filter(|index| is_disconnected(&ends[*index].1)).collect();
-        assert_eq!(disconnected, [usize::try_from(second).unwrap()]);
+        assert_eq!(disconnected, [1]);
     }
 }

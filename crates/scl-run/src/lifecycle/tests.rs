@@ -33,7 +33,7 @@ fn story(policy: Policy, inputs: &[(u64, Input)]) -> (Lifecycle, Vec<Action>) {
 fn check(policy: Policy, inputs: &[(u64, Input)], expected: &[Action], state: State) {
     let (component, actions) = story(policy, inputs);
     assert_eq!(actions, expected);
-    assert_eq!(component.state(), state);
+    assert_eq!(component.state, state);
 }
 
 fn report(text: &str) -> Action {
@@ -75,10 +75,13 @@ fn the_limit_of_restarts_ends_it() {
     };
     let inputs = [(0, EXIT_3), (100, Input::Time), (100, Input::Started), (100, EXIT_3)];
     let (component, actions) = story(policy, &inputs);
-    assert_eq!(component.state(), State::Ended(Verdict::Failed));
+    assert_eq!(component.state, State::Ended(Verdict::Failed));
     assert_eq!(actions.last(), Some(&report("not restarted: the restart limit (1 in 1s) is reached")));
-    assert_eq!(component.failure(), Some("ended with exit code 3, and the restart limit (1 in 1s) is reached"));
-    assert_eq!(component.restarts(), 1);
+    assert_eq!(
+        component.failure.as_deref(),
+        Some("ended with exit code 3, and the restart limit (1 in 1s) is reached")
+    );
+    assert_eq!(component.restarts.total, 1);
 }
 
 #[test]
@@ -87,7 +90,7 @@ fn a_program_that_cannot_be_started_is_a_failure_like_others() {
     component.step(Time::ZERO, Input::Time);
     let actions = component.step(millis(1), Input::CannotStart("no memory".to_owned()));
     assert_eq!(actions, [report("cannot be started: no memory"), report("restarting in 100ms")]);
-    assert_eq!(component.state(), waiting(101));
+    assert_eq!(component.state, waiting(101));
 }
 
 #[test]
@@ -106,7 +109,7 @@ fn not_ready_in_time_is_a_failure_with_its_reason() {
         waiting(5200),
     );
     let (component, _) = story(watched(), &[(4000, Input::Notified(Notice::Ready))]);
-    assert_eq!((component.state(), component.due()), (State::Ready, Some(millis(4500))));
+    assert_eq!((component.state, component.due()), (State::Ready, Some(millis(4500))));
 }
 
 #[test]
@@ -215,9 +218,9 @@ fn a_wrong_program_fails_for_good_and_is_given_time_to_say_so() {
     let refused = (10, Input::Refused("opens `gps`".to_owned()));
     let expected = [report("opens `gps`"), end(3, 20)];
     let (component, actions) = story(watched(), &[refused.clone(), (20, EXIT_3)]);
-    assert_eq!((actions.as_slice(), component.state()), (&expected[..], State::Ended(Verdict::Failed)));
-    assert_eq!(component.failure(), Some("opens `gps`"));
+    assert_eq!((actions.as_slice(), component.state), (&expected[..], State::Ended(Verdict::Failed)));
+    assert_eq!(component.failure.as_deref(), Some("opens `gps`"));
     let (component, actions) = story(watched(), &[refused, (5010, Input::Time)]);
     assert_eq!(actions[1..], [report("not stopped within 5s, killed"), Action::Signal(Signal::KILL)]);
-    assert_eq!(component.failure(), Some("opens `gps`"));
+    assert_eq!(component.failure.as_deref(), Some("opens `gps`"));
 }

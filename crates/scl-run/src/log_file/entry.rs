@@ -1,5 +1,6 @@
 //! One line of a log, written and read.
 
+use super::LONGEST_TEXT;
 use scl_terminal::timestamp;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
@@ -48,40 +49,15 @@ pub struct LogEntry {
 }
 
 impl LogEntry {
-    /// Reads a line of a log file. `None` for anything else, such as a line that a full disk has cut.
-    pub(super) fn from_line(line: &[u8]) -> Option<Self> {
-        serde_json::from_slice(line).ok()
-    }
-}
-
-/// A line to be written.
-pub(super) struct Entry<'a> {
-    pub(super) time: SystemTime,
-    pub(super) component: &'a str,
-    pub(super) stream: LogStream,
-    pub(super) run: u64,
-    pub(super) text: &'a [u8],
-}
-
-impl Entry<'_> {
-    /// The line with its end; at most `longest` bytes of the text are kept.
-    pub(super) fn to_line(&self, longest: usize) -> String {
-        let kept = &self.text[..cut(self.text, longest)];
+    /// A line that is printed now, of which at most [`LONGEST_TEXT`] bytes are kept.
+    pub(super) fn new(component: &str, stream: LogStream, run: u64, line: &[u8]) -> Self {
+        let kept = &line[..cut(line, LONGEST_TEXT)];
         let (text, escaped) = match std::str::from_utf8(kept) {
             Ok(text) => (text.to_owned(), false),
             Err(_) => (escape_reversibly(kept), true),
         };
-        let entry = LogEntry {
-            time: timestamp(self.time),
-            component: self.component.to_owned(),
-            stream: self.stream,
-            run: self.run,
-            text,
-            escaped,
-            cut_bytes: (self.text.len() - kept.len()) as u64,
-        };
-        // Strings and numbers always become JSON.
-        serde_json::to_string(&entry).unwrap_or_default() + "\n"
+        let (time, component) = (timestamp(SystemTime::now()), component.to_owned());
+        Self { time, component, stream, run, text, escaped, cut_bytes: (line.len() - kept.len()) as u64 }
     }
 }
 

@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 /// The folder with the logs of one system.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LogFolder {
-    path: PathBuf,
+    /// Its path.
+    pub path: PathBuf,
 }
 
 impl LogFolder {
@@ -25,11 +26,6 @@ impl LogFolder {
         let mut systems = names(&folder);
         systems.retain(|name| !Self { path: folder.join(name) }.components().is_empty());
         systems
-    }
-
-    /// Its path.
-    pub fn path(&self) -> &Path {
-        &self.path
     }
 
     /// The names of the components that have a log, sorted.

@@ -40,11 +40,12 @@ impl LogReader {
             let id = *id;
             file.read_until(b'\n', &mut self.line)?;
             if self.line.ends_with(b"\n") {
-                let entry = LogEntry::from_line(&self.line);
+                let entry = serde_json::from_slice(&self.line);
                 self.line.clear();
                 match entry {
-                    Some(entry) => return Ok(Some(entry)),
-                    None => continue,
+                    Ok(entry) => return Ok(Some(entry)),
+                    // Such as a line that a full disk has cut.
+                    Err(_) => continue,
                 }
             }
             // At the end of the file. What was written before it was rotated is read before its successor.

@@ -29,14 +29,14 @@ fn lines_are_read_as_they_were_written() {
     assert_eq!((read[2].text.len(), read[2].run, read[2].cut_bytes), (LONGEST_TEXT - 1, 2, 6));
     assert!(!read[2].escaped, "no character is cut in two");
 
-    let text = fs::read_to_string(folder.path().join("sensor.log")).unwrap();
+    let text = fs::read_to_string(folder.path.join("sensor.log")).unwrap();
     let first: serde_json::Value = serde_json::from_str(text.lines().next().unwrap()).unwrap();
     let keys: Vec<&str> = first.as_object().unwrap().keys().map(String::as_str).collect();
     assert_eq!(keys, ["component", "run", "stream", "text", "time"]);
 
     drop(log);
     let log = LogFile::open(&folder, "sensor").unwrap();
-    log.write(LogStream::Stdout, 1, b"again").unwrap();
+    log.write(LogStream::Stdout, log.begin(LogStream::Stdout), b"again").unwrap();
     assert_eq!(entries(&mut LogReader::new(&folder, "sensor")).last().unwrap().run, 3, "runs are counted on");
 }
 
@@ -72,7 +72,7 @@ fn torn_and_foreign_lines_are_passed_over() {
     let log = LogFile::open(&folder, "sensor").unwrap();
     log.write(LogStream::Stdout, 1, b"one").unwrap();
     drop(log);
-    let mut file = OpenOptions::new().append(true).open(folder.path().join("sensor.log")).unwrap();
+    let mut file = OpenOptions::new().append(true).open(folder.path.join("sensor.log")).unwrap();
     file.write_all(b"nonsense\n\xff\n{\"time\":\"2026").unwrap();
     let log = LogFile::open(&folder, "sensor").unwrap();
     log.write(LogStream::Stdout, 1, b"two").unwrap();
@@ -105,7 +105,7 @@ fn folders_are_private_and_names_stay_inside() {
     }
     drop(log);
     let env = |name: &str| (name == "HOME").then(|| root.path().into());
-    assert_eq!(LogFolder::of("rover", &env).unwrap().path(), root.path().join(".local/state/scl/rover"));
+    assert_eq!(LogFolder::of("rover", &env).unwrap().path, root.path().join(".local/state/scl/rover"));
     assert_eq!(LogFolder::of("../rover", &env), None);
     assert_eq!(LogFolder::of("rover", &|_| None), None);
     assert_eq!(LogFolder::of("rover", &|name| (name == "XDG_STATE_HOME").then(|| "relative".into())), None);

@@ -1,5 +1,6 @@
 //! Lines on their way to the streams of this process.
 
+use super::super::lock::lock;
 use super::LogStream;
 use scl_terminal::{output_is_closed, print_out_bytes};
 use std::collections::{BTreeMap, VecDeque};
@@ -56,7 +57,7 @@ pub(super) struct Written {
 impl Backlog {
     /// Adds a line of a program, or drops and counts it.
     pub(super) fn add_line(&self, program: usize, stream: LogStream, line: &[u8]) {
-        let mut state = self.lock();
+        let mut state = lock(&self.state);
         let is_huge = line.len() > HUGE;
         if is_huge {
             state = self.wait(state, STALLED, |state| state.has_huge);
@@ -70,14 +71,14 @@ impl Backlog {
     }
 
     /// Adds a report, which is never dropped.
-    pub(super) fn add_report(&self, line: &[u8]) {
-        self.lock().add(LogStream::Stderr, true, line);
+    pub(super) fn add_report(&self, line: &str) {
+        lock(&self.state).add(LogStream::Stderr, true, line.as_bytes());
         self.changed.notify_all();
     }
 
     /// Waits until everything is written, or until nothing was written for as long as this.
     pub(super) fn finish(&self, patience: Duration) {
-        drop(self.wait(self.lock(), patience, |state| state.is_writing || !state.parts.is_empty()));
+        drop(self.wait(lock(&self.state), patience, |state| state.is_writing || !state.parts.is_empty()));
     }
 
     /// Waits while a condition holds and something is written now and then.
@@ -105,7 +106,7 @@ impl Backlog {
         for part in parts {
             let written = part.bytes.chunks(CHUNK).try_for_each(|chunk| {
                 write(part.stream, chunk)?;
-                self.lock().written += chunk.len() as u64;
+                lock(&self.state).written += chunk.len() as u64;
                 self.changed.notify_all();
                 Ok::<_, io::Error>(())
             });
@@ -117,7 +118,7 @@ impl Backlog {
 
     /// Waits for something to write. What was dropped comes after it.
     fn take(&self) -> (VecDeque<Part>, BTreeMap<usize, u64>) {
-        let mut state = self.lock();
+        let mut state = lock(&self.state);
         state.is_writing = false;
         self.changed.notify_all();
         let is_idle = |state: &mut State| state.parts.is_empty();
@@ -125,10 +126,6 @@ impl Backlog {
         state.is_writing = true;
         (state.bytes, state.has_huge) = (0, false);
         (std::mem::take(&mut state.parts), std::mem::take(&mut state.dropped))
-    }
-
-    fn lock(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -166,7 +163,7 @@ mod tests {
         let line = vec![b'x'; HUGE];
         (0..LONGEST / HUGE).for_each(|_| backlog.add_line(0, LogStream::Stdout, &line));
         [1, 0, 1].into_iter().for_each(|program| backlog.add_line(program, LogStream::Stdout, b"one more"));
-        backlog.add_report(b"report\n");
+        backlog.add_report("report\n");
         let (parts, dropped) = backlog.take();
         let lengths: Vec<_> = parts.iter().map(|part| (part.stream, part.bytes.len())).collect();
         assert_eq!(lengths, [(LogStream::Stdout, LONGEST), (LogStream::Stderr, 7)]);
@@ -192,7 +189,7 @@ mod tests {
         {
             backlog.add_line(0, stream, line.as_bytes());
         }
-        backlog.add_report(b"5");
+        backlog.add_report("5");
         let (parts, _) = backlog.take();
         let texts: Vec<_> = parts.iter().map(|part| String::from_utf8_lossy(&part.bytes).into_owned()).collect();
         assert_eq!(texts, ["12", "3", "4", "5"]);

@@ -2,7 +2,7 @@
 
 use super::super::ending::Ending;
 use super::super::lifecycle::{Notice, StopReason};
-use super::super::policy::{Restart, RestartDelay, RestartLimit};
+use super::super::policy::{Restart, RestartLimit};
 use super::*;
 use proptest::prelude::*;
 use std::time::Duration;
@@ -34,12 +34,12 @@ impl World {
             }
             self.alive[index] = false;
         }
-        let was_stopping = self.state.stopping().is_some();
+        let was_stopping = self.state.stopping.is_some();
         let mut actions = self.state.step(self.now, event);
         while !actions.is_empty() {
             let (index, action) = actions.remove(0);
             match action {
-                Action::Start if self.state.components()[index].state() == State::Starting => {
+                Action::Start if self.state.components()[index].state == State::Starting => {
                     assert!(!self.alive[index], "a second process");
                     assert!(!was_stopping, "a start while stopping");
                     (self.alive[index], self.killed[index]) = (true, false);
@@ -54,22 +54,22 @@ impl World {
 
     fn check(&self) {
         for (component, &alive) in self.state.components().iter().zip(&self.alive) {
-            let has_process = matches!(component.state(), State::Running | State::Ready | State::Stopping { .. });
+            let has_process = matches!(component.state, State::Running | State::Ready | State::Stopping { .. });
             assert_eq!(has_process, alive, "{component:?}");
-            if let State::Stopping { reason: StopReason::Everything(_), .. } = component.state() {
-                assert!(self.state.stopping().is_some());
+            if let State::Stopping { reason: StopReason::Everything(_), .. } = component.state {
+                assert!(self.state.stopping.is_some());
             }
         }
         if self.state.failed().is_some() {
-            assert!(self.state.stopping().is_some(), "a failure stops all");
+            assert!(self.state.stopping.is_some(), "a failure stops all");
         }
-        if self.state.stopping().is_some() {
+        if self.state.stopping.is_some() {
             let is_ending = |state| matches!(state, State::Stopping { .. } | State::Ended(_));
             let components = || self.state.components().iter().enumerate();
             let others = || components().filter(|(index, _)| Some(*index) != self.state.last);
-            assert!(others().all(|(_, it)| is_ending(it.state())), "all are being stopped");
-            if others().all(|(_, it)| matches!(it.state(), State::Ended(_))) {
-                assert!(components().all(|(_, it)| is_ending(it.state())), "the last one too, when its turn has come");
+            assert!(others().all(|(_, it)| is_ending(it.state)), "all are being stopped");
+            if others().all(|(_, it)| matches!(it.state, State::Ended(_))) {
+                assert!(components().all(|(_, it)| is_ending(it.state)), "the last one too, when its turn has come");
             }
         }
     }
@@ -97,7 +97,7 @@ fn policy() -> impl Strategy<Value = Policy> {
     (restart, any::<bool>(), 0..4_usize, 0..3000_u64, limit(), limit()).prop_map(
         |(restart, essential, count, stop_within, ready_within, alive_within)| Policy {
             restart,
-            delay: RestartDelay::default(),
+            delay: Policy::default().delay,
             limit: RestartLimit { count, within: Duration::from_secs(2) },
             essential,
             stop_within: Duration::from_millis(stop_within),
@@ -155,9 +155,9 @@ proptest! {
         let mut restarts = Vec::new();
         for pause in pauses {
             world.now += Duration::from_millis(pause);
-            let before = world.state.components()[0].restarts();
+            let before = world.state.components()[0].restarts.total;
             world.step(RunEvent::One(0, Input::Exited(Ending::Exited(1))));
-            if world.state.components()[0].restarts() > before {
+            if world.state.components()[0].restarts.total > before {
                 restarts.push(world.now);
             }
             world.step(RunEvent::Time);
@@ -174,9 +174,9 @@ fn a_failure_of_a_component_that_is_not_essential_stops_nothing() {
     let optional = Policy { essential: false, ..Policy::default() };
     let mut world = World::new(vec![optional, Policy::default()], None);
     world.step(RunEvent::One(0, Input::Exited(Ending::Exited(1))));
-    assert_eq!((world.state.stopping(), world.state.failed()), (None, None));
+    assert_eq!((world.state.stopping, world.state.failed()), (None, None));
     world.step(RunEvent::One(1, Input::Exited(Ending::Exited(1))));
-    assert_eq!((world.state.stopping(), world.state.failed()), (Some(Signal::TERM), Some(1)));
+    assert_eq!((world.state.stopping, world.state.failed()), (Some(Signal::TERM), Some(1)));
 }
 
 fn always() -> Policy {
@@ -188,13 +188,13 @@ fn the_last_one_is_stopped_when_all_others_have_ended() {
     let mut world = World::new(vec![always(), Policy::default(), Policy::default()], Some(0));
     world.step(RunEvent::Stop(Signal::INT));
     let exited = |index| RunEvent::One(index, Input::Exited(Ending::Exited(0)));
-    let is_running = |world: &World| world.state.components()[0].state() == State::Running;
+    let is_running = |world: &World| world.state.components()[0].state == State::Running;
     assert!(is_running(&world));
     world.step(exited(2));
     assert!(is_running(&world));
     world.step(exited(1));
     let told = StopReason::Everything(Signal::INT);
-    assert!(matches!(world.state.components()[0].state(), State::Stopping { reason, .. } if reason == told));
+    assert!(matches!(world.state.components()[0].state, State::Stopping { reason, .. } if reason == told));
     world.step(exited(0));
     assert!(world.state.is_over() && world.state.failed().is_none());
 }
@@ -237,12 +237,12 @@ fn the_last_one_ends_with_the_others_but_runs_alone() {
     let exited = |index| RunEvent::One(index, Input::Exited(Ending::Exited(0)));
     let mut world = World::new(vec![always(), Policy::default()], Some(0));
     world.step(exited(1));
-    assert!(matches!(world.state.components()[0].state(), State::Stopping { .. }));
+    assert!(matches!(world.state.components()[0].state, State::Stopping { .. }));
     let mut alone = World::new(vec![always()], Some(0));
     alone.step(RunEvent::Time);
-    assert_eq!((alone.state.components()[0].state(), alone.state.stopping()), (State::Running, None));
+    assert_eq!((alone.state.components()[0].state, alone.state.stopping), (State::Running, None));
     alone.step(RunEvent::Stop(Signal::TERM));
-    assert!(matches!(alone.state.components()[0].state(), State::Stopping { .. }));
+    assert!(matches!(alone.state.components()[0].state, State::Stopping { .. }));
 }
 
 #[test]
@@ -250,6 +250,6 @@ fn the_last_one_is_not_restarted_while_the_others_stop() {
     let mut world = World::new(vec![always(), Policy::default()], Some(0));
     world.step(RunEvent::Stop(Signal::TERM));
     world.step(RunEvent::One(0, Input::Exited(Ending::Killed(Signal::SEGV.as_raw()))));
-    assert!(matches!(world.state.components()[0].state(), State::Ended(_)));
+    assert!(matches!(world.state.components()[0].state, State::Ended(_)));
     assert_eq!(world.state.failed(), None);
 }
