@@ -86,7 +86,7 @@ pub(crate) fn echo(arguments: &EchoArguments) -> Result<ExitCode, Problem> {
 
 async fn run(arguments: &EchoArguments) -> Result<ExitCode, Problem> {
     let mut stop = StopSignals::watch()?;
-    let system = arguments.system.find_or_await()?;
+    let system = System::find_or_await(arguments.system.name())?;
     let selection = Selection::new(&system, &arguments.gates, &[], Path::new(TOPOLOGY))?;
     note_where_seen(&system, &selection, &arguments.gates);
     let mut taps = Taps::follow_all(&system, {
@@ -163,7 +163,7 @@ async fn run(arguments: &EchoArguments) -> Result<ExitCode, Problem> {
     }
     watched.iter_mut().for_each(Watched::note_lost);
     if limit != Some(shown) && io::stderr().is_terminal() {
-        let lost: u64 = watched.iter().map(Watched::lost).sum();
+        let lost: u64 = watched.iter().map(|gate| gate.lost).sum();
         let seconds = started.elapsed().as_secs_f64();
         print_err(&format!("{shown} messages in {seconds:.1} s, {lost} lost\n"));
     }

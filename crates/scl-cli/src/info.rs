@@ -48,7 +48,7 @@ pub(crate) fn info(arguments: &InfoArguments) -> Result<ExitCode, Problem> {
         recording::print_recording(&arguments.name, arguments.format)?;
         return Ok(ExitCode::SUCCESS);
     }
-    let system = arguments.system.find()?;
+    let system = System::find(arguments.system.name())?;
     let (component, gate) = system.component_and_gate(&arguments.name)?;
     let reading = Reading::take(&system, component);
     arguments.format.print(|| reading.to_json(gate), || reading.text(gate));

@@ -37,7 +37,7 @@ pub(crate) struct ListArguments {
 
 /// The body of `scl list`.
 pub(crate) fn list(arguments: &ListArguments) -> Result<ExitCode, Problem> {
-    let (systems, now) = (arguments.system.find_all()?, SystemTime::now());
+    let (systems, now) = (System::find_all(arguments.system.name())?, SystemTime::now());
     if arguments.format.is_json() {
         let mut values: Vec<Value> = systems.iter().map(|system| to_json(system, &system.components(), now)).collect();
         print_json(&if values.len() == 1 { values.remove(0) } else { json!({"systems": values}) });

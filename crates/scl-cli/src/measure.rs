@@ -3,7 +3,7 @@
 use crate::format::FormatArgument;
 use crate::observed::SystemArgument;
 use clap::Args;
-use scl_observe::{GateReport, Measurement, Meter, ObservedGate, StopSignals, at_taps};
+use scl_observe::{GateReport, Measurement, Meter, ObservedGate, StopSignals, System, at_taps};
 use scl_terminal::{
     Problem, escape_json, output_is_closed, output_width, parse_duration, print_err, print_out, quoted_list, shorten,
 };
@@ -62,7 +62,7 @@ pub(crate) async fn measure<M: Shown + 'static>(
     new_meter: impl Fn() -> M + 'static,
 ) -> Result<ExitCode, Problem> {
     let mut stop = StopSignals::watch()?;
-    let system = arguments.system.find()?;
+    let system = System::find(arguments.system.name())?;
     let mut measurement = if gates.is_empty() {
         Measurement::of_all(&system, new_meter)
     } else {

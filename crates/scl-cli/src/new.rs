@@ -47,15 +47,6 @@ enum Template {
     Control,
 }
 
-impl From<Template> for scl_new::Template {
-    fn from(template: Template) -> Self {
-        match template {
-            Template::Minimal => Self::Minimal,
-            Template::Control => Self::Control,
-        }
-    }
-}
-
 /// The body of `scl new`.
 pub(crate) fn new(arguments: &NewArguments) -> Result<ExitCode, Problem> {
     let name = &arguments.name;
@@ -64,7 +55,11 @@ pub(crate) fn new(arguments: &NewArguments) -> Result<ExitCode, Problem> {
         (None, Some(path)) => Source::Folder(path.clone()),
         (None, None) => Source::OfThisProgram,
     };
-    let project = Project { name: name.clone(), template: arguments.template.into(), scl };
+    let template = match arguments.template {
+        Template::Minimal => scl_new::Template::Minimal,
+        Template::Control => scl_new::Template::Control,
+    };
+    let project = Project { name: name.clone(), template, scl };
     let created = create(Path::new("."), &project)?;
     let count = created.files.len();
     print_err(&format!("created `{name}` with {count} files; it uses SCL from {}\n", created.scl));

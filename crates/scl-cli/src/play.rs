@@ -8,7 +8,7 @@ use scl::runtime_dir::{ComponentState, RuntimeDir, SystemDir};
 use scl::untyped::Component;
 use scl_observe::{System, problem_of};
 use scl_plan::{GateKind, GatePlan, Plan, SystemPlan};
-use scl_terminal::{Problem, closest_name, escape, named_system, quoted_list};
+use scl_terminal::{Problem, choose_system, closest_name, escape, named_system, quoted_list};
 use scl_value::MessageType;
 use std::path::{Path, PathBuf};
 
@@ -36,11 +36,11 @@ enum Source {
 
 impl Plans {
     pub(crate) fn find(arguments: &PlayArguments) -> Result<Self, Problem> {
-        let system = arguments.system.system.clone();
+        let system = arguments.system.name().map(str::to_owned);
         let file = match &arguments.topology {
             Some(file) => file.as_path(),
             None if Path::new(TOPOLOGY).is_file() => Path::new(TOPOLOGY),
-            None => return Ok(Self { source: Source::Announcements(arguments.system.find()?), system }),
+            None => return Ok(Self { source: Source::Announcements(System::find(arguments.system.name())?), system }),
         };
         let loaded = load_file(file, MaxSize::default());
         let shown = shown_path(file);
@@ -50,10 +50,14 @@ impl Plans {
             return Err(problem.help("correct the errors above, or choose another file with `--topology FILE`"));
         };
         // The file in the working folder may be that of another system. `SCL_SYSTEM` gives this one another name.
-        if arguments.topology.is_none() && (system.is_some() || !arguments.system.is_named()?) {
-            let chosen = arguments.system.choose(&|| Some(plans.system.clone()))?;
+        let variables = |name: &str| std::env::var_os(name);
+        let name = arguments.system.name();
+        if arguments.topology.is_none() && (name.is_some() || named_system(name, &variables)?.is_none()) {
+            let runtime_dir = RuntimeDir::existing(&variables).ok().flatten();
+            let running = runtime_dir.and_then(|dir| dir.running_systems().ok()).unwrap_or_default();
+            let chosen = choose_system(name, &variables, &running, &|| Some(plans.system.clone()))?;
             if chosen.is_some_and(|chosen| chosen != plans.system) {
-                return Ok(Self { source: Source::Announcements(arguments.system.find()?), system });
+                return Ok(Self { source: Source::Announcements(System::find(arguments.system.name())?), system });
             }
         }
         Ok(Self { source: Source::Topology { plans, file: shown }, system })

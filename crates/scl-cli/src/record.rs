@@ -101,13 +101,13 @@ fn parse_limit(text: &str) -> Result<Limit, String> {
 /// The body of `scl record`.
 pub(crate) fn record(arguments: &RecordArguments) -> Result<ExitCode, Problem> {
     if arguments.trigger {
-        let system = arguments.system.find()?;
+        let system = System::find(arguments.system.name())?;
         for file in record::trigger(&system)? {
             print_out(&format!("{}\n", escape(&file.to_string_lossy())));
         }
         return Ok(ExitCode::SUCCESS);
     }
-    let system = arguments.system.find_or_await()?;
+    let system = System::find_or_await(arguments.system.name())?;
     let report = record::record(&system, &options(arguments, &system)?)?;
     arguments.format.print(|| report.json(), || report.text());
     if let Some(problem) = &report.problem {

@@ -14,7 +14,7 @@ use crate::format::{FormatArgument, print_json};
 use crate::observed::SystemArgument;
 use clap::{Args, ValueEnum};
 use rows::{COMPONENT_COLUMNS, GATE_COLUMNS, TEXT_COLUMNS, component_cells, gate_cells, sort, to_json};
-use scl_observe::{Snapshot, Watch};
+use scl_observe::{Snapshot, System, Watch};
 use scl_terminal::{Problem, Table, escape, parse_duration, print_out};
 use serde_json::json;
 use std::process::ExitCode;
@@ -79,7 +79,7 @@ enum Order {
 /// The body of `scl top`.
 pub(crate) fn top(arguments: &TopArguments) -> Result<ExitCode, Problem> {
     let period = arguments.period.max(SHORTEST_PERIOD);
-    let mut watches: Vec<Watch> = arguments.system.find_all()?.into_iter().map(Watch::new).collect();
+    let mut watches: Vec<Watch> = System::find_all(arguments.system.name())?.into_iter().map(Watch::new).collect();
     if arguments.once {
         watches.iter_mut().for_each(|watch| drop(watch.look()));
         thread::sleep(period);

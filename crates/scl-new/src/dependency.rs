@@ -65,10 +65,6 @@ impl Dependency {
         }
     }
 
-    pub(crate) fn is_path(&self) -> bool {
-        matches!(self, Self::Folder { .. })
-    }
-
     /// What a user should know before handing the project on.
     pub(crate) fn note(&self) -> Option<String> {
         match self {
@@ -101,7 +97,8 @@ impl Dependency {
     pub(crate) fn install_command(&self) -> String {
         match self {
             Self::Folder { path, .. } => {
-                format!("cargo install --path {}", shell_text(&beside(path, "crates/scl-cli")))
+                let command = Path::new(path).with_file_name("crates/scl-cli");
+                format!("cargo install --path {}", shell_text(&command.display().to_string()))
             }
             Self::Git(Revision { url, commit }) => {
                 let rev = commit.as_ref().map(|commit| format!(" --rev {}", shell_text(commit))).unwrap_or_default();
@@ -145,11 +142,6 @@ fn is_scl(folder: &Path) -> bool {
         line.split_once('=')
             .is_some_and(|(key, value)| key.trim() == "name" && value.trim() == format!("\"{PACKAGE}\""))
     })
-}
-
-/// A path in the same repository as the crate `scl`.
-fn beside(path: &str, name: &str) -> String {
-    Path::new(path).with_file_name(name).display().to_string()
 }
 
 /// A text as one word of a shell.

@@ -85,7 +85,7 @@ impl Template {
     pub(crate) fn files(self, name: &str, scl: &Dependency, in_workspace: bool) -> Vec<(String, String)> {
         let file = |&(path, text): &(&str, &str)| {
             let mut text = text.replace(DEPENDENCY, &scl.manifest_line()).replace(INSTALL, &scl.install_command());
-            if scl.is_path() {
+            if matches!(scl, Dependency::Folder { .. }) {
                 text = text.replace(CHECKOUT, &format!("{CHECKOUT}{NOTE_ON_PATH}"));
             }
             let mut text = with_name(&text, name);

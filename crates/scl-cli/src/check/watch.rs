@@ -10,6 +10,7 @@ use crate::exit::COULD_NOT_DO;
 use scl_terminal::{output_is_closed, print_err};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
+use std::collections::BTreeMap;
 use std::io;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
@@ -36,7 +37,7 @@ pub(super) fn watch(arguments: &CheckArguments) -> ExitCode {
             return ExitCode::from(COULD_NOT_DO);
         }
     };
-    let mut marks = Marks(Vec::new());
+    let mut marks = Marks::new();
     loop {
         print_err(BEGIN);
         let (checked, before) = check_marked(arguments, marks);
@@ -55,15 +56,16 @@ pub(super) fn watch(arguments: &CheckArguments) -> ExitCode {
 
 /// Checks files whose marks were taken before they were read, so that no change is missed while they are read. Which
 /// schemas there are, only reading tells, so that the first check is done twice if there are some.
-fn check_marked(arguments: &CheckArguments, marks: Marks) -> (Vec<Checked>, Marks) {
-    let mut marks = marks.extended(&arguments.files);
+fn check_marked(arguments: &CheckArguments, mut marks: Marks) -> (Vec<Checked>, Marks) {
+    add_marks(&mut marks, &arguments.files);
     loop {
         let checked = check_files(arguments);
         let files: Vec<PathBuf> = checked.iter().flat_map(Checked::depends_on).collect();
-        if files.iter().all(|file| marks.has(file)) {
-            return (checked, marks.limited_to(&files));
+        if files.iter().all(|file| marks.contains_key(file)) {
+            marks.retain(|file, _| files.contains(file));
+            return (checked, marks);
         }
-        marks = marks.extended(&files);
+        add_marks(&mut marks, &files);
     }
 }
 
@@ -75,7 +77,7 @@ fn wait_for_change(before: Marks, stop: &Receiver<()>) -> Option<Marks> {
         if stop.recv_timeout(INTERVAL).is_ok() {
             return None;
         }
-        let now = last.renewed();
+        let now: Marks = last.keys().map(|file| (file.clone(), mark(file))).collect();
         if now == last && now != before {
             return Some(now);
         }
@@ -84,36 +86,16 @@ fn wait_for_change(before: Marks, stop: &Receiver<()>) -> Option<Marks> {
 }
 
 /// The state of the files, from their metadata.
-#[derive(Debug, Clone, PartialEq, Eq)]
-struct Marks(Vec<(PathBuf, Option<Mark>)>);
+type Marks = BTreeMap<PathBuf, Option<Mark>>;
 
 /// Inode, size, and the time of the last change of the content or the entry, in seconds and nanoseconds. `None` for a
 /// file that is not there. The time of the content alone may be set by anybody, so it is not looked at.
 type Mark = (u64, u64, i64, i64);
 
-impl Marks {
-    fn has(&self, file: &Path) -> bool {
-        self.0.iter().any(|(known, _)| known == file)
-    }
-
-    /// With these files, too; those that are marked already keep their mark.
-    fn extended(mut self, files: &[PathBuf]) -> Self {
-        for file in files {
-            if !self.has(file) {
-                self.0.push((file.clone(), mark(file)));
-            }
-        }
-        self
-    }
-
-    /// Without all other files.
-    fn limited_to(mut self, files: &[PathBuf]) -> Self {
-        self.0.retain(|(file, _)| files.contains(file));
-        self
-    }
-
-    fn renewed(&self) -> Self {
-        Self(self.0.iter().map(|(file, _)| (file.clone(), mark(file))).collect())
+/// Adds the marks of these files; those that are marked already keep their mark.
+fn add_marks(marks: &mut Marks, files: &[PathBuf]) {
+    for file in files {
+        marks.entry(file.clone()).or_insert_with(|| mark(file));
     }
 }
 

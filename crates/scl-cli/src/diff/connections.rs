@@ -1,6 +1,6 @@
 //! The connections of a system, and their names.
 
-use scl_plan::{ConnectionPlan, GateKind, GatePlan, SystemPlan};
+use scl_plan::{ConnectionPlan, GatePlan, SystemPlan};
 
 /// A connection, seen from its sending gate.
 pub(super) struct Connection<'p> {
@@ -24,7 +24,7 @@ impl Connection<'_> {
 /// All connections, in the order of their sending gates.
 pub(super) fn connections_of(plan: &SystemPlan) -> impl Iterator<Item = Connection<'_>> {
     let gates = plan.components.iter().flat_map(|it| it.gates.iter().map(|gate| (it.component.as_str(), gate)));
-    let sending = gates.filter(|(_, gate)| sends(gate.kind));
+    let sending = gates.filter(|(_, gate)| gate.kind.is_source());
     sending.flat_map(|(component, gate)| gate.connections.iter().map(move |plan| Connection { component, gate, plan }))
 }
 
@@ -32,9 +32,5 @@ pub(super) fn connections_of(plan: &SystemPlan) -> impl Iterator<Item = Connecti
 pub(super) fn connection_name(component: &str, gate: &GatePlan, connection: &ConnectionPlan) -> String {
     let own = format!("{component}.{}", gate.name);
     let peer = format!("{}.{}", connection.peer_component, connection.peer_gate);
-    if sends(gate.kind) { format!("{own} -> {peer}") } else { format!("{peer} -> {own}") }
-}
-
-fn sends(kind: GateKind) -> bool {
-    matches!(kind, GateKind::Pub | GateKind::Push | GateKind::Req)
+    if gate.kind.is_source() { format!("{own} -> {peer}") } else { format!("{peer} -> {own}") }
 }

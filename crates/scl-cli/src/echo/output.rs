@@ -69,7 +69,7 @@ impl<'a> Output<'a> {
             ObservedKind::Message => seen.sequence.to_string(),
             kind => format!("{} of call {}", word(kind), seen.call_id),
         };
-        format!("--- # {} {what}, {}\n{text}", gate.name(), timestamp(time_of(seen)))
+        format!("--- # {} {what}, {}\n{text}", gate.name, timestamp(time_of(seen)))
     }
 
     fn row(&mut self, gate: &Watched, seen: &Observation, message: &Value) -> Vec<u8> {
@@ -90,7 +90,7 @@ impl<'a> Output<'a> {
         }
         let time = format!("{}.{:09}", seen.sent_ns / 1_000_000_000, seen.sent_ns % 1_000_000_000);
         let (sequence, call) = (seen.sequence.to_string(), seen.call_id.to_string());
-        let cells = self.own_cells([&time, &sequence, gate.name(), word(seen.kind), &call]);
+        let cells = self.own_cells([&time, &sequence, &gate.name, word(seen.kind), &call]);
         let cells = cells.map(str::to_owned).chain(table.row(message));
         rows.extend(match output_is_terminal() {
             true => csv_row(cells.map(|cell| escape(&cell).into_owned())),
@@ -116,7 +116,7 @@ fn csv_row(cells: impl Iterator<Item = String>) -> Vec<u8> {
 /// A message as JSON on one line.
 fn line(gate: &Watched, seen: &Observation, shown: Value) -> String {
     let mut fields = vec![
-        ("gate", gate.name().into()),
+        ("gate", gate.name.as_str().into()),
         ("time", exact_time(seen).into()),
         ("sequence", seen.sequence.into()),
         ("kind", word(seen.kind).into()),

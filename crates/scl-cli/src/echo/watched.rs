@@ -13,14 +13,15 @@ const BETWEEN_NOTES: Duration = Duration::from_secs(1);
 /// A gate that is observed at its own tap.
 pub(super) struct Watched {
     gate: ObservedGate,
-    name: String,
+    pub(super) name: String,
     /// Messages or requests.
     message: MessageType,
     reply: MessageType,
     /// The number that the next message has if none is lost; `None` right after connecting.
     next: Option<u64>,
     was_connected: bool,
-    lost: u64,
+    /// Number of messages that were not seen.
+    pub(super) lost: u64,
     /// How many of them were not noted yet.
     unnoted: u64,
     noted: Option<Instant>,
@@ -33,10 +34,6 @@ impl Watched {
         Self { gate, name, message, reply, next: None, was_connected: false, lost: 0, unnoted: 0, noted: None }
     }
 
-    pub(super) fn name(&self) -> &str {
-        &self.name
-    }
-
     /// Whether it has requests and replies.
     pub(super) fn exchanges(&self) -> bool {
         matches!(self.gate.payload, Payload::Exchange { .. })
@@ -45,11 +42,6 @@ impl Watched {
     /// The types of its messages, or of its requests and replies.
     pub(super) fn types(&self) -> impl Iterator<Item = &MessageType> {
         std::iter::once(&self.message).chain(self.exchanges().then_some(&self.reply))
-    }
-
-    /// Number of messages that were not seen.
-    pub(super) fn lost(&self) -> u64 {
-        self.lost
     }
 
     pub(super) fn check_field(&self, path: &FieldPath) -> Result<(), UnknownField> {

@@ -53,23 +53,24 @@ impl Names {
 
     /// The type of `pub`, `sub`, `push` and `pull`.
     pub(super) fn message_schema(&self, description: &str) -> Value {
-        let known = json!({ "type": "string", "enum": self.messages });
-        let pattern = format!("^\\s*{WORD}(\\.{WORD})*\\s*$");
-        offered(known, self.messages.is_empty(), &typed(&pattern), description)
+        offered_types(&self.messages, &dotted(), description)
     }
 
     /// The types of `req` and `rep`.
     pub(super) fn exchange_schema(&self, description: &str) -> Value {
-        let known = json!({ "type": "string", "enum": self.exchanges });
-        let dotted = format!("{WORD}(\\.{WORD})*");
-        let pattern = format!("^\\s*{dotted}\\s*->\\s*{dotted}\\s*$");
-        offered(known, self.exchanges.is_empty(), &typed(&pattern), description)
+        offered_types(&self.exchanges, &format!("{}\\s*->\\s*{}", dotted(), dotted()), description)
     }
 }
 
-/// A type, or nothing, as in `{pub: , queue: 1}`.
-fn typed(pattern: &str) -> Value {
-    json!({ "type": ["string", "null"], "pattern": pattern })
+/// The pattern of a dotted type.
+fn dotted() -> String {
+    format!("{WORD}(\\.{WORD})*")
+}
+
+/// A type of this pattern, or nothing, as in `{pub: , queue: 1}`.
+fn offered_types(known: &[String], pattern: &str, description: &str) -> Value {
+    let any = json!({ "type": ["string", "null"], "pattern": format!("^\\s*{pattern}\\s*$") });
+    offered(json!({ "type": "string", "enum": known }), known.is_empty(), &any, description)
 }
 
 /// A value of this shape; known ones are offered, but others are as good.

@@ -57,18 +57,9 @@ fn headline(view: &View) -> Line<'static> {
 fn keys(view: &View) -> Line<'static> {
     let order = view.order.to_possible_value().map_or(String::new(), |it| it.get_name().to_owned());
     let bold = |text: &'static str| Span::styled(text, Modifier::BOLD);
-    Line::from(vec![
-        bold("q"),
-        Span::raw(" quit  "),
-        bold("↑↓"),
-        Span::raw(" choose  "),
-        bold("Enter"),
-        Span::raw(" details  "),
-        bold("s"),
-        Span::raw(format!(" sorted by {order}  ")),
-        bold("space"),
-        Span::raw(" pause"),
-    ])
+    let sorted = format!(" sorted by {order}  ");
+    let keys = [("q", " quit  "), ("↑↓", " choose  "), ("Enter", " details  "), ("s", &sorted), ("space", " pause")];
+    keys.into_iter().flat_map(|(key, text)| [bold(key), Span::raw(text.to_owned())]).collect()
 }
 
 fn draw_components(frame: &mut Frame<'_>, area: Rect, view: &View) {
