@@ -84,8 +84,8 @@ impl System {
             name: topology.system().to_owned(),
             topology_file: loaded.file.map(|file| file_name(loaded.sources.file(file).path())).unwrap_or_default(),
             components,
-            descriptors: loaded.schemas.as_ref().map(|schemas| schemas.file_descriptor_set().clone()),
-            schema_folders: loaded.schemas.as_ref().map(|schemas| schemas.folders().to_vec()).unwrap_or_default(),
+            descriptors: loaded.schemas.as_ref().map(|schemas| schemas.file_descriptor_set.clone()),
+            schema_folders: loaded.schemas.as_ref().map(|schemas| schemas.folders.clone()).unwrap_or_default(),
         })
     }
 

@@ -1,6 +1,6 @@
 //! A path becomes a text, or the reason why not.
 
-use std::fs::{self, File, FileType, Metadata};
+use std::fs::{self, File, FileType};
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -43,7 +43,10 @@ pub(crate) struct BadByte {
 /// The kind is looked at before the file is opened, because opening a pipe waits for its other end.
 pub(crate) fn read_text(path: &Path, max_size: u64) -> Result<String, Unreadable> {
     let about = fs::metadata(path).map_err(|error| classify(path, error))?;
-    require_regular(&about)?;
+    let kind = about.file_type();
+    if !kind.is_file() {
+        return Err(Unreadable::NotAFile(word(kind)));
+    }
     if about.len() > max_size {
         return Err(Unreadable::TooLarge(about.len()));
     }
@@ -69,11 +72,6 @@ fn classify(path: &Path, error: io::Error) -> Unreadable {
         io::ErrorKind::NotFound => Unreadable::Missing,
         _ => Unreadable::Refused(error),
     }
-}
-
-fn require_regular(about: &Metadata) -> Result<(), Unreadable> {
-    let kind = about.file_type();
-    if kind.is_file() { Ok(()) } else { Err(Unreadable::NotAFile(word(kind))) }
 }
 
 #[cfg(unix)]

@@ -46,23 +46,12 @@ use std::path::PathBuf;
 /// The compiled schema files of a topology, with all that they import.
 #[derive(Debug, Clone)]
 pub struct Schemas {
-    #[cfg(feature = "protobuf")]
-    descriptors: prost_types::FileDescriptorSet,
-    #[cfg(feature = "protobuf")]
-    folders: Vec<String>,
-}
-
-#[cfg(feature = "protobuf")]
-impl Schemas {
     /// Each file after the files that it imports; comments are kept.
-    pub fn file_descriptor_set(&self) -> &prost_types::FileDescriptorSet {
-        &self.descriptors
-    }
-
+    #[cfg(feature = "protobuf")]
+    pub file_descriptor_set: prost_types::FileDescriptorSet,
     /// The folders in which these files are found by their names, relative to that of the topology file, in order.
-    pub fn folders(&self) -> &[String] {
-        &self.folders
-    }
+    #[cfg(feature = "protobuf")]
+    pub folders: Vec<String>,
 }
 
 /// What this stage hands on.

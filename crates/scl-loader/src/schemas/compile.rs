@@ -32,9 +32,9 @@ pub(crate) fn compile(request: &Request, model: &Model, sources: &mut Sources, p
         return Compiled { outlines: outlines(), files_read: seen.into_paths(), ..Compiled::default() };
     };
     let messages = Some(messages_by_entry(&compiler, model, &folders));
-    let schemas = Schemas { descriptors: compiler.file_descriptor_set(), folders: folders.shown() };
+    let schemas = Schemas { file_descriptor_set: compiler.file_descriptor_set(), folders: folders.shown() };
     let texts = Texts { request, folders: &folders, files: &seen.files, sources };
-    let names_fit = judge_names(&schemas.descriptors.file, model, texts, problems);
+    let names_fit = judge_names(&schemas.file_descriptor_set.file, model, texts, problems);
     let outlines = if names_fit { Vec::new() } else { outlines() };
     Compiled { messages, schemas: Some(schemas).filter(|_| names_fit), outlines, files_read: seen.into_paths() }
 }

@@ -13,7 +13,7 @@ impl Schemas {
     ///
     /// The same schemas and messages always give the same bytes.
     pub fn descriptors_of(&self, messages: &BTreeSet<&str>) -> Option<Schema> {
-        let files = files_for(&self.file_descriptor_set().file, messages);
+        let files = files_for(&self.file_descriptor_set.file, messages);
         let file: Vec<_> = files.map(|file| FileDescriptorProto { source_code_info: None, ..file.clone() }).collect();
         if file.is_empty() {
             return None;

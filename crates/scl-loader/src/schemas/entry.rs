@@ -82,7 +82,7 @@ pub(super) fn misplaced(schema: &Spanned<String>, folders: &Folders) -> Option<D
         return Some(SCHEMA.at(message, schema.span, "").help(folders.with_root(beside)));
     };
     match folders.find(&name) {
-        Found::Two(one, other) if folders.are_roots() => {
+        Found::Two(one, other) if folders.are_roots => {
             let [one, other] = [&one, &other].map(|path| folders.relative(path).display());
             let message = format!("the schema `{entry}` has the same path in its root as another file");
             let problem = SCHEMA.at(message, schema.span, format!("`{name}` can mean `{one}` and `{other}`"));

@@ -12,7 +12,7 @@ pub(super) struct Folders {
     /// As the topology file names them; empty is its own folder.
     all: Vec<PathBuf>,
     /// Whether the topology file declares them.
-    are_roots: bool,
+    pub(super) are_roots: bool,
     /// The entries of `schemas`, in their order: the name under which the compiler knows each, and its path.
     entries: Vec<(Option<String>, PathBuf)>,
     max_size: u64,
@@ -57,10 +57,6 @@ impl Folders {
         let known = self.all.iter().filter(|_| self.are_roots).map(|known| as_root(known));
         let roots: Vec<String> = known.chain([as_root(folder)]).collect();
         format!("name the folder in which imports begin: `schema_roots: [{}]`", roots.join(", "))
-    }
-
-    pub(super) fn are_roots(&self) -> bool {
-        self.are_roots
     }
 
     /// The name under which the compiler knows an entry of `schemas`; `None` if it is in none of the roots.

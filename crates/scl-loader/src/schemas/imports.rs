@@ -90,7 +90,7 @@ impl Importer<'_> {
         let above = self.above().find(|folder| self.folders.path(&folder.join(import.name)).is_file());
         let help = above.map(|folder| {
             let in_roots = || self.folders.import_name(&self.folders.path(&folder.join(import.name)));
-            let name = if self.folders.are_roots() { in_roots() } else { None };
+            let name = if self.folders.are_roots { in_roots() } else { None };
             name.map_or_else(|| self.folders.with_root(&folder), write_import)
         });
         let help = help.or_else(|| {
@@ -128,7 +128,7 @@ impl Importer<'_> {
         let message = format!("`{name}`, which `{}` imports, is the schema `{entry}` under another name", self.shown());
         let root = entry.strip_suffix(name).and_then(|root| root.strip_suffix('/'));
         let help = match root {
-            Some(root) if !self.folders.are_roots() => self.folders.with_root(Path::new(root)),
+            Some(root) if !self.folders.are_roots => self.folders.with_root(Path::new(root)),
             _ => write_import(entry.to_owned()),
         };
         self.mistake(
@@ -148,7 +148,7 @@ impl Importer<'_> {
     }
 
     fn where_imports_are(&self) -> &'static str {
-        match self.folders.are_roots() {
+        match self.folders.are_roots {
             true => "imports are looked for in the folders of `schema_roots`",
             false => "imports are looked for beside the topology file and beside each of its `schemas`",
         }

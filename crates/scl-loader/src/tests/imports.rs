@@ -33,7 +33,7 @@ fn field(files: &[(&str, &str)], name: &str) -> String {
     let loaded = load_from(&folder(files), name);
     assert_eq!(rendered(&loaded), "");
     let schemas = loaded.schemas.unwrap();
-    let file = schemas.file_descriptor_set().file.iter().find(|file| file.package() == "base").unwrap();
+    let file = schemas.file_descriptor_set.file.iter().find(|file| file.package() == "base").unwrap();
     file.message_type[0].field[0].name().to_owned()
 }
 
@@ -134,7 +134,7 @@ fn a_copy_of_a_file_of_protobuf_itself_has_no_effect() {
     let yaml = with_schemas("schemas: [a.proto]");
     let folder = folder(&[("t.yaml", &yaml), ("a.proto", main), ("google/protobuf/timestamp.proto", copy)]);
     let schemas = load_from(&folder, "t.yaml").schemas.unwrap();
-    assert_eq!(schemas.file_descriptor_set().file[0].message_type[0].field[0].name(), "seconds");
+    assert_eq!(schemas.file_descriptor_set.file[0].message_type[0].field[0].name(), "seconds");
 }
 
 #[test]
@@ -235,9 +235,9 @@ fn entries_are_known_by_their_names_below_a_root() {
     let loaded = load_from(&folder(&files), "t.yaml");
     assert_eq!(rendered(&loaded), "");
     let schemas = loaded.schemas.unwrap();
-    let names: Vec<&str> = schemas.file_descriptor_set().file.iter().map(|file| file.name()).collect();
+    let names: Vec<&str> = schemas.file_descriptor_set.file.iter().map(|file| file.name()).collect();
     assert_eq!(names, ["common/header.proto", "nav/fix.proto"]);
-    assert_eq!(schemas.folders(), ["proto", "third"]);
+    assert_eq!(schemas.folders, ["proto", "third"]);
 }
 
 #[test]

@@ -30,7 +30,7 @@ struct Tree {
 /// One public module for each package of the compiled schemas, with the messages and their JSON.
 pub(in crate::expand) fn expand_messages(context: &Context<'_>) -> TokenStream {
     let Some(schemas) = &context.loaded.schemas else { return TokenStream::new() };
-    match no_panic(|| generate(&schemas.file_descriptor_set().file)).flatten() {
+    match no_panic(|| generate(&schemas.file_descriptor_set.file)).flatten() {
         Ok(root) => {
             let (modules, json) = (expand_root(context, root), expand_json(context));
             quote! { #modules #json }

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 /// Maps full names such as `rover.v1.IMUData.Axis` to path segments: `rover`, `v1`, `imu_data`, `Axis`.
 pub fn rust_paths(schemas: &Schemas) -> HashMap<String, Vec<String>> {
     let mut paths = HashMap::new();
-    for file in &schemas.file_descriptor_set().file {
+    for file in &schemas.file_descriptor_set.file {
         // prost makes a field of a map type of an entry, and no struct.
         for (path, _) in messages(file).into_iter().filter(|(_, message)| !is_map_entry(message)) {
             let Some((name, outer)) = path.split_last() else { continue };
