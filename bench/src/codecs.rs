@@ -54,7 +54,7 @@ pub(crate) fn measure_codecs(messages: usize) -> scl::Result<Report> {
         }
     }
     let mut report = Report::new("codecs");
-    report.add(table(&measurements));
+    report.tables.push(table(&measurements));
     report.note("`raw` has fields of fixed size, so it contains unused bytes for longer strings");
     Ok(report)
 }
@@ -131,7 +131,7 @@ fn table(measurements: &[Measurement]) -> Table {
     for Measurement { variant, encoding, decoding, bytes } in measurements {
         // Recorded as picoseconds, so these are nanoseconds.
         let [encode, decode] = [encoding.quantile(0.5), decoding.quantile(0.5)];
-        table.add(Row::new(variant.name, vec![encode, decode, *bytes as f64]).with_baselines(variant.baselines));
+        table.rows.push(Row::new(variant.name, vec![encode, decode, *bytes as f64]).with_baselines(variant.baselines));
     }
     table
 }

@@ -60,7 +60,7 @@ pub(crate) fn measure_delay(time: Duration) -> scl::Result<Report> {
         None => measure_situation(REAL_TIME_LOAD, time, &mut table)?,
         Some(reason) => report.note(reason),
     }
-    report.add(table);
+    report.tables.push(table);
     report.note("in the paper, load raised the maximum 7.7 times, and 1.6 times with real-time priority");
     Ok(report)
 }
@@ -84,12 +84,12 @@ fn measure_situation(situation: Situation, time: Duration, table: &mut Table) ->
     let messages = usize::try_from(time.as_millis() / PERIOD.as_millis())?.max(1);
     let batch = BATCH.min(messages);
     let rounds = messages.div_ceil(batch);
-    let arguments = ["delay", folder.path(), &batch.to_string(), &rounds.to_string()];
+    let arguments = ["delay", &folder.path, &batch.to_string(), &rounds.to_string()];
     let mut source = Worker::start_with(situation.launcher, &arguments)?;
     let mut delays = VARIANTS.iter().map(|_| Durations::new()).collect::<scl::Result<Vec<_>>>()?;
     start_runtime()?.block_on(collect(&mut source, rounds, &mut delays))?;
     for (variant, delays) in VARIANTS.iter().zip(&delays) {
-        table.add(row(variant, situation, delays));
+        table.rows.push(row(variant, situation, delays));
     }
     Ok(())
 }

@@ -27,9 +27,9 @@ pub(crate) fn options(id: &str, folder: &str, host: &str) -> scl::OpenOptions {
 
 /// Starts the gateways between both sides.
 #[cfg(feature = "gateway")]
-pub(crate) fn start_gateways(folder: &str) -> scl::Result<crate::gateway::Gateways> {
-    use crate::gateway::{Gateways, Host};
+pub(crate) fn start_gateways(folder: &str) -> scl::Result<Vec<crate::worker::Worker>> {
+    use crate::gateway::{self, Host};
     let host = |name, components: [&str; 2]| Host { name, components: components.map(str::to_owned).to_vec() };
     let hosts = [host(NEAR, ["client", "source"]), host(FAR, ["echo", "sink"])];
-    Gateways::start(&Path::new(folder).join("gateway"), include_str!("../engines.yaml"), &hosts)
+    gateway::start_gateways(&Path::new(folder).join("gateway"), include_str!("../engines.yaml"), &hosts)
 }

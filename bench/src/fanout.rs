@@ -47,7 +47,7 @@ pub(crate) fn measure_fanout(time: Duration) -> scl::Result<Report> {
     let folder = ScratchFolder::new()?;
     let messages = u32::try_from(time.as_millis() / PERIOD.as_millis())?.max(1);
     let mut measurements = VARIANTS.iter().map(|_| Measurement::new()).collect::<scl::Result<Vec<_>>>()?;
-    start_runtime()?.block_on(run(folder.path(), messages, &mut measurements))?;
+    start_runtime()?.block_on(run(&folder.path, messages, &mut measurements))?;
     Ok(report(&measurements))
 }
 
@@ -111,15 +111,15 @@ fn report(measurements: &[Measurement]) -> Report {
             if phase == ONE_STOPPED {
                 baselines.push(format!("{}, {ALL_RUN}", variant.name));
             }
-            sends.add(row(&row_in(variant.name), own_sends, &[]).with_baselines(&baselines));
+            sends.rows.push(row(&row_in(variant.name), own_sends, &[]).with_baselines(&baselines));
             baselines.extend(variant.baselines.iter().map(|name| row_in(name)));
-            delays.add(row(&row_in(variant.name), own_delays, &[*lost as f64]).with_baselines(&baselines));
+            delays.rows.push(row(&row_in(variant.name), own_delays, &[*lost as f64]).with_baselines(&baselines));
         }
     }
     let mut report = Report::new("fanout");
-    report.add(delays);
-    report.add(sends);
-    report.add(late_messages(measurements));
+    report.tables.push(delays);
+    report.tables.push(sends);
+    report.tables.push(late_messages(measurements));
     report.note("a send of `zeromq` only queues the message; a send of SCL writes to all eight sockets");
     report
 }
@@ -130,7 +130,7 @@ fn late_messages(measurements: &[Measurement]) -> Table {
     let mut table = Table::new(title, &columns);
     for (variant, Measurement { late_messages, oldest, .. }) in VARIANTS.iter().zip(measurements) {
         let mean = late_messages.iter().sum::<usize>() as f64 / late_messages.len().max(1) as f64;
-        table.add(Row::new(variant.name, vec![mean, *oldest as f64 / 1e6]));
+        table.rows.push(Row::new(variant.name, vec![mean, *oldest as f64 / 1e6]));
     }
     table
 }

@@ -19,6 +19,7 @@ use crate::variant::Variant;
 use crate::worker::Worker;
 use scl::time::interval;
 use std::time::Duration;
+use zeromq::PubSocket;
 
 const PERIOD: Duration = Duration::from_millis(1);
 
@@ -61,9 +62,9 @@ struct Measurement {
 /// All subscribers run at the same time, so that a repetition takes one pause.
 pub(crate) fn measure_fresh(repetitions: usize, pause: Duration) -> scl::Result<Report> {
     let folder = ScratchFolder::new()?;
-    let measurements = start_runtime()?.block_on(run(folder.path(), repetitions, pause))?;
+    let measurements = start_runtime()?.block_on(run(&folder.path, repetitions, pause))?;
     let mut report = Report::new("fresh");
-    report.add(table(repetitions, pause, &measurements));
+    report.tables.push(table(repetitions, pause, &measurements));
     report.note("one period is 1 ms; the newest value is at most about one period old");
     report.note("the pause blocks the thread, except in the line `polled`, where the runtime runs");
     Ok(report)
@@ -100,7 +101,7 @@ impl Measurement {
     async fn start(variant: &Variant, folder: &str, subscriber: &[&str]) -> scl::Result<Self> {
         let paths = SocketPaths::new(folder, variant.id);
         let raw = match variant.id {
-            "zeromq" => Some(Sender::Zeromq(Box::new(paths.bind_pub("position").await?))),
+            "zeromq" => Some(Sender::Zeromq(Box::new(paths.bind::<PubSocket>("position").await?))),
             #[cfg(feature = "libzmq")]
             "libzmq" => {
                 let mark = crate::libzmq::HighWaterMark::Default;
@@ -138,7 +139,7 @@ fn table(repetitions: usize, pause: Duration, measurements: &[Measurement]) -> T
     let periods = |microseconds: f64| microseconds / PERIOD.as_micros() as f64;
     for (variant, Measurement { ages, calls, .. }) in VARIANTS.iter().zip(measurements) {
         let values = vec![periods(ages.quantile(0.5)), periods(ages.max()), calls.quantile(0.5), calls.max()];
-        table.add(Row::new(variant.name, values).with_baselines(variant.baselines).with_durations(ages));
+        table.rows.push(Row::new(variant.name, values).with_baselines(variant.baselines).with_durations(ages));
     }
     table
 }

@@ -17,36 +17,24 @@ pub(crate) struct Host<'a> {
     pub(crate) components: Vec<String>,
 }
 
-/// The gateways of a system, stopped when dropped.
-pub(crate) struct Gateways {
-    gateways: Vec<Worker>,
-}
-
-impl Gateways {
-    /// Writes the files of a system into `folder` and starts the gateway of each host.
-    pub(crate) fn start(folder: &Path, topology: &str, hosts: &[Host<'_>]) -> scl::Result<Self> {
-        fs::create_dir_all(folder)?;
-        fs::write(folder.join("topology.yaml"), topology)?;
-        fs::write(folder.join("launch.yaml"), launch_file(hosts)?)?;
-        let program = find_program()?;
-        let mut gateways = Vec::new();
-        for host in hosts {
-            let runtime_dir = runtime_dir(folder, host.name);
-            fs::create_dir_all(&runtime_dir)?;
-            let mut command = Command::new(&program);
-            command.args(["run", "--topology", "topology.yaml", "--launch", "launch.yaml", "--host", host.name]);
-            command.current_dir(folder).env("SCL_RUNTIME_DIR", &runtime_dir).env_remove("SCL_SYSTEM");
-            // Gateways end one after the other, which the rest would warn of.
-            command.env("SCL_LOG", "error");
-            gateways.push(Worker::spawn(command)?);
-        }
-        Ok(Self { gateways })
+/// Writes the files of a system into `folder` and starts the gateway of each host.
+pub(crate) fn start_gateways(folder: &Path, topology: &str, hosts: &[Host<'_>]) -> scl::Result<Vec<Worker>> {
+    fs::create_dir_all(folder)?;
+    fs::write(folder.join("topology.yaml"), topology)?;
+    fs::write(folder.join("launch.yaml"), launch_file(hosts)?)?;
+    let program = find_program()?;
+    let mut gateways = Vec::new();
+    for host in hosts {
+        let runtime_dir = runtime_dir(folder, host.name);
+        fs::create_dir_all(&runtime_dir)?;
+        let mut command = Command::new(&program);
+        command.args(["run", "--topology", "topology.yaml", "--launch", "launch.yaml", "--host", host.name]);
+        command.current_dir(folder).env("SCL_RUNTIME_DIR", &runtime_dir).env_remove("SCL_SYSTEM");
+        // Gateways end one after the other, which the rest would warn of.
+        command.env("SCL_LOG", "error");
+        gateways.push(Worker::spawn(command)?);
     }
-
-    /// The process ids, in the order of the hosts.
-    pub(crate) fn ids(&self) -> impl Iterator<Item = u32> {
-        self.gateways.iter().map(Worker::id)
-    }
+    Ok(gateways)
 }
 
 /// The runtime folder of a host.

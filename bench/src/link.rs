@@ -10,7 +10,7 @@ use crate::worker::{Worker, print_line, unknown_arguments};
 use std::os::unix::net::{UnixListener as StdUnixListener, UnixStream as StdUnixStream};
 use std::time::Duration;
 use tokio::net::{UnixListener, UnixStream};
-use zeromq::{PullSocket, PushSocket, Socket};
+use zeromq::{PullSocket, PushSocket};
 
 pub(crate) const CONNECT_TIMEOUT: Duration = Duration::from_secs(10);
 
@@ -42,7 +42,7 @@ pub(crate) struct Near {
     pub(crate) sender: Sender,
     receiver: Option<Receiver>,
     #[cfg(feature = "gateway")]
-    _gateways: Option<crate::gateway::Gateways>,
+    _gateways: Option<Vec<Worker>>,
 }
 
 /// The end of the worker.
@@ -77,8 +77,7 @@ impl Near {
             }
             "zeromq" if setup.id == "zeromq-push" => {
                 let worker = start_worker().await?;
-                let mut socket = PushSocket::new();
-                socket.connect(&setup.paths().endpoint(PING)).await?;
+                let socket: PushSocket = setup.paths().connect(PING).await?;
                 (worker, Sender::Zeromq(Box::new(socket)), None)
             }
             _ => {
@@ -120,8 +119,7 @@ impl Far {
                 (receiver, Some(sender))
             }
             "zeromq" if setup.id == "zeromq-push" => {
-                let mut socket = PullSocket::new();
-                socket.bind(&paths.endpoint(PING)).await?;
+                let socket: PullSocket = paths.bind(PING).await?;
                 (Receiver::Zeromq(Box::new(socket)), None)
             }
             _ => {
@@ -270,7 +268,7 @@ impl Setup<'_> {
             #[cfg(feature = "gateway")]
             Library::Zenoh(peer) => Sender::Zenoh(peer.sending(&format!("bench/{channel}"))?),
             Library::Sockets => match self.engine() {
-                "zeromq" => Sender::Xpub(self.paths().bind_xpub(channel).await?),
+                "zeromq" => Sender::Xpub(self.paths().bind(channel).await?),
                 #[cfg(feature = "libzmq")]
                 "libzmq" if self.id == "libzmq-nodrop" => Sender::LibzmqNodrop(
                     crate::libzmq::start_lossless_publisher(&self.paths(), channel, self.bytes, self.batch).await?,

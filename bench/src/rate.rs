@@ -71,7 +71,7 @@ pub(crate) fn measure_rate(sizes: &[usize], messages: usize, transport: Transpor
     let mut report = Report::new("rate");
     let runtime = start_runtime()?;
     for &bytes in sizes {
-        report.add(measure_size(&runtime, messages, transport, bytes)?);
+        report.tables.push(measure_size(&runtime, messages, transport, bytes)?);
     }
     report.note_rounds();
     Ok(report)
@@ -82,7 +82,7 @@ fn measure_size(runtime: &Runtime, messages: usize, transport: Transport, bytes:
     let batches = Batches::new(messages, bytes);
     let mut measurements = Vec::new();
     for &variant in over(transport, IPC) {
-        let open = Channel::open(variant, folder.path(), bytes, batches.size, Timing::Batch);
+        let open = Channel::open(variant, &folder.path, bytes, batches.size, Timing::Batch);
         let channel = run(runtime, variant.id, open)?;
         measurements.push(Measurement { variant, channel, rates: Vec::new() });
     }
@@ -129,7 +129,7 @@ fn table(bytes: usize, measurements: &[Measurement]) -> Table {
     for measurement in measurements {
         let row = Row::new(measurement.variant.name, vec![measurement.median_rate()])
             .with_baselines(measurement.variant.baselines);
-        table.add(row.with_rounds(&measurement.rates));
+        table.rows.push(row.with_rounds(&measurement.rates));
     }
     table
 }

@@ -1,7 +1,7 @@
 //! Sockets without SCL: their addresses, and sockets of the `zeromq` crate.
 
 use std::path::{Path, PathBuf};
-use zeromq::{PubSocket, Socket, SubSocket, XPubSocket};
+use zeromq::{Socket, SubSocket};
 
 /// The paths of the raw sockets of one variant of a benchmark.
 #[derive(Debug, Clone)]
@@ -23,24 +23,24 @@ impl SocketPaths {
         format!("ipc://{}", self.path(socket).display())
     }
 
-    /// A PUB socket of `zeromq`, which unlike XPUB does not wait for a subscriber that does not receive.
-    pub(crate) async fn bind_pub(&self, socket: &str) -> scl::Result<PubSocket> {
-        let mut publisher = PubSocket::new();
-        publisher.bind(&self.endpoint(socket)).await?;
-        Ok(publisher)
+    /// A socket of `zeromq` that listens. PUB, unlike XPUB, does not wait for a subscriber that does not receive; XPUB
+    /// shows when a subscriber has connected.
+    pub(crate) async fn bind<S: Socket>(&self, socket: &str) -> scl::Result<S> {
+        let mut bound = S::new();
+        bound.bind(&self.endpoint(socket)).await?;
+        Ok(bound)
     }
 
-    /// An XPUB socket of `zeromq`, which shows when a subscriber has connected.
-    pub(crate) async fn bind_xpub(&self, socket: &str) -> scl::Result<XPubSocket> {
-        let mut xpub = XPubSocket::new();
-        xpub.bind(&self.endpoint(socket)).await?;
-        Ok(xpub)
+    /// A socket of `zeromq` that connects.
+    pub(crate) async fn connect<S: Socket>(&self, socket: &str) -> scl::Result<S> {
+        let mut connected = S::new();
+        connected.connect(&self.endpoint(socket)).await?;
+        Ok(connected)
     }
 
     /// A SUB socket of `zeromq` that subscribes to everything.
     pub(crate) async fn connect_sub(&self, socket: &str) -> scl::Result<SubSocket> {
-        let mut sub = SubSocket::new();
-        sub.connect(&self.endpoint(socket)).await?;
+        let mut sub: SubSocket = self.connect(socket).await?;
         sub.subscribe("").await?;
         Ok(sub)
     }

@@ -16,7 +16,7 @@ use serde_json::{Map, Value, json};
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Report {
     benchmark: &'static str,
-    tables: Vec<Table>,
+    pub(crate) tables: Vec<Table>,
     notes: Vec<String>,
 }
 
@@ -25,7 +25,7 @@ pub(crate) struct Report {
 pub(crate) struct Table {
     title: String,
     columns: Vec<Column>,
-    rows: Vec<Row>,
+    pub(crate) rows: Vec<Row>,
 }
 
 /// A column of values. Its name is the key in JSON, ends with the unit, and is the heading if printed as text.
@@ -55,10 +55,6 @@ impl Report {
             report.note("this program was built without optimisation; build it with `--release`");
         }
         report
-    }
-
-    pub(crate) fn add(&mut self, table: Table) {
-        self.tables.push(table);
     }
 
     pub(crate) fn note(&mut self, text: impl Into<String>) {
@@ -91,10 +87,6 @@ impl Report {
 impl Table {
     pub(crate) fn new(title: impl Into<String>, columns: &[Column]) -> Self {
         Self { title: title.into(), columns: columns.to_vec(), rows: Vec::new() }
-    }
-
-    pub(crate) fn add(&mut self, row: Row) {
-        self.rows.push(row);
     }
 
     /// The baselines of a row, without those that were not measured.
@@ -194,10 +186,10 @@ mod tests {
     #[test]
     fn json_names_every_value_and_baseline() {
         let mut table = Table::new("speed", &[Column::compared("p50_us"), Column::plain("bytes")]);
-        table.add(Row::new("ours", vec![3.0, 20.0]).with_baselines(&["raw", "not measured"]));
-        table.add(Row::new("raw", vec![2.5, 20.0]));
-        table.add(Row::new("rounds", vec![2.0, 20.0]).with_baselines(&["same rounds"]).with_rounds(&[2.0]));
-        table.add(Row::new("same rounds", vec![2.0, 20.0]).with_rounds(&[1.0]));
+        table.rows.push(Row::new("ours", vec![3.0, 20.0]).with_baselines(&["raw", "not measured"]));
+        table.rows.push(Row::new("raw", vec![2.5, 20.0]));
+        table.rows.push(Row::new("rounds", vec![2.0, 20.0]).with_baselines(&["same rounds"]).with_rounds(&[2.0]));
+        table.rows.push(Row::new("same rounds", vec![2.0, 20.0]).with_rounds(&[1.0]));
         let report = Report { benchmark: "example", tables: vec![table], notes: vec!["idle machine".to_owned()] };
         let rows = json!([
             { "name": "ours", "p50_us": 3.0, "bytes": 20.0, "ratios": { "raw": { "p50_us": 1.2 } } },

@@ -56,9 +56,9 @@ struct Measurement {
 /// the other.
 pub(crate) fn measure_restart(restarts: usize) -> scl::Result<Report> {
     let folder = ScratchFolder::new()?;
-    let durations = start_runtime()?.block_on(run(folder.path(), restarts.max(1)))?;
+    let durations = start_runtime()?.block_on(run(&folder.path, restarts.max(1)))?;
     let mut report = Report::new("restart");
-    report.add(table(restarts, &durations));
+    report.tables.push(table(restarts, &durations));
     report.note("measured from the start of the new process to the first message between both sides");
     Ok(report)
 }
@@ -116,7 +116,7 @@ fn table(restarts: usize, durations: &[Durations]) -> Table {
     let mut table = Table::new(title, &COLUMNS);
     for (variant, durations) in VARIANTS.iter().zip(durations) {
         let values = vec![durations.quantile(0.5) / 1e3, durations.max() / 1e3];
-        table.add(Row::new(variant.name, values).with_baselines(variant.baselines).with_durations(durations));
+        table.rows.push(Row::new(variant.name, values).with_baselines(variant.baselines).with_durations(durations));
     }
     table
 }

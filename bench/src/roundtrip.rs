@@ -72,7 +72,7 @@ pub(crate) fn measure_roundtrip(sizes: &[usize], messages: usize, transport: Tra
     let mut report = Report::new("roundtrip");
     let runtime = start_runtime()?;
     for &bytes in sizes {
-        report.add(measure_size(&runtime, messages, transport, bytes)?);
+        report.tables.push(measure_size(&runtime, messages, transport, bytes)?);
     }
     report.note_rounds();
     Ok(report)
@@ -82,7 +82,7 @@ fn measure_size(runtime: &Runtime, messages: usize, transport: Transport, bytes:
     let folder = ScratchFolder::new()?;
     let mut measurements = Vec::new();
     for variant in over(transport, IPC) {
-        let client = Client::start(runtime, variant.id, folder.path(), bytes)?;
+        let client = Client::start(runtime, variant.id, &folder.path, bytes)?;
         let (durations, medians) = (Durations::new()?, Vec::new());
         measurements.push(Measurement { variant, client, durations, medians });
     }
@@ -118,7 +118,7 @@ fn table(bytes: usize, measurements: &[Measurement]) -> Table {
     for Measurement { variant, durations, medians, .. } in measurements {
         let values = vec![durations.quantile(0.5), durations.quantile(0.99)];
         let row = Row::new(variant.name, values).with_rounds(medians).with_durations(durations);
-        table.add(row.with_baselines(variant.baselines));
+        table.rows.push(row.with_baselines(variant.baselines));
     }
     table
 }

@@ -5,7 +5,7 @@ use tempfile::TempDir;
 /// A temporary folder, removed when dropped. Its subfolder `raw` is for sockets that are not SCL's.
 pub(crate) struct ScratchFolder {
     _folder: TempDir,
-    path: String,
+    pub(crate) path: String,
 }
 
 impl ScratchFolder {
@@ -16,9 +16,5 @@ impl ScratchFolder {
             || scl::Error::message(format!("the name of the folder `{}` is not UTF-8", folder.path().display()));
         let path = folder.path().to_str().ok_or_else(not_utf8)?.to_owned();
         Ok(Self { _folder: folder, path })
-    }
-
-    pub(crate) fn path(&self) -> &str {
-        &self.path
     }
 }

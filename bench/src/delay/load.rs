@@ -1,6 +1,5 @@
 //! Load on the machine: one thread per core that computes, and one that writes a file.
 
-use std::fs::File;
 use std::hint::black_box;
 use std::io::{Seek, Write};
 use std::sync::Arc;
@@ -18,15 +17,28 @@ pub(super) struct Load {
 
 impl Load {
     pub(super) fn start() -> scl::Result<Self> {
-        let file = tempfile::tempfile()?;
         let mut load = Self { is_ended: Arc::default(), threads: Vec::new() };
         for _ in 0..thread::available_parallelism()?.get() {
-            let is_ended = Arc::clone(&load.is_ended);
-            load.threads.push(thread::Builder::new().spawn(move || compute(&is_ended))?);
+            let mut value = 1_u64;
+            load.repeat(move || {
+                value = black_box(value.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1));
+                true
+            })?;
         }
-        let is_ended = Arc::clone(&load.is_ended);
-        load.threads.push(thread::Builder::new().spawn(move || write(&is_ended, file))?);
+        let (mut file, block) = (tempfile::tempfile()?, vec![7; FILE_SIZE]);
+        // A full disk only removes the load on the disk; the other threads go on.
+        load.repeat(move || {
+            file.rewind().and_then(|()| file.write_all(&block)).and_then(|()| file.sync_data()).is_ok()
+        })?;
         Ok(load)
+    }
+
+    /// Repeats the work on a thread of its own until the load ends, or the work returns false.
+    fn repeat(&mut self, mut work: impl FnMut() -> bool + Send + 'static) -> scl::Result<()> {
+        let is_ended = Arc::clone(&self.is_ended);
+        let repeated = move || while !is_ended.load(Ordering::Relaxed) && work() {};
+        self.threads.push(thread::Builder::new().spawn(repeated)?);
+        Ok(())
     }
 }
 
@@ -36,24 +48,6 @@ impl Drop for Load {
         for thread in self.threads.drain(..) {
             // A thread that panicked has ended as well.
             let _ended = thread.join();
-        }
-    }
-}
-
-fn compute(is_ended: &AtomicBool) {
-    let mut value = 1_u64;
-    while !is_ended.load(Ordering::Relaxed) {
-        value = black_box(value.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1));
-    }
-}
-
-fn write(is_ended: &AtomicBool, mut file: File) {
-    let block = vec![7; FILE_SIZE];
-    while !is_ended.load(Ordering::Relaxed) {
-        let written = file.rewind().and_then(|()| file.write_all(&block)).and_then(|()| file.sync_data());
-        // A full disk only removes the load on the disk; the other threads go on.
-        if written.is_err() {
-            return;
         }
     }
 }

@@ -11,6 +11,7 @@ use crate::raw::SocketPaths;
 use crate::worker::Worker;
 use scl::time::interval;
 use std::time::Instant;
+use zeromq::PubSocket;
 
 /// The number of subscribers, as in the topology.
 pub(super) const SUBSCRIBERS: usize = 8;
@@ -32,7 +33,7 @@ impl Publisher {
     pub(super) async fn start(id: &str, folder: &str) -> scl::Result<Self> {
         let start_subscriber = |number: usize| Worker::start(&["fanout", id, folder, &number.to_string()]);
         let raw = match id {
-            "zeromq" => Some(SocketPaths::new(folder, id).bind_pub("stream").await?),
+            "zeromq" => Some(SocketPaths::new(folder, id).bind::<PubSocket>("stream").await?),
             _ => None,
         };
         let stopped = start_subscriber(1)?;

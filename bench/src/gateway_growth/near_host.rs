@@ -4,7 +4,7 @@ use super::GatewayGrowthOptions;
 use super::system::{ASKING, NEAR, REQUEST, hosts, plan, topology};
 use crate::durations::Durations;
 use crate::footprint::{processor_ms, resident_kib};
-use crate::gateway::{Gateways, runtime_dir};
+use crate::gateway::{runtime_dir, start_gateways};
 use crate::report::{Column, Report, Row, Table};
 use crate::runtime::start_runtime;
 use crate::scratch::ScratchFolder;
@@ -48,10 +48,10 @@ pub(super) fn measure(options: &GatewayGrowthOptions) -> scl::Result<Report> {
     let runtime = start_runtime()?;
     let mut table = Table::new(format!("a gateway with connections to {} other host(s)", options.hosts), &COLUMNS);
     for &connections in &options.connections {
-        table.add(measure_connections(&runtime, options, connections)?);
+        table.rows.push(measure_connections(&runtime, options, connections)?);
     }
     let mut report = Report::new("gateway-growth");
-    report.add(table);
+    report.tables.push(table);
     report.note("memory is the resident memory of the gateway, including the program's code");
     report.note(format!("under load, every connection carries {RATE} messages of {BYTES} bytes per second"));
     Ok(report)
@@ -59,11 +59,11 @@ pub(super) fn measure(options: &GatewayGrowthOptions) -> scl::Result<Report> {
 
 fn measure_connections(runtime: &Runtime, options: &GatewayGrowthOptions, connections: usize) -> scl::Result<Row> {
     let scratch = ScratchFolder::new()?;
-    let folder = Path::new(scratch.path());
+    let folder = Path::new(&scratch.path);
     let far_names: Vec<String> = (0..options.hosts.min(connections)).map(|far| format!("far{far}")).collect();
     let hosts = hosts(connections, &far_names);
-    let gateways = Gateways::start(folder, &topology(connections, options.hosts)?, &hosts)?;
-    let [Some(gateway), Some(far_gateway)] = [0, 1].map(|index| gateways.ids().nth(index)) else {
+    let gateways = start_gateways(folder, &topology(connections, options.hosts)?, &hosts)?;
+    let [Some(gateway), Some(far_gateway)] = [0, 1].map(|index| gateways.get(index).map(Worker::id)) else {
         return Err(scl::Error::message("there are no two gateways"));
     };
     let _far_hosts = start_far_hosts(runtime, folder, &far_names)?;

@@ -77,9 +77,9 @@ mod tests {
             durations.record(nanoseconds);
         }
         let ours = Row::new("ours", vec![3.0, 20.0]).with_baselines(&["raw", "other library"]);
-        table.add(ours.with_durations(&durations).with_rounds(&[3.0, 3.5]));
-        table.add(Row::new("raw", vec![2.5, 20.0]).with_rounds(&[2.5, 2.5]));
-        table.add(Row::new("other library", vec![6.0, 20.0]).with_baselines(&["raw"]));
+        table.rows.push(ours.with_durations(&durations).with_rounds(&[3.0, 3.5]));
+        table.rows.push(Row::new("raw", vec![2.5, 20.0]).with_rounds(&[2.5, 2.5]));
+        table.rows.push(Row::new("other library", vec![6.0, 20.0]).with_baselines(&["raw"]));
         Report { benchmark: "example", tables: vec![table], notes: vec!["idle machine".to_owned()] }
     }
 

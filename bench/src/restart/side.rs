@@ -7,6 +7,7 @@ use crate::raw::SocketPaths;
 use crate::worker::unknown_arguments;
 use scl::bytes::Bytes;
 use scl::{Rep, Req};
+use zeromq::PubSocket;
 
 pub(super) enum Side {
     Sends(Sender),
@@ -31,7 +32,7 @@ impl Side {
             ("scl", "puller") => Self::Receives(Receiver::Pull(open!(Puller, options, false).stream, false)),
             ("scl", "requester") => Self::Calls(open!(Requester, options, false).stream),
             ("scl", "replier") => Self::Replies(open!(Replier, options, false).stream),
-            ("zeromq", "publisher") => Self::Sends(Sender::Zeromq(Box::new(paths.bind_pub("stream").await?))),
+            ("zeromq", "publisher") => Self::Sends(Sender::Zeromq(Box::new(paths.bind::<PubSocket>("stream").await?))),
             ("zeromq", "subscriber") => Self::Receives(Receiver::Zeromq(Box::new(paths.connect_sub("stream").await?))),
             #[cfg(feature = "libzmq")]
             ("libzmq", "publisher") => Self::Sends(Sender::Libzmq(paths.bind_libzmq("stream", zmq2::PUB, mark)?)),
@@ -45,13 +46,7 @@ impl Side {
 }
 
 fn opposite(role: &str) -> &str {
-    match role {
-        "publisher" => "subscriber",
-        "subscriber" => "publisher",
-        "pusher" => "puller",
-        "puller" => "pusher",
-        "requester" => "replier",
-        "replier" => "requester",
-        unknown => unknown,
-    }
+    let pairs = [["publisher", "subscriber"], ["pusher", "puller"], ["requester", "replier"]];
+    let other = pairs.iter().find(|pair| pair.contains(&role)).and_then(|pair| pair.iter().find(|it| **it != role));
+    other.copied().unwrap_or(role)
 }

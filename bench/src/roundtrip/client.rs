@@ -11,7 +11,7 @@ use scl::Req;
 use scl::bytes::Bytes;
 use std::time::Instant;
 use tokio::runtime::Runtime;
-use zeromq::{DealerSocket, Socket, SocketRecv, SocketSend, ZmqMessage};
+use zeromq::{DealerSocket, SocketRecv, SocketSend, ZmqMessage};
 
 /// The client of one variant.
 pub(super) struct Client<'a> {
@@ -45,9 +45,7 @@ impl<'a> Client<'a> {
                 }
                 "zeromq-req" => {
                     let echo = Worker::start_open(&echo).await?;
-                    let mut dealer = DealerSocket::new();
-                    dealer.connect(&paths.endpoint("request")).await?;
-                    (Some(echo), End::Zeromq(dealer))
+                    (Some(echo), End::Zeromq(paths.connect("request").await?))
                 }
                 #[cfg(feature = "libzmq")]
                 "libzmq-req-blocking" => {

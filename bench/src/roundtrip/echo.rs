@@ -6,7 +6,7 @@ use crate::link::{Far, Setup, open};
 use crate::raw::SocketPaths;
 use crate::runtime::{run, start_runtime};
 use crate::worker::{print_line, unknown_arguments};
-use zeromq::{RouterSocket, Socket, SocketRecv, SocketSend};
+use zeromq::{RouterSocket, SocketRecv, SocketSend};
 
 /// Runs the echo process of a variant. The arguments are its id, the scratch folder and the message size.
 pub(crate) fn run_echo(arguments: &[&str]) -> scl::Result<()> {
@@ -29,8 +29,7 @@ pub(crate) fn run_echo(arguments: &[&str]) -> scl::Result<()> {
                 }
             }
             "zeromq-req" => {
-                let mut router = RouterSocket::new();
-                router.bind(&paths.endpoint("request")).await?;
+                let mut router: RouterSocket = paths.bind("request").await?;
                 print_line("open")?;
                 loop {
                     let request = router.recv().await?;
