@@ -10,7 +10,7 @@ use crate::output::File;
 use crate::system::{Component, Gate, MessageUse, System};
 use crate::writer::Writer;
 use messages::Messages;
-use scl_topology::diagnostic::Diagnostic;
+pub(crate) use messages::unwritable;
 
 /// Namespaces that a system must not become: those of the standard library and of SCL itself.
 const TAKEN_NAMESPACES: [&str; 2] = ["std", "scl"];
@@ -37,16 +37,11 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
     declarations
 }
 
-/// Names that the header cannot write.
-pub(crate) fn unwritable(system: &System) -> Vec<Diagnostic> {
-    messages::unwritable(system)
-}
-
 /// `<system>.scl.hpp`.
 pub(crate) fn files(system: &System) -> Vec<File> {
     let messages = Messages::of(system);
     let namespace = namespace(system);
-    let mut out = Writer::new("    ");
+    let mut out = Writer::default();
     out.line(format!("// {}\n#pragma once\n\n#include <scl.hpp>", system.header()));
     let gates = || system.gates().filter(|gate| carries_messages(gate));
     for codec in ["json", "protobuf"] {

@@ -55,14 +55,14 @@ pub(crate) fn files(system: &System) -> Vec<File> {
     let schema = Schema::of(system);
     let names = Names::of(system, &schema);
     let imports = Imports::default();
-    let mut body = Writer::new("    ");
+    let mut body = Writer::default();
     for component in system.components_and_counterparts() {
         component::write(system, component, &names, &imports, &mut body);
     }
     let messages = message::Messages { schema: &schema, names: &names, imports: &imports };
     messages.write(&mut body);
 
-    let mut out = Writer::new("    ");
+    let mut out = Writer::default();
     out.line(format!("# {}", system.header()));
     // Stricter modes ask for `@override` and for assignments of all attributes.
     out.line("# pyright: basic");

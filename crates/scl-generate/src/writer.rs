@@ -1,23 +1,18 @@
 //! Text with indentation.
 
 /// Collects the lines of a file.
+#[derive(Default)]
 pub(crate) struct Writer {
     text: String,
-    unit: &'static str,
     depth: usize,
 }
 
 impl Writer {
-    /// An empty text; `unit` is one level of indentation.
-    pub(crate) fn new(unit: &'static str) -> Self {
-        Self { text: String::new(), unit, depth: 0 }
-    }
-
     /// Adds a line; of a text of several lines, each.
     pub(crate) fn line(&mut self, text: impl AsRef<str>) {
         for line in text.as_ref().split('\n') {
             if !line.is_empty() {
-                (0..self.depth).for_each(|_| self.text.push_str(self.unit));
+                (0..self.depth).for_each(|_| self.text.push_str("    "));
                 self.text.push_str(line);
             }
             self.text.push('\n');
@@ -55,12 +50,12 @@ mod tests {
 
     #[test]
     fn blocks_are_indented_and_empty_lines_are_empty() {
-        let mut out = Writer::new("  ");
+        let mut out = Writer::default();
         out.block("{", "}", |out| {
             out.line("a\n\nb");
             out.blank();
             out.block("[", "]", |out| out.line("c"));
         });
-        assert_eq!(out.finish(), "{\n  a\n\n  b\n\n  [\n    c\n  ]\n}\n");
+        assert_eq!(out.finish(), "{\n    a\n\n    b\n\n    [\n        c\n    ]\n}\n");
     }
 }

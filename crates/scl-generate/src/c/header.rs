@@ -31,7 +31,7 @@ const STRICTNESS: &str = "\
 
 /// The header.
 pub(super) fn text(system: &System) -> String {
-    let mut out = Writer::new("    ");
+    let mut out = Writer::default();
     let guard = format!("{}_SCL_H", system.snake_name().to_ascii_uppercase());
     source::first_line(system, &mut out);
     out.line(format!("#ifndef {guard}\n#define {guard}\n"));

@@ -8,7 +8,7 @@ use crate::writer::Writer;
 
 /// The source.
 pub(super) fn text(system: &System) -> String {
-    let mut out = Writer::new("    ");
+    let mut out = Writer::default();
     first_line(system, &mut out);
     out.line(format!("#define {}", own_macro(system)));
     out.line(format!("#include \"{}_scl.h\"\n", system.snake_name()));

@@ -127,7 +127,7 @@ fn protoc_identifier(name: &str) -> String {
 
 /// SCL1103: messages of gates whose C++ name depends on the version of protoc, or is none because protoc does not
 /// escape packages.
-pub(super) fn unwritable(system: &System) -> Vec<Diagnostic> {
+pub(crate) fn unwritable(system: &System) -> Vec<Diagnostic> {
     let mut told = HashSet::new();
     let gates = system.components.iter().flat_map(|component| &component.gates);
     let used = gates.flat_map(|gate| &gate.types).filter(|used| used.in_schemas && told.insert(used.dotted.as_str()));
