@@ -5,10 +5,10 @@ mod parse;
 #[cfg(test)]
 mod tests;
 
+use crate::error::Mismatch;
 use crate::field_kind::FieldKind;
 use crate::path::FieldPath;
 use crate::value::{Value, to_json};
-pub use check::ConditionMismatch;
 use check::not_boolean;
 use scl_terminal::Problem;
 use std::cmp::Ordering;
@@ -72,7 +72,7 @@ impl Condition {
     /// # Errors
     /// A field alone is not a boolean in this message. [`check`](Self::check) finds that without a message if the type
     /// is known.
-    pub fn holds(&self, message: &Value) -> Result<bool, ConditionMismatch> {
+    pub fn holds(&self, message: &Value) -> Result<bool, Mismatch> {
         self.root.holds(message)
     }
 }
@@ -98,7 +98,7 @@ impl From<ConditionError> for Problem {
 }
 
 impl Node {
-    fn holds(&self, message: &Value) -> Result<bool, ConditionMismatch> {
+    fn holds(&self, message: &Value) -> Result<bool, Mismatch> {
         Ok(match self {
             Node::Or(nodes) => is_one(nodes, message, true)?,
             Node::And(nodes) => !is_one(nodes, message, false)?,
@@ -117,7 +117,7 @@ impl Node {
 }
 
 /// Whether one of the nodes holds, or does not hold.
-fn is_one(nodes: &[Node], message: &Value, expected: bool) -> Result<bool, ConditionMismatch> {
+fn is_one(nodes: &[Node], message: &Value, expected: bool) -> Result<bool, Mismatch> {
     for node in nodes {
         if node.holds(message)? == expected {
             return Ok(true);

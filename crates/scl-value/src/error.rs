@@ -53,11 +53,11 @@ fn place(path: &str, offset: Option<usize>) -> String {
     }
 }
 
-/// A value cannot be written as a message of the type.
+/// A value, a field or a condition does not fit the messages of a type.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{}{reason}", place(path, None))]
 #[non_exhaustive]
-pub struct EncodeError {
+pub struct Mismatch {
     /// The field: `pose.joints[2]`; empty for the message itself.
     pub path: String,
     /// What is wrong with it.
@@ -68,7 +68,7 @@ pub struct EncodeError {
     pub note: Option<String>,
 }
 
-impl EncodeError {
+impl Mismatch {
     pub(crate) fn new(reason: impl Into<String>) -> Self {
         Self { path: String::new(), reason: reason.into(), help: None, note: None }
     }
@@ -99,14 +99,9 @@ impl EncodeError {
     }
 }
 
-/// A problem with the help and the note that there may be.
-pub(crate) fn problem_of(message: String, help: Option<String>, note: Option<String>) -> Problem {
-    let problem = help.into_iter().fold(Problem::new(message), Problem::help);
-    note.into_iter().fold(problem, Problem::note)
-}
-
-impl From<EncodeError> for Problem {
-    fn from(error: EncodeError) -> Self {
-        problem_of(error.to_string(), error.help, error.note)
+impl From<Mismatch> for Problem {
+    fn from(error: Mismatch) -> Self {
+        let problem = error.help.iter().fold(Problem::new(error.to_string()), Problem::help);
+        error.note.iter().fold(problem, Problem::note)
     }
 }

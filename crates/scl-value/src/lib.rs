@@ -34,9 +34,9 @@ mod testing;
 mod text;
 mod value;
 
-pub use condition::{Condition, ConditionError, ConditionMismatch};
-pub use error::{DecodeError, EncodeError, TypeError};
+pub use condition::{Condition, ConditionError};
+pub use error::{DecodeError, Mismatch, TypeError};
 pub use message_type::MessageType;
-pub use path::{FieldPath, PathError, UnknownField};
+pub use path::{FieldPath, PathError};
 pub use text::{Documents, ReadError, Table, read_yaml, to_yaml};
 pub use value::{Opaque, Value, Written, key_text, to_json};

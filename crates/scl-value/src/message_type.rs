@@ -3,9 +3,9 @@
 #[cfg(test)]
 mod tests;
 
-use crate::error::{DecodeError, EncodeError, TypeError};
+use crate::error::{DecodeError, Mismatch, TypeError};
 use crate::field_kind::FieldKind;
-use crate::path::{FieldPath, UnknownField};
+use crate::path::FieldPath;
 use crate::protobuf::{self, Unknown};
 use crate::self_describing::{read_cbor, read_json, read_msgpack, write_cbor, write_msgpack};
 use crate::text;
@@ -122,10 +122,9 @@ impl MessageType {
     /// Bytes that two messages have in common if they mean the same, whatever the order of their fields and maps; the
     /// payload itself if it cannot be decoded.
     pub fn canonical(&self, payload: &[u8]) -> Bytes {
-        match self.decode(payload) {
-            Ok(Value::Opaque(_)) | Err(_) => Bytes::copy_from_slice(payload),
-            Ok(value) => canonical(&value).into(),
-        }
+        let value = self.decode(payload).ok().filter(|value| !matches!(value, Value::Opaque(_)));
+        let written = value.and_then(|value| write_msgpack(&canonical(&value)).ok());
+        written.unwrap_or_else(|| Bytes::copy_from_slice(payload))
     }
 
     /// Writes a message.
@@ -136,7 +135,7 @@ impl MessageType {
     ///
     /// # Errors
     /// The value is not one of the type: the error names the field and what is expected there.
-    pub fn encode(&self, value: &Value) -> Result<Bytes, EncodeError> {
+    pub fn encode(&self, value: &Value) -> Result<Bytes, Mismatch> {
         match &self.form {
             Form::Protobuf(message) => {
                 Ok(scl_shape::encode(&protobuf::from_value(message, value, &mut Unknown::Refuse)?).into())
@@ -148,7 +147,7 @@ impl MessageType {
                 let mut json = Vec::new();
                 message
                     .serialize_with_options(&mut serde_json::Serializer::new(&mut json), &options)
-                    .map_err(|error| EncodeError::new(error.to_string()))?;
+                    .map_err(|error| Mismatch::new(error.to_string()))?;
                 Ok(json.into())
             }
             Form::Json => exact(value).map(|()| to_json(value).into()),
@@ -174,12 +173,12 @@ impl MessageType {
     ///
     /// # Errors
     /// The type has no such field; it says which it has.
-    pub fn check_field(&self, path: &FieldPath) -> Result<(), UnknownField> {
+    pub fn check_field(&self, path: &FieldPath) -> Result<(), Mismatch> {
         self.kind_of(path).map(drop)
     }
 
     /// What the value at a path may be.
-    pub(crate) fn kind_of(&self, path: &FieldPath) -> Result<FieldKind, UnknownField> {
+    pub(crate) fn kind_of(&self, path: &FieldPath) -> Result<FieldKind, Mismatch> {
         self.descriptor().map_or(Ok(FieldKind::Unknown), |message| protobuf::kind_of(message, path))
     }
 
@@ -192,12 +191,12 @@ impl MessageType {
 }
 
 /// Refuses whole numbers that were read as floats because they have more than 64 bits.
-fn exact(value: &Value) -> Result<(), EncodeError> {
+fn exact(value: &Value) -> Result<(), Mismatch> {
     match value {
         Value::Written(written) if matches!(written.meaning, Value::Float(_)) => {
             let text = &written.text;
             let is_whole = text.trim_start_matches(['-', '+']).bytes().all(|byte| byte.is_ascii_digit());
-            let error = || EncodeError::new(format!("the number {text} has more than 64 bits"));
+            let error = || Mismatch::new(format!("the number {text} has more than 64 bits"));
             if is_whole {
                 Err(error().help(format!("quote it, or write `{text}.0` for the nearest float")))
             } else {

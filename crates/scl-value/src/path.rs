@@ -1,6 +1,5 @@
 //! Paths of fields: `pose.joints[0].angle`.
 
-use crate::error::problem_of;
 use crate::value::{Value, key_text};
 use scl_terminal::Problem;
 use std::fmt;
@@ -28,21 +27,6 @@ pub(crate) enum Segment {
 pub struct PathError {
     text: String,
     reason: String,
-}
-
-/// The type has no such field.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{reason}")]
-#[non_exhaustive]
-pub struct UnknownField {
-    /// The part of the path that exists.
-    pub path: FieldPath,
-    /// What is wrong.
-    pub reason: String,
-    /// What to do.
-    pub help: Option<String>,
-    /// What there is.
-    pub note: Option<String>,
 }
 
 impl FieldPath {
@@ -211,12 +195,6 @@ impl fmt::Display for FieldPath {
 impl From<PathError> for Problem {
     fn from(error: PathError) -> Self {
         Problem::new(error.to_string()).help("write `a.b`, `list[0].c` or `map.\"any key\"`")
-    }
-}
-
-impl From<UnknownField> for Problem {
-    fn from(error: UnknownField) -> Self {
-        problem_of(error.reason, error.help, error.note)
     }
 }
 

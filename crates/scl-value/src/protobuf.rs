@@ -12,7 +12,7 @@ pub(crate) use fields::{columns, kind_of};
 pub(crate) use from_value::{Unknown, from_value};
 pub(crate) use template::template;
 
-use crate::error::EncodeError;
+use crate::error::Mismatch;
 use crate::value::Value;
 use prost_reflect::{DynamicMessage, MessageDescriptor};
 
@@ -31,7 +31,7 @@ pub(crate) fn decode(message: &MessageDescriptor, bytes: &[u8]) -> Result<Value,
 }
 
 /// Reads a message from its JSON. As every codec, it skips fields that the type does not have; they are named.
-pub(crate) fn from_json(message: &MessageDescriptor, json: &Value) -> Result<Value, EncodeError> {
+pub(crate) fn from_json(message: &MessageDescriptor, json: &Value) -> Result<Value, Mismatch> {
     let mut unknown = Unknown::Collect(Vec::new());
     let mut value = to_value::to_value(&from_value(message, json, &mut unknown)?, 0);
     if let (Unknown::Collect(paths), Value::Map(entries)) = (unknown, &mut value)

@@ -1,7 +1,7 @@
 //! JSON, CBOR and MessagePack without a type: bytes that say themselves what they are.
 
 use crate::base64::from_base64;
-use crate::error::EncodeError;
+use crate::error::Mismatch;
 use crate::limits::{Budget, Exceeded, MAX_DEPTH};
 use crate::value::{DATA, EXTENSION, Format, InFormat, Value, widen};
 use bytes::Bytes;
@@ -87,18 +87,18 @@ pub(crate) fn read_msgpack(bytes: &[u8]) -> Result<Value, Wrong> {
 }
 
 /// Writes one CBOR item.
-pub(crate) fn write_cbor(value: &Value) -> Result<Bytes, EncodeError> {
+pub(crate) fn write_cbor(value: &Value) -> Result<Bytes, Mismatch> {
     let mut writer = BufWriter::new(Vec::new());
-    let wrong = |error: cbor4ii::serde::EncodeError<_>| EncodeError::new(error.to_string());
+    let wrong = |error: cbor4ii::serde::EncodeError<_>| Mismatch::new(error.to_string());
     InFormat(value, Format::Binary).serialize(&mut cbor4ii::serde::Serializer::new(&mut writer)).map_err(wrong)?;
     Ok(writer.into_inner().into())
 }
 
 /// Writes one MessagePack value.
-pub(crate) fn write_msgpack(value: &Value) -> Result<Bytes, EncodeError> {
+pub(crate) fn write_msgpack(value: &Value) -> Result<Bytes, Mismatch> {
     let mut bytes = Vec::new();
     let mut output = rmp_serde::Serializer::new(&mut bytes);
-    InFormat(value, Format::Binary).serialize(&mut output).map_err(|error| EncodeError::new(error.to_string()))?;
+    InFormat(value, Format::Binary).serialize(&mut output).map_err(|error| Mismatch::new(error.to_string()))?;
     Ok(bytes.into())
 }
 
@@ -148,10 +148,6 @@ impl<'de> Visitor<'de> for AnyValue<'_> {
     }
 
     fn visit_str<E>(self, text: &str) -> Result<Value, E> {
-        Ok(text.into())
-    }
-
-    fn visit_string<E>(self, text: String) -> Result<Value, E> {
         Ok(text.into())
     }
 

@@ -9,12 +9,12 @@ pub use documents::Documents;
 pub use table::Table;
 pub use yaml::{ReadError, read_yaml, to_yaml};
 
-use crate::error::EncodeError;
+use crate::error::Mismatch;
 use crate::value::{Value, key_text};
 
 /// The bytes of an opaque message: bytes, or a map with `hex` or `text`, whose values are taken as they were written.
-pub(crate) fn opaque_bytes(value: &Value) -> Result<Vec<u8>, EncodeError> {
-    let wrong = |reason: &str| EncodeError::new(reason).help("write `{hex: 01ff}`, `{text: hello}` or `!binary AQL/`");
+pub(crate) fn opaque_bytes(value: &Value) -> Result<Vec<u8>, Mismatch> {
+    let wrong = |reason: &str| Mismatch::new(reason).help("write `{hex: 01ff}`, `{text: hello}` or `!binary AQL/`");
     let hex = match value {
         Value::Bytes(bytes) => return Ok(bytes.clone()),
         Value::Opaque(opaque) => opaque.hex.clone(),

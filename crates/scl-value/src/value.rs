@@ -163,17 +163,17 @@ pub(crate) fn widen(number: f32) -> f64 {
     if number.is_finite() { format!("{number:e}").parse().unwrap_or(f64::from(number)) } else { f64::from(number) }
 }
 
-impl From<bool> for Value {
-    fn from(flag: bool) -> Self {
-        Value::Bool(flag)
-    }
+macro_rules! from {
+    ($($variant:ident($type:ty))*) => {$(
+        impl From<$type> for Value {
+            fn from(value: $type) -> Self {
+                Value::$variant(value)
+            }
+        }
+    )*};
 }
 
-impl From<i64> for Value {
-    fn from(number: i64) -> Self {
-        Value::Int(number)
-    }
-}
+from! { Bool(bool) Int(i64) Float(f64) Text(String) }
 
 impl From<u64> for Value {
     fn from(number: u64) -> Self {
@@ -181,20 +181,8 @@ impl From<u64> for Value {
     }
 }
 
-impl From<f64> for Value {
-    fn from(number: f64) -> Self {
-        Value::Float(number)
-    }
-}
-
 impl From<&str> for Value {
     fn from(text: &str) -> Self {
         Value::Text(text.to_owned())
-    }
-}
-
-impl From<String> for Value {
-    fn from(text: String) -> Self {
-        Value::Text(text)
     }
 }

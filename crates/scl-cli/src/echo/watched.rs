@@ -4,7 +4,7 @@ use scl::tap::{Observation, ObservedKind};
 use scl_observe::{ObservedGate, System};
 use scl_plan::Payload;
 use scl_terminal::print_err;
-use scl_value::{Condition, ConditionMismatch, FieldPath, MessageType, UnknownField, Value};
+use scl_value::{Condition, FieldPath, MessageType, Mismatch, Value};
 use std::time::{Duration, Instant};
 
 /// Losses within this time are noted together: at a thousand messages a second, a note each would be the next loss.
@@ -44,16 +44,16 @@ impl Watched {
         std::iter::once(&self.message).chain(self.exchanges().then_some(&self.reply))
     }
 
-    pub(super) fn check_field(&self, path: &FieldPath) -> Result<(), UnknownField> {
+    pub(super) fn check_field(&self, path: &FieldPath) -> Result<(), Mismatch> {
         self.check(|messages| messages.check_field(path))
     }
 
-    pub(super) fn check_condition(&self, condition: &Condition) -> Result<(), ConditionMismatch> {
+    pub(super) fn check_condition(&self, condition: &Condition) -> Result<(), Mismatch> {
         self.check(|messages| condition.check(messages))
     }
 
     /// One of the types must pass.
-    fn check<E>(&self, check: impl Fn(&MessageType) -> Result<(), E>) -> Result<(), E> {
+    fn check(&self, check: impl Fn(&MessageType) -> Result<(), Mismatch>) -> Result<(), Mismatch> {
         check(&self.message).or_else(|error| match self.exchanges() {
             true => check(&self.reply).map_err(|_| error),
             false => Err(error),

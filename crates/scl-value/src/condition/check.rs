@@ -1,41 +1,12 @@
 //! Whether a condition can hold for messages of a type: its fields exist, and their values can be compared.
 
 use super::{Condition, Node, Operand, Operator};
-use crate::error::problem_of;
+use crate::error::Mismatch;
 use crate::field_kind::FieldKind;
 use crate::message_type::MessageType;
-use crate::path::{FieldPath, UnknownField};
+use crate::path::FieldPath;
 use crate::value::Value;
-use scl_terminal::{Problem, closest_name, quoted_list};
-use thiserror::Error;
-
-/// A condition makes no sense for a message or a type of messages.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum ConditionMismatch {
-    /// The type has no such field.
-    #[error(transparent)]
-    Field(#[from] UnknownField),
-    /// A value is not of the kind that the condition needs.
-    #[error("{reason}")]
-    Kind {
-        /// What is wrong.
-        reason: String,
-        /// What to do.
-        help: Option<String>,
-        /// What would be right.
-        note: Option<String>,
-    },
-}
-
-impl From<ConditionMismatch> for Problem {
-    fn from(mismatch: ConditionMismatch) -> Self {
-        match mismatch {
-            ConditionMismatch::Field(error) => error.into(),
-            ConditionMismatch::Kind { reason, help, note } => problem_of(reason, help, note),
-        }
-    }
-}
+use scl_terminal::{closest_name, quoted_list};
 
 impl Condition {
     /// Checks that the condition may hold for messages of a type. If the type is not known, every field may be there
@@ -44,13 +15,13 @@ impl Condition {
     /// # Errors
     /// The type has no such field, a field alone is not a boolean, or values are compared that are never equal, such as
     /// a text and a number.
-    pub fn check(&self, messages: &MessageType) -> Result<(), ConditionMismatch> {
+    pub fn check(&self, messages: &MessageType) -> Result<(), Mismatch> {
         self.root.check(messages)
     }
 }
 
 impl Node {
-    fn check(&self, messages: &MessageType) -> Result<(), ConditionMismatch> {
+    fn check(&self, messages: &MessageType) -> Result<(), Mismatch> {
         match self {
             Node::Or(nodes) | Node::And(nodes) => nodes.iter().try_for_each(|node| node.check(messages)),
             Node::Not(node) => node.check(messages),
@@ -67,7 +38,7 @@ impl Node {
 }
 
 impl Operand {
-    fn kind(&self, messages: &MessageType) -> Result<FieldKind, UnknownField> {
+    fn kind(&self, messages: &MessageType) -> Result<FieldKind, Mismatch> {
         match self {
             Operand::Field(path) => messages.kind_of(path),
             Operand::Constant(value) => Ok(FieldKind::of(value)),
@@ -76,13 +47,13 @@ impl Operand {
 }
 
 /// `mode == AUTO`
-fn or_a_text(error: UnknownField, operand: &Operand) -> UnknownField {
+fn or_a_text(error: Mismatch, operand: &Operand) -> Mismatch {
     let Operand::Field(path) = operand else { return error };
-    UnknownField { help: error.help.or_else(|| Some(format!("texts stand in quotes: `'{path}'`"))), ..error }
+    Mismatch { help: error.help.or_else(|| Some(format!("texts stand in quotes: `'{path}'`"))), ..error }
 }
 
 /// A field alone that is no boolean.
-pub(super) fn not_boolean(path: &FieldPath, kind: &FieldKind) -> ConditionMismatch {
+pub(super) fn not_boolean(path: &FieldPath, kind: &FieldKind) -> Mismatch {
     let example = match kind {
         FieldKind::Number => format!("{path} > 0"),
         FieldKind::Text => format!("{path} == 'text'"),
@@ -90,21 +61,17 @@ pub(super) fn not_boolean(path: &FieldPath, kind: &FieldKind) -> ConditionMismat
         FieldKind::List(_) | FieldKind::Map(..) => format!("{path} contains 1"),
         _ => format!("{path} != null"),
     };
-    ConditionMismatch::Kind {
-        reason: format!("`{path}` is {}, which is neither true nor false", kind.word()),
-        help: Some(format!("compare it, for example `{example}`")),
-        note: None,
-    }
+    Mismatch::new(format!("`{path}` is {}, which is neither true nor false", kind.word()))
+        .help(format!("compare it, for example `{example}`"))
 }
 
 fn check_comparison(
     (left, left_kind): (&Operand, &FieldKind),
     operator: Operator,
     (right, right_kind): (&Operand, &FieldKind),
-) -> Result<(), ConditionMismatch> {
-    let mismatch = |reason: String, help: Option<&str>| {
-        Err(ConditionMismatch::Kind { reason, help: help.map(str::to_owned), note: None })
-    };
+) -> Result<(), Mismatch> {
+    let mismatch =
+        |reason: String, help: Option<&str>| Err(help.into_iter().fold(Mismatch::new(reason), Mismatch::help));
     let kinds = || format!("{left} is {}, and {right} is {}", left_kind.word(), right_kind.word());
     match operator {
         Operator::Contains => match (left_kind, right_kind) {
@@ -151,15 +118,13 @@ fn check_comparison(
 }
 
 /// A constant that is compared with enum values must be one of their names.
-fn check_names(kind: &FieldKind, operand: &Operand) -> Result<(), ConditionMismatch> {
+fn check_names(kind: &FieldKind, operand: &Operand) -> Result<(), Mismatch> {
     let (FieldKind::Enum(names), Operand::Constant(Value::Text(text))) = (kind, operand) else { return Ok(()) };
     if names.contains(text) {
         return Ok(());
     }
     let names = || names.iter().map(String::as_str);
-    Err(ConditionMismatch::Kind {
-        reason: format!("{operand} is not the name of an enum value of the field"),
-        help: closest_name(text, names()).map(|near| format!("did you mean `'{near}'`?")),
-        note: Some(format!("its names: {}", quoted_list(names()))),
-    })
+    let error = Mismatch::new(format!("{operand} is not the name of an enum value of the field"));
+    let near = closest_name(text, names()).map(|near| format!("did you mean `'{near}'`?"));
+    Err(near.into_iter().fold(error, Mismatch::help).note(format!("its names: {}", quoted_list(names()))))
 }

@@ -2,8 +2,9 @@
 
 use super::from_value::unknown_field;
 use super::well_known::{Short, short};
+use crate::error::Mismatch;
 use crate::field_kind::FieldKind;
-use crate::path::{FieldPath, Segment, UnknownField};
+use crate::path::{FieldPath, Segment};
 use prost_reflect::{FieldDescriptor, Kind, MessageDescriptor};
 
 /// Maximum number of columns of a table.
@@ -13,30 +14,29 @@ const MAX_COLUMNS: usize = 1000;
 ///
 /// # Errors
 /// The message has no such field.
-pub(crate) fn kind_of(message: &MessageDescriptor, path: &FieldPath) -> Result<FieldKind, UnknownField> {
+pub(crate) fn kind_of(message: &MessageDescriptor, path: &FieldPath) -> Result<FieldKind, Mismatch> {
     let mut reached = of_message(message);
     for (index, segment) in path.segments().iter().enumerate() {
-        let wrong = |reason: String| UnknownField { path: path.up_to(index), reason, help: None, note: None };
         reached = match (reached, segment) {
             (FieldKind::Unknown, _) => return Ok(FieldKind::Unknown),
             (FieldKind::Message(message), Segment::Name(name)) => match message.get_field_by_name(name) {
                 Some(field) => of_field(&field),
                 None if name.starts_with('@') => return Ok(FieldKind::Unknown),
-                None => {
-                    let error = unknown_field(&message, name);
-                    return Err(UnknownField { help: error.help, note: error.note, ..wrong(error.reason) });
-                }
+                None => return Err(unknown_field(&message, name)),
             },
             (FieldKind::List(item), Segment::Index(_)) => *item,
             (FieldKind::Map(_, value), _) => *value,
             (FieldKind::Message(message), Segment::Index(_)) => {
-                return Err(wrong(format!("`{}` is a message, not a list", message.full_name())));
+                return Err(Mismatch::new(format!("`{}` is a message, not a list", message.full_name())));
             }
             (FieldKind::List(_), Segment::Name(_)) => {
-                let help = Some(format!("name an element: `{}[0]`", path.up_to(index)));
-                return Err(UnknownField { help, ..wrong(format!("`{}` is a list", path.up_to(index))) });
+                let error = Mismatch::new(format!("`{}` is a list", path.up_to(index)));
+                return Err(error.help(format!("name an element: `{}[0]`", path.up_to(index))));
             }
-            (kind, _) => return Err(wrong(format!("`{}` is {} and has no fields", path.up_to(index), kind.word()))),
+            (kind, _) => {
+                let reason = format!("`{}` is {} and has no fields", path.up_to(index), kind.word());
+                return Err(Mismatch::new(reason));
+            }
         };
     }
     Ok(reached)

@@ -5,7 +5,7 @@ mod short_form;
 
 use super::UNKNOWN;
 use crate::base64::{from_base64, to_base64};
-use crate::error::EncodeError;
+use crate::error::Mismatch;
 use crate::text::from_hex;
 use crate::value::{Value, key_text};
 use number::{float, integer};
@@ -29,7 +29,7 @@ pub(crate) fn from_value(
     message: &MessageDescriptor,
     value: &Value,
     unknown: &mut Unknown,
-) -> Result<DynamicMessage, EncodeError> {
+) -> Result<DynamicMessage, Mismatch> {
     if let Some(read) = short_form::lengthen(message, value, unknown) {
         return read;
     }
@@ -62,7 +62,7 @@ pub(crate) fn from_value(
     }
     let is_missing = |field: &FieldDescriptor| field.is_required() && !given.contains(field);
     match message.fields().find(is_missing) {
-        Some(field) => Err(EncodeError::new(format!("the required field `{}` is missing", field.name()))),
+        Some(field) => Err(Mismatch::new(format!("the required field `{}` is missing", field.name()))),
         None => Ok(result),
     }
 }
@@ -80,16 +80,16 @@ fn known_fields(message: &MessageDescriptor) -> String {
     }
 }
 
-pub(super) fn unknown_field(message: &MessageDescriptor, name: &str) -> EncodeError {
-    let error = EncodeError::new(format!("message `{}` has no field `{name}`", message.full_name()));
+pub(super) fn unknown_field(message: &MessageDescriptor, name: &str) -> Mismatch {
+    let error = Mismatch::new(format!("message `{}` has no field `{name}`", message.full_name()));
     let names: Vec<String> = message.fields().map(|field| field.name().to_owned()).collect();
     error.did_you_mean(name, names.iter().map(String::as_str)).note(known_fields(message))
 }
 
 /// A field may be there once, and of a oneof only one.
-fn check_given(field: &FieldDescriptor, given: &[FieldDescriptor]) -> Result<(), EncodeError> {
+fn check_given(field: &FieldDescriptor, given: &[FieldDescriptor]) -> Result<(), Mismatch> {
     if given.contains(field) {
-        return Err(EncodeError::new(format!("the field `{}` is there twice", field.name())));
+        return Err(Mismatch::new(format!("the field `{}` is there twice", field.name())));
     }
     let Some(oneof) = field.containing_oneof() else { return Ok(()) };
     match given.iter().find(|other| other.containing_oneof().as_ref() == Some(&oneof)) {
@@ -97,7 +97,7 @@ fn check_given(field: &FieldDescriptor, given: &[FieldDescriptor]) -> Result<(),
         Some(other) => {
             let (first, second) = (other.name(), field.name());
             let reason = format!("the fields `{first}` and `{second}` exclude each other");
-            Err(EncodeError::new(reason).note(format!("they belong to the oneof `{}`", oneof.name())))
+            Err(Mismatch::new(reason).note(format!("they belong to the oneof `{}`", oneof.name())))
         }
     }
 }
@@ -109,7 +109,7 @@ fn takes_null(kind: &Kind, null: &Value) -> bool {
     is_any || is_named()
 }
 
-fn read_field(field: &FieldDescriptor, value: &Value, unknown: &mut Unknown) -> Result<Field, EncodeError> {
+fn read_field(field: &FieldDescriptor, value: &Value, unknown: &mut Unknown) -> Result<Field, Mismatch> {
     let kind = field.kind();
     if field.is_map() {
         let (Value::Map(entries), Kind::Message(entry)) = (value, &kind) else {
@@ -122,7 +122,7 @@ fn read_field(field: &FieldDescriptor, value: &Value, unknown: &mut Unknown) -> 
             let key = map_key(&key_kind, key).map_err(|error| error.below(&name))?;
             let value = read_value(&value_kind, value, unknown).map_err(|error| error.below(&name))?;
             if map.insert(key, value).is_some() {
-                return Err(EncodeError::new("the key is there twice").below(&name));
+                return Err(Mismatch::new("the key is there twice").below(&name));
             }
         }
         return Ok(Field::Map(map));
@@ -138,7 +138,7 @@ fn read_field(field: &FieldDescriptor, value: &Value, unknown: &mut Unknown) -> 
     read_value(&kind, value, unknown)
 }
 
-fn read_value(kind: &Kind, value: &Value, unknown: &mut Unknown) -> Result<Field, EncodeError> {
+fn read_value(kind: &Kind, value: &Value, unknown: &mut Unknown) -> Result<Field, Mismatch> {
     Ok(match kind {
         Kind::Message(message) => Field::Message(from_value(message, value, unknown)?),
         Kind::Enum(descriptor) => Field::EnumNumber(enum_number(descriptor, value)?),
@@ -155,7 +155,7 @@ fn read_value(kind: &Kind, value: &Value, unknown: &mut Unknown) -> Result<Field
             Value::Bytes(bytes) => Field::Bytes(bytes.clone().into()),
             Value::Text(text) => {
                 let decoded = from_base64(text).map_err(|reason| {
-                    EncodeError::new(format!("expected bytes as base64: {}", reason.trim_end_matches('.')))
+                    Mismatch::new(format!("expected bytes as base64: {}", reason.trim_end_matches('.')))
                 })?;
                 Field::Bytes(decoded.into())
             }
@@ -173,7 +173,7 @@ fn read_value(kind: &Kind, value: &Value, unknown: &mut Unknown) -> Result<Field
             let number = float(value, "float")?;
             let narrow = number as f32;
             if number.is_finite() && narrow.is_infinite() {
-                return Err(EncodeError::new(format!("{number:e} is too large for a number of 32 bits (float)")));
+                return Err(Mismatch::new(format!("{number:e} is too large for a number of 32 bits (float)")));
             }
             Field::F32(narrow)
         }
@@ -184,8 +184,8 @@ fn read_value(kind: &Kind, value: &Value, unknown: &mut Unknown) -> Result<Field
     })
 }
 
-fn wrong(expected: &str, found: &Value) -> EncodeError {
-    EncodeError::new(format!("expected {expected}, found {}", told(found)))
+fn wrong(expected: &str, found: &Value) -> Mismatch {
+    Mismatch::new(format!("expected {expected}, found {}", told(found)))
 }
 
 /// A value for a message: short ones themselves, others by their kind.
@@ -199,7 +199,7 @@ fn told(value: &Value) -> String {
 }
 
 /// The error about a scalar without quotes where a text belongs.
-fn unquoted(value: &Value, error: EncodeError) -> EncodeError {
+fn unquoted(value: &Value, error: Mismatch) -> Mismatch {
     match value.meaning() {
         Value::Int(_) | Value::Uint(_) | Value::Float(_) | Value::Bool(_) => {
             error.help(format!("quote it: '{}'", key_text(value)))
@@ -209,7 +209,7 @@ fn unquoted(value: &Value, error: EncodeError) -> EncodeError {
 }
 
 /// The error about a text where a boolean belongs.
-fn boolean_word(word: &str, error: EncodeError) -> EncodeError {
+fn boolean_word(word: &str, error: Mismatch) -> Mismatch {
     match word.to_ascii_lowercase().as_str() {
         "yes" | "y" | "on" => error.help("write `true`"),
         "no" | "n" | "off" => error.help("write `false`"),
@@ -217,7 +217,7 @@ fn boolean_word(word: &str, error: EncodeError) -> EncodeError {
     }
 }
 
-fn enum_number(descriptor: &EnumDescriptor, value: &Value) -> Result<i32, EncodeError> {
+fn enum_number(descriptor: &EnumDescriptor, value: &Value) -> Result<i32, Mismatch> {
     // A name may be a word of YAML: `NULL`, `TRUE`.
     let name = key_text(value);
     if let Some(named) = descriptor.get_value_by_name(&name) {
@@ -226,7 +226,7 @@ fn enum_number(descriptor: &EnumDescriptor, value: &Value) -> Result<i32, Encode
     match value.meaning() {
         Value::Text(_) => {
             let names: Vec<String> = descriptor.values().map(|value| value.name().to_owned()).collect();
-            let error = EncodeError::new(format!("`{}` has no value `{name}`", descriptor.full_name()));
+            let error = Mismatch::new(format!("`{}` has no value `{name}`", descriptor.full_name()));
             let error = error.did_you_mean(&name, names.iter().map(String::as_str));
             let listed = quoted_list(names.iter().take(LISTED).map(String::as_str));
             Err(error.note(format!("its values: {listed}{}", if names.len() > LISTED { ", ..." } else { "" })))
@@ -237,7 +237,7 @@ fn enum_number(descriptor: &EnumDescriptor, value: &Value) -> Result<i32, Encode
 }
 
 /// Keys are texts in JSON, whatever their type.
-fn map_key(kind: &Kind, key: &Value) -> Result<MapKey, EncodeError> {
+fn map_key(kind: &Kind, key: &Value) -> Result<MapKey, Mismatch> {
     let flag = match key.meaning() {
         Value::Bool(flag) => Some(*flag),
         Value::Text(text) => text.parse().ok(),

@@ -1,11 +1,11 @@
 //! Numbers of a type from values, without loss.
 
 use super::wrong;
-use crate::error::EncodeError;
+use crate::error::Mismatch;
 use crate::value::Value;
 
 /// A floating-point number.
-pub(super) fn float(value: &Value, word: &str) -> Result<f64, EncodeError> {
+pub(super) fn float(value: &Value, word: &str) -> Result<f64, Mismatch> {
     let wrong = || wrong(&format!("a number ({word})"), value);
     let number = match value {
         Value::Written(written) => match &written.meaning {
@@ -28,7 +28,7 @@ pub(super) fn float(value: &Value, word: &str) -> Result<f64, EncodeError> {
 }
 
 /// A whole number of the type `N`, which `word` names.
-pub(super) fn integer<N>(value: &Value, word: &str, least: N, most: N) -> Result<N, EncodeError>
+pub(super) fn integer<N>(value: &Value, word: &str, least: N, most: N) -> Result<N, Mismatch>
 where
     N: TryFrom<i128> + std::fmt::Display,
 {
@@ -69,7 +69,7 @@ fn whole_number(text: &str) -> Option<i128> {
 }
 
 /// The error about a number with leading zeros, which is octal in YAML 1.1 and decimal in YAML 1.2.
-fn leading_zeros(text: &str, error: EncodeError) -> EncodeError {
+fn leading_zeros(text: &str, error: Mismatch) -> Mismatch {
     let (sign, digits) = text.split_at(text.len() - text.trim_start_matches(['-', '+']).len());
     let plain = digits.trim_start_matches('0');
     let plain = if plain.starts_with(|first: char| first.is_ascii_digit()) { plain } else { &format!("0{plain}") };

@@ -2,7 +2,7 @@
 
 use super::super::well_known::{Short, TYPE, any_type, short};
 use super::{Unknown, from_value};
-use crate::error::EncodeError;
+use crate::error::Mismatch;
 use crate::value::{Value, key_text};
 use prost::Message;
 use prost_reflect::{DynamicMessage, MapKey, MessageDescriptor, Value as Field};
@@ -13,10 +13,10 @@ pub(super) fn lengthen(
     message: &MessageDescriptor,
     value: &Value,
     unknown: &mut Unknown,
-) -> Option<Result<DynamicMessage, EncodeError>> {
+) -> Option<Result<DynamicMessage, Mismatch>> {
     let is_plain = |name: &str| matches!(value, Value::Map(_)) && value.get(name).is_some();
     let wrapped = |name: &str, value: &Value, unknown: &mut Unknown| {
-        from_value(message, &Value::fields([(name, value.clone())]), unknown).map_err(|error| EncodeError {
+        from_value(message, &Value::fields([(name, value.clone())]), unknown).map_err(|error| Mismatch {
             path: error.path.strip_prefix(name).unwrap_or(&error.path).trim_start_matches('.').to_owned(),
             ..error
         })
@@ -26,10 +26,10 @@ pub(super) fn lengthen(
             Value::Text(text) => {
                 let text = serde_json::Value::String(text.clone());
                 DynamicMessage::deserialize(message.clone(), text)
-                    .map_err(|error| EncodeError::new(format!("{error}; expected {}", expected(message))))
+                    .map_err(|error| Mismatch::new(format!("{error}; expected {}", expected(message))))
             }
             Value::Map(_) => return None,
-            other => Err(EncodeError::new(format!("expected {}, found {}", expected(message), other.kind()))),
+            other => Err(Mismatch::new(format!("expected {}, found {}", expected(message), other.kind()))),
         },
         Short::Wrapper if is_plain("value") => return None,
         Short::Wrapper => wrapped("value", value, unknown),
@@ -38,11 +38,11 @@ pub(super) fn lengthen(
             let url = match value.get(TYPE)? {
                 Value::Text(url) => url.clone(),
                 other => {
-                    return Some(Err(EncodeError::new(format!("expected a text, found {}", other.kind())).below(TYPE)));
+                    return Some(Err(Mismatch::new(format!("expected a text, found {}", other.kind())).below(TYPE)));
                 }
             };
             let Some(descriptor) = any_type(message, &url) else {
-                return Some(Err(EncodeError::new(format!("the schema has no message `{url}`")).below(TYPE)));
+                return Some(Err(Mismatch::new(format!("the schema has no message `{url}`")).below(TYPE)));
             };
             let content = match value {
                 Value::Map(_) if short(&descriptor).is_some() => value.get("value").cloned().unwrap_or(Value::Null),
@@ -71,17 +71,17 @@ fn expected(message: &MessageDescriptor) -> &'static str {
 }
 
 /// `Struct`, `ListValue` and `Value` from any value.
-fn anything(message: &MessageDescriptor, value: &Value) -> Result<DynamicMessage, EncodeError> {
+fn anything(message: &MessageDescriptor, value: &Value) -> Result<DynamicMessage, Mismatch> {
     let nested = |name: &str, value: &Value| {
         let inner = message.parent_pool().get_message_by_name(&format!("google.protobuf.{name}"));
-        let inner = inner.ok_or_else(|| EncodeError::new(format!("the schema has no `google.protobuf.{name}`")))?;
+        let inner = inner.ok_or_else(|| Mismatch::new(format!("the schema has no `google.protobuf.{name}`")))?;
         anything(&inner, value).map(Field::Message)
     };
     let mut result = DynamicMessage::new(message.clone());
     let (name, field) = match (message.name(), value) {
         ("Struct", Value::Map(entries)) => {
             let entry = |(key, value): &(Value, Value)| Ok((MapKey::String(key_text(key)), nested("Value", value)?));
-            let map: HashMap<_, _> = entries.iter().map(entry).collect::<Result<_, EncodeError>>()?;
+            let map: HashMap<_, _> = entries.iter().map(entry).collect::<Result<_, Mismatch>>()?;
             ("fields", Field::Map(map))
         }
         ("ListValue", Value::List(items)) => {
@@ -98,11 +98,11 @@ fn anything(message: &MessageDescriptor, value: &Value) -> Result<DynamicMessage
             Value::List(_) => ("list_value", nested("ListValue", value)?),
             Value::Map(_) => ("struct_value", nested("Struct", value)?),
             Value::Bytes(_) | Value::Opaque(_) | Value::Written(_) => {
-                return Err(EncodeError::new(format!("expected a value as in JSON, found {}", value.kind())));
+                return Err(Mismatch::new(format!("expected a value as in JSON, found {}", value.kind())));
             }
         },
-        ("Struct", other) => return Err(EncodeError::new(format!("expected a map, found {}", other.kind()))),
-        (_, other) => return Err(EncodeError::new(format!("expected a list, found {}", other.kind()))),
+        ("Struct", other) => return Err(Mismatch::new(format!("expected a map, found {}", other.kind()))),
+        (_, other) => return Err(Mismatch::new(format!("expected a list, found {}", other.kind()))),
     };
     result.set_field_by_name(name, field);
     Ok(result)
