@@ -4,6 +4,7 @@
 //! same name and type in both, and a name that both use must have the same number: a renumbered field would arrive as
 //! its default value, without an error.
 
+use crate::declared::{Index, Item};
 use prost_types::field_descriptor_proto::{Label, Type};
 use prost_types::{DescriptorProto, EnumDescriptorProto, FieldDescriptorProto, FileDescriptorSet};
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
@@ -296,61 +297,6 @@ fn shown(name: &str) -> String {
 
 fn without_dot(name: &str) -> &str {
     name.strip_prefix('.').unwrap_or(name)
-}
-
-#[derive(Clone, Copy)]
-enum Item<'d> {
-    Message(&'d DescriptorProto),
-    Enum(&'d EnumDescriptorProto),
-}
-
-/// Finds messages and enums by their full names. Names are kept in parts: whole ones could take far more memory than
-/// the descriptors, if a message with a long name contains many others.
-struct Index<'d> {
-    /// The scope of each package.
-    packages: HashMap<&'d str, usize>,
-    /// The items in a scope, and the scope of their own if they are messages.
-    items: HashMap<(usize, &'d str), (Item<'d>, usize)>,
-}
-
-impl<'d> Index<'d> {
-    fn of(descriptors: &'d FileDescriptorSet) -> Self {
-        let mut index = Self { packages: HashMap::new(), items: HashMap::new() };
-        let mut next_scope = 0;
-        let mut new_scope = || {
-            next_scope += 1;
-            next_scope
-        };
-        for file in &descriptors.file {
-            let package = *index.packages.entry(file.package()).or_insert_with(&mut new_scope);
-            index.add_enums(package, &file.enum_type);
-            let mut messages: Vec<_> = file.message_type.iter().map(|message| (package, message)).collect();
-            while let Some((scope, message)) = messages.pop() {
-                let own = new_scope();
-                index.items.insert((scope, message.name()), (Item::Message(message), own));
-                index.add_enums(own, &message.enum_type);
-                messages.extend(message.nested_type.iter().map(|nested| (own, nested)));
-            }
-        }
-        index
-    }
-
-    fn add_enums(&mut self, scope: usize, enums: &'d [EnumDescriptorProto]) {
-        self.items.extend(enums.iter().map(|found| ((scope, found.name()), (Item::Enum(found), 0))));
-    }
-
-    /// Where the package ends in a full name is not known, so the longest package is tried first.
-    fn find(&self, name: &str) -> Option<Item<'d>> {
-        let dots = name.rmatch_indices('.').map(|(at, _)| (&name[..at], &name[at + 1..]));
-        dots.chain([("", name)]).find_map(|(package, path)| {
-            let mut found = (None, *self.packages.get(package)?);
-            for part in path.split('.') {
-                let (item, scope) = *self.items.get(&(found.1, part))?;
-                found = (Some(item), scope);
-            }
-            found.0
-        })
-    }
 }
 
 #[cfg(test)]
