@@ -22,13 +22,23 @@ impl ProcessFigures {
 
     /// `stat` as `proc_pid_stat(5)` describes it.
     fn parse(stat: &str, ticks_per_second: u64, page_size: u64) -> Option<Self> {
-        // The second field, the name in parentheses, may contain anything.
-        let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
-        let field = |number: usize| fields.get(number - 3)?.parse::<u64>().ok();
+        let field = |number| stat_field(stat, number);
         let ticks = field(14)?.saturating_add(field(15)?);
         let processor_time = Duration::from_secs_f64(ticks as f64 / ticks_per_second.max(1) as f64);
         Some(Self { processor_time, memory: field(24)?.saturating_mul(page_size) })
     }
+}
+
+/// A field of `stat` by its number, from the third one on.
+pub(crate) fn stat_field(stat: &str, number: usize) -> Option<u64> {
+    // The second field, the name in parentheses, may contain anything.
+    stat.rsplit_once(')')?.1.split_whitespace().nth(number - 3)?.parse().ok()
+}
+
+/// Whether a bit of a mask is set, by the text of `status`; `key` is `CapEff:`.
+pub(crate) fn has_bit(status: &str, key: &str, bit: u32) -> bool {
+    let mask = status.lines().find_map(|line| line.strip_prefix(key));
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).is_some_and(|mask| mask >> bit & 1 == 1)
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! What runs the asynchronous part of a command, and the signals that stop it.
 
+use crate::process::has_bit;
 use scl_terminal::Problem;
 use std::fs;
 use std::future::pending;
@@ -30,9 +31,12 @@ impl StopSignals {
     /// # Errors
     /// The operating system refuses.
     pub fn watch() -> Result<Self, Problem> {
+        // As `nohup` starts a process, which has not changed that.
         let hangup = SignalKind::hangup();
+        let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let is_ignored = has_bit(&status, "SigIgn:", hangup.as_raw_value().unsigned_abs() - 1);
         Ok(Self {
-            hangup: if is_ignored(hangup) { None } else { Some(watch_signal(hangup)?) },
+            hangup: if is_ignored { None } else { Some(watch_signal(hangup)?) },
             interrupt: watch_signal(SignalKind::interrupt())?,
             terminate: watch_signal(SignalKind::terminate())?,
         })
@@ -53,14 +57,6 @@ impl StopSignals {
             _ = hangup => {}
         }
     }
-}
-
-/// Whether this process was started with a signal ignored, as `nohup` does, and has not changed that.
-fn is_ignored(signal: SignalKind) -> bool {
-    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or_default();
-    ignored >> (signal.as_raw_value() - 1) & 1 == 1
 }
 
 /// Watches for one signal.

@@ -1,6 +1,7 @@
 //! Limits of this user: real-time priority, locked memory.
 
 use super::{Examined, Finding};
+use crate::process::has_bit;
 use rustix::process::{Resource, Rlimit, getrlimit};
 use scl_terminal::bytes_text;
 use std::fs;
@@ -29,7 +30,7 @@ impl Kernel {
         let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
         let groups = fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
         Self {
-            may_exceed: has_capability(&status, CAP_SYS_NICE),
+            may_exceed: has_bit(&status, "CapEff:", CAP_SYS_NICE),
             runtime: number("/proc/sys/kernel/sched_rt_runtime_us"),
             group_runtime: processor_group(&groups)
                 .and_then(|group| number(&format!("/sys/fs/cgroup/cpu{group}/cpu.rt_runtime_us"))),
@@ -39,13 +40,6 @@ impl Kernel {
 
 /// As in `capabilities(7)`.
 const CAP_SYS_NICE: u32 = 23;
-
-/// Whether a capability is in effect, by the text of /proc/<pid>/status.
-fn has_capability(status: &str, capability: u32) -> bool {
-    let effective = status.lines().find_map(|line| line.strip_prefix("CapEff:"));
-    let effective = effective.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
-    effective.is_some_and(|mask| mask & (1 << capability) != 0)
-}
 
 /// The control group of the first version for processor time, by the text of /proc/<pid>/cgroup. The second version
 /// does not divide real-time.
@@ -121,9 +115,9 @@ mod tests {
     #[test]
     fn what_the_kernel_says_is_read() {
         let status = "Name:\tscl\nCapPrm:\t0000000000000000\nCapEff:\t0000000000800000\n";
-        assert!(has_capability(status, CAP_SYS_NICE));
-        assert!(!has_capability(status, CAP_SYS_NICE + 1));
-        assert!(!has_capability("Name:\tscl\n", CAP_SYS_NICE));
+        assert!(has_bit(status, "CapEff:", CAP_SYS_NICE));
+        assert!(!has_bit(status, "CapEff:", CAP_SYS_NICE + 1));
+        assert!(!has_bit("Name:\tscl\n", "CapEff:", CAP_SYS_NICE));
         assert_eq!(processor_group("4:memory:/a\n3:cpu,cpuacct:/user/x\n0::/b\n"), Some("/user/x"));
         assert_eq!(processor_group("0::/b\n"), None);
     }

@@ -1,6 +1,7 @@
 //! Components that asked for a real-time priority, and whether they have it.
 
 use super::{Examined, Finding};
+use crate::process::stat_field;
 use std::fs;
 
 const CHECK: &str = "scheduling";
@@ -27,9 +28,7 @@ fn wanted_priority(environment: &[u8]) -> Option<u64> {
 
 /// Real-time priority and policy of a process's first thread.
 fn scheduling(stat: &str) -> Option<(u64, u64)> {
-    let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
-    let field = |number: usize| fields.get(number - 3)?.parse().ok();
-    Some((field(40)?, field(41)?))
+    Some((stat_field(stat, 40)?, stat_field(stat, 41)?))
 }
 
 fn judge(component: &str, wanted: u64, (priority, policy): (u64, u64)) -> Finding {
