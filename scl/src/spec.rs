@@ -54,25 +54,15 @@ pub struct GateSpec {
 }
 
 impl GateSpec {
-    /// The type of the messages that the gate receives, `None` if it receives none.
+    /// The types of the messages that the gate sends, and that it receives.
     #[cfg(feature = "protobuf")]
-    pub(crate) fn received(&self) -> Option<&'static str> {
+    pub(crate) fn sent_and_received(&self) -> (Option<&'static str>, Option<&'static str>) {
         match (self.kind, self.exchanged()) {
-            (GateKind::Sub | GateKind::Pull, _) => Some(self.payload),
-            (GateKind::Rep, Some((request, _))) => Some(request),
-            (GateKind::Req, Some((_, reply))) => Some(reply),
-            _ => None,
-        }
-    }
-
-    /// The type of the messages that the gate sends, `None` if it sends none.
-    #[cfg(feature = "protobuf")]
-    pub(crate) fn sent(&self) -> Option<&'static str> {
-        match (self.kind, self.exchanged()) {
-            (GateKind::Pub | GateKind::Push, _) => Some(self.payload),
-            (GateKind::Req, Some((request, _))) => Some(request),
-            (GateKind::Rep, Some((_, reply))) => Some(reply),
-            _ => None,
+            (GateKind::Pub | GateKind::Push, _) => (Some(self.payload), None),
+            (GateKind::Sub | GateKind::Pull, _) => (None, Some(self.payload)),
+            (GateKind::Req, Some((request, reply))) => (Some(request), Some(reply)),
+            (GateKind::Rep, Some((request, reply))) => (Some(reply), Some(request)),
+            (GateKind::Req | GateKind::Rep, None) => (None, None),
         }
     }
 

@@ -36,10 +36,7 @@ impl<T: Serialize + DeserializeOwned> Codec<T> for Cbor {
             None => Err(error),
         });
         decoded.map_err(|error| match error {
-            Refused::Item(error) => {
-                let reason = format!("this {}-byte frame is not a CBOR item of the expected type", bytes.len());
-                DecodeError::new("cbor", reason).caused_by(error)
-            }
+            Refused::Item(error) => DecodeError::not_a("CBOR item", "cbor", bytes.len(), error),
             Refused::Rest => {
                 let reason = format!("data follows the CBOR item in this {}-byte frame", bytes.len());
                 DecodeError::new("cbor", reason)

@@ -87,8 +87,9 @@ impl<'de, V: Visitor<'de>> Visitor<'de> for Checked<'_, V> {
     }
 
     visit_plain! {
-        visit_bool(bool) visit_i64(i64) visit_i128(i128) visit_u64(u64) visit_u128(u128) visit_f64(f64)
-        visit_bytes(&[u8]) visit_borrowed_bytes(&'de [u8]) visit_byte_buf(Vec<u8>)
+        visit_bool(v: bool) visit_i64(v: i64) visit_i128(v: i128) visit_u64(v: u64) visit_u128(v: u128)
+        visit_f64(v: f64) visit_bytes(v: &[u8]) visit_borrowed_bytes(v: &'de [u8]) visit_byte_buf(v: Vec<u8>)
+        visit_none() visit_unit()
     }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<V::Value, E> {
@@ -108,14 +109,6 @@ impl<'de, V: Visitor<'de>> Visitor<'de> for Checked<'_, V> {
             }
             _ => self.inner.visit_str(text),
         }
-    }
-
-    fn visit_none<E: Error>(self) -> Result<V::Value, E> {
-        self.inner.visit_none()
-    }
-
-    fn visit_unit<E: Error>(self) -> Result<V::Value, E> {
-        self.inner.visit_unit()
     }
 
     fn visit_some<D: Deserializer<'de>>(self, content: D) -> Result<V::Value, D::Error> {

@@ -54,3 +54,11 @@ macro_rules! codec_error {
 
 codec_error!(EncodeError);
 codec_error!(DecodeError);
+
+#[cfg(any(feature = "json", feature = "cbor", feature = "msgpack", feature = "postcard", feature = "protobuf"))]
+impl DecodeError {
+    /// A frame of `length` bytes is something else than `what`.
+    pub(crate) fn not_a(what: &str, codec: &'static str, length: usize, source: impl Into<Cause>) -> Self {
+        Self::new(codec, format!("this {length}-byte frame is not a {what} of the expected type")).caused_by(source)
+    }
+}

@@ -27,9 +27,6 @@ impl<T: Serialize + DeserializeOwned> Codec<T> for Json {
     }
 
     fn decode(bytes: Bytes) -> Result<T, DecodeError> {
-        serde_json::from_slice(&bytes).map_err(|error| {
-            let reason = format!("this {}-byte frame is not a JSON value of the expected type", bytes.len());
-            DecodeError::new("json", reason).caused_by(error)
-        })
+        serde_json::from_slice(&bytes).map_err(|error| DecodeError::not_a("JSON value", "json", bytes.len(), error))
     }
 }

@@ -24,17 +24,13 @@ impl<T: Serialize + DeserializeOwned> Codec<T> for Msgpack {
     }
 
     fn decode(bytes: Bytes) -> Result<T, DecodeError> {
-        let refused = |reason| DecodeError::new("msgpack", reason);
         let mut rest = std::io::Cursor::new(&bytes[..]);
         // The library limits the depth of arrays and maps, but not of enums.
         let message = bounded::decode(&mut rmp_serde::Deserializer::new(&mut rest), bytes.len(), Floats::OfTheirWidth)
-            .map_err(|error| {
-                refused(format!("this {}-byte frame is not a MessagePack value of the expected type", bytes.len()))
-                    .caused_by(error)
-            })?;
+            .map_err(|error| DecodeError::not_a("MessagePack value", "msgpack", bytes.len(), error))?;
         match rest.position() {
             end if end == bytes.len() as u64 => Ok(message),
-            end => Err(refused(format!("the value ends after {end} of {} bytes", bytes.len()))),
+            end => Err(DecodeError::new("msgpack", format!("the value ends after {end} of {} bytes", bytes.len()))),
         }
     }
 }

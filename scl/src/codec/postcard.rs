@@ -27,18 +27,15 @@ impl<T: Serialize + DeserializeOwned> Codec<T> for Postcard {
     }
 
     fn decode(bytes: Bytes) -> Result<T, DecodeError> {
-        let refused = |reason| DecodeError::new("postcard", reason);
         let mut input = postcard::Deserializer::from_bytes(&bytes);
         let message = bounded::decode(&mut input, bytes.len(), Floats::OfTheirWidth);
         let read = message.and_then(|message| Ok((message, input.finalize()?)));
-        let (message, rest) = read.map_err(|error| {
-            refused(format!("this {}-byte frame is not a postcard value of the expected type", bytes.len()))
-                .caused_by(error)
-        })?;
+        let refused = |error| DecodeError::not_a("postcard value", "postcard", bytes.len(), error);
+        let (message, rest) = read.map_err(refused)?;
         if rest.is_empty() {
             return Ok(message);
         }
         let end = bytes.len() - rest.len();
-        Err(refused(format!("the value ends after {end} of {} bytes", bytes.len())))
+        Err(DecodeError::new("postcard", format!("the value ends after {end} of {} bytes", bytes.len())))
     }
 }

@@ -27,9 +27,6 @@ impl<T: Message + Default> Codec<T> for Protobuf {
 
     fn decode(bytes: Bytes) -> Result<T, DecodeError> {
         let length = bytes.len();
-        T::decode(bytes).map_err(|error| {
-            let reason = format!("this {length}-byte frame is not a protobuf message of the expected type");
-            DecodeError::new(<Self as Codec<T>>::NAME, reason).caused_by(error)
-        })
+        T::decode(bytes).map_err(|error| DecodeError::not_a("protobuf message", "protobuf", length, error))
     }
 }

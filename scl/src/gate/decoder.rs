@@ -78,7 +78,7 @@ impl MemoryLimit {
         };
         // An untyped gate passes its frames on, to a program in another language.
         let language = if codec == gate.codec { Language::Rust } else { Language::Other };
-        let message = gate.received()?;
+        let message = gate.sent_and_received().1?;
         let estimate = MemoryEstimate::new(component.message_types()?, message, language, format)?;
         Some(Self { gate, message, estimate })
     }
@@ -92,20 +92,19 @@ impl MemoryLimit {
     }
 
     fn check(&self, frame: &[u8]) -> Result<(), DecodeError> {
-        let refused = |reason| DecodeError::new(self.gate.codec, reason);
-        let (length, message, limit) = (frame.len(), self.message, self.bytes());
-        let estimate = self.estimate.of(frame).map_err(|error| {
-            refused(format!("this {length}-byte frame is not a message of the expected type")).caused_by(error)
-        })?;
+        let (codec, length, message, limit) = (self.gate.codec, frame.len(), self.message, self.bytes());
+        let estimate = self.estimate.of(frame);
+        let estimate = estimate.map_err(|error| DecodeError::not_a("message", codec, length, error))?;
         if estimate <= limit {
             return Ok(());
         }
-        Err(refused(format!(
+        let reason = format!(
             "this {length}-byte frame of `{message}` would take about {} MiB of memory, and the gate's `max_size` allows \
              {} MiB ({FACTOR} times `max_size`, at least {} MiB); send smaller messages, or declare a larger `max_size`",
             estimate.div_ceil(1 << 20),
             limit >> 20,
             (LEAST_SIZE * FACTOR) >> 20,
-        )))
+        );
+        Err(DecodeError::new(codec, reason))
     }
 }

@@ -27,7 +27,7 @@ impl ForeignTexts {
             "json" => Format::Json,
             #[cfg(feature = "protobuf")]
             "protobuf" => {
-                let message = gate.sent()?;
+                let message = gate.sent_and_received().0?;
                 Format::Protobuf(message, scl_shape::TextCheck::new(component.message_types()?, message)?)
             }
             _ => return None,

@@ -13,33 +13,27 @@ pub mod without_zeros {
         pub use super::super::hash_map;
         pub use prost::encoding::*;
 
-        pub mod double {
-            pub use prost::encoding::double::*;
+        /// The functions for a type of floats.
+        macro_rules! floats {
+            ($module:ident $float:ty) => {
+                pub mod $module {
+                    pub use prost::encoding::$module::*;
 
-            pub fn encode(tag: u32, value: &f64, buffer: &mut impl prost::bytes::BufMut) {
-                if value.to_bits() != 0 {
-                    prost::encoding::double::encode(tag, value, buffer);
+                    pub fn encode(tag: u32, value: &$float, buffer: &mut impl prost::bytes::BufMut) {
+                        if value.to_bits() != 0 {
+                            prost::encoding::$module::encode(tag, value, buffer);
+                        }
+                    }
+
+                    pub fn encoded_len(tag: u32, value: &$float) -> usize {
+                        if value.to_bits() != 0 { prost::encoding::$module::encoded_len(tag, value) } else { 0 }
+                    }
                 }
-            }
-
-            pub fn encoded_len(tag: u32, value: &f64) -> usize {
-                if value.to_bits() != 0 { prost::encoding::double::encoded_len(tag, value) } else { 0 }
-            }
+            };
         }
 
-        pub mod float {
-            pub use prost::encoding::float::*;
-
-            pub fn encode(tag: u32, value: &f32, buffer: &mut impl prost::bytes::BufMut) {
-                if value.to_bits() != 0 {
-                    prost::encoding::float::encode(tag, value, buffer);
-                }
-            }
-
-            pub fn encoded_len(tag: u32, value: &f32) -> usize {
-                if value.to_bits() != 0 { prost::encoding::float::encoded_len(tag, value) } else { 0 }
-            }
-        }
+        floats!(double f64);
+        floats!(float f32);
     }
 }
 
