@@ -8,7 +8,6 @@ use crate::runtime_dir::{
 use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::sync::lock;
 use crate::transport::PeerCheck;
-use crate::transport_choice::TransportChoice;
 use scl_fork::ProcessMark;
 use std::error::Error;
 use std::pin::Pin;
@@ -46,18 +45,8 @@ struct Held {
 
 impl Registration {
     /// Takes the component's lock, removes what a killed process left behind, and publishes the messages and the
-    /// announcement. The gates are opened after that, on these transports. The component writes its stats with the
-    /// given period, if any.
-    pub(crate) fn in_folder(
-        spec: &'static ComponentSpec,
-        dir: SystemDir,
-        stats_period: Option<Duration>,
-        choice: &TransportChoice,
-    ) -> Result<Self, RuntimeDirError> {
-        Self::announcing(spec, dir, Announcement::of(spec, choice), stats_period)
-    }
-
-    /// The same with an announcement other than the usual one, which names the component's spec.
+    /// announcement, which names the component. The gates are opened after that. The component writes its stats with
+    /// the given period, if any.
     pub(crate) fn announcing(
         spec: &'static ComponentSpec,
         dir: SystemDir,

@@ -61,31 +61,15 @@ impl TransportChoice {
         self.default
     }
 
-    /// The transport of one connection.
-    pub(crate) fn of_connection(
-        &self,
-        spec: &ComponentSpec,
-        gate: &GateSpec,
-        connection: &ConnectionSpec,
-    ) -> TransportKind {
-        self.last(|component, name| {
+    /// The transport of an end of a gate: of one connection, of all connections of a gate that listens once for all of
+    /// its peers, or, without connections, of its tap, where only tools connect.
+    pub(crate) fn of(&self, spec: &ComponentSpec, gate: &GateSpec, connections: &[ConnectionSpec]) -> TransportKind {
+        let applies = |component: &str, name: &str| {
             (component, name) == (spec.name, gate.name)
-                || (component, name) == (connection.peer_component, connection.peer_gate)
-        })
-    }
-
-    /// The transport of a gate that listens once for all of its peers.
-    pub(crate) fn of_gate(&self, spec: &ComponentSpec, gate: &GateSpec) -> TransportKind {
-        self.last(|component, name| {
-            let is_peer =
-                |connection: &ConnectionSpec| (component, name) == (connection.peer_component, connection.peer_gate);
-            (component, name) == (spec.name, gate.name) || gate.connections.iter().any(is_peer)
-        })
-    }
-
-    /// The transport of a gate's tap, where only tools connect.
-    pub(crate) fn of_tap(&self, spec: &ComponentSpec, gate: &GateSpec) -> TransportKind {
-        self.last(|component, name| (component, name) == (spec.name, gate.name))
+                || connections.iter().any(|peer| (component, name) == (peer.peer_component, peer.peer_gate))
+        };
+        let found = self.entries().filter(|(component, gate, _)| applies(component, gate)).last();
+        found.map_or(self.default, |(.., kind)| kind)
     }
 
     /// The first exception for a gate of this component that it does not have.
@@ -93,11 +77,6 @@ impl TransportChoice {
         let has = |name: &str| spec.gates.iter().any(|gate| gate.name == name);
         let mut own = self.entries().filter(|(component, ..)| *component == spec.name);
         own.find(|(_, gate, _)| !has(gate)).map(|(_, gate, kind)| (gate, kind))
-    }
-
-    fn last(&self, applies: impl Fn(&str, &str) -> bool) -> TransportKind {
-        let found = self.entries().filter(|(component, gate, _)| applies(component, gate)).last();
-        found.map_or(self.default, |(.., kind)| kind)
     }
 
     fn entries(&self) -> impl Iterator<Item = (&str, &str, TransportKind)> {

@@ -112,7 +112,11 @@ impl Mirror {
     pub fn subscribing(&self, gate: &str, peer: (&str, &str), window: Window) -> Result<Endpoint, MirrorError> {
         let (gate, connection) = self.connection(gate, peer)?;
         let check = self.registration.peer_check(gate, connection);
-        Ok(Endpoint { check, deferred: Some(window), ..self.endpoint(gate, connection.endpoint) })
+        Ok(Endpoint {
+            check,
+            deferred: Some(window),
+            ..Endpoint::accepting(connection.endpoint, gate.options.max_size)
+        })
     }
 
     /// The endpoint at which this component's `pub` gate listens for a subscriber.
@@ -122,7 +126,11 @@ impl Mirror {
     pub fn publishing(&self, gate: &str, peer: (&str, &str)) -> Result<Endpoint, MirrorError> {
         let (gate, connection) = self.connection(gate, peer)?;
         let lossless = gate.options.waits_for(connection.when_full);
-        Ok(Endpoint { lossless, latched: gate.options.latched, ..self.endpoint(gate, connection.endpoint) })
+        Ok(Endpoint {
+            lossless,
+            latched: gate.options.latched,
+            ..Endpoint::accepting(connection.endpoint, gate.options.max_size)
+        })
     }
 
     /// The endpoint at which this component's `pull` gate listens for pushers. What it receives is acknowledged by the
@@ -132,7 +140,7 @@ impl Mirror {
     /// [`MirrorError::NoConnection`].
     pub fn pulling(&self, gate: &str, window: Window) -> Result<Endpoint, MirrorError> {
         let gate = self.gate(gate)?;
-        Ok(Endpoint { deferred: Some(window), ..self.endpoint(gate, gate.endpoint) })
+        Ok(Endpoint { deferred: Some(window), ..Endpoint::accepting(gate.endpoint, gate.options.max_size) })
     }
 
     /// The endpoint at which this component's `rep` gate listens for requesters.
@@ -141,11 +149,7 @@ impl Mirror {
     /// [`MirrorError::NoConnection`].
     pub fn replying(&self, gate: &str) -> Result<Endpoint, MirrorError> {
         let gate = self.gate(gate)?;
-        Ok(self.endpoint(gate, gate.endpoint))
-    }
-
-    fn endpoint(&self, gate: &'static GateSpec, name: &'static str) -> Endpoint {
-        Endpoint::accepting(name, gate.options.max_size)
+        Ok(Endpoint::accepting(gate.endpoint, gate.options.max_size))
     }
 
     fn gate(&self, name: &str) -> Result<&'static GateSpec, MirrorError> {

@@ -4,6 +4,7 @@ use super::transports::Transports;
 use crate::error::{GateName, MissingGuarantee, OpenError};
 use crate::spec::{ComponentSpec, GateKind, GateSpec, WhenFull};
 use crate::transport::{Guarantee, Transport};
+use std::slice::from_ref;
 
 /// Refuses a component that needs more than its transports offer, and names everything that is missing.
 pub(super) fn check(spec: &'static ComponentSpec, transports: &Transports) -> Result<(), OpenError> {
@@ -14,9 +15,9 @@ pub(super) fn check(spec: &'static ComponentSpec, transports: &Transports) -> Re
             let lacks = |(guarantee, option)| {
                 let offered = |transport: &dyn Transport| transport.guarantees().contains(guarantee);
                 let offered = if gate.connections.is_empty() || !gate.endpoint.is_empty() {
-                    offered(transports.of_gate(gate))
+                    offered(transports.of(gate, gate.connections))
                 } else {
-                    gate.connections.iter().all(|connection| offered(transports.of_connection(gate, connection)))
+                    gate.connections.iter().all(|connection| offered(transports.of(gate, from_ref(connection))))
                 };
                 (!offered).then(|| MissingGuarantee { gate: GateName::new(spec.name, gate.name), option, guarantee })
             };

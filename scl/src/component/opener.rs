@@ -9,11 +9,12 @@ use crate::gate::{Connection, GateTap, Incoming, Outgoing, Pub, Pull, Push, Rep,
 use crate::options::OpenOptions;
 use crate::registration::{Registration, StatsWriter};
 use crate::registry::{Registered, Unregistered};
-use crate::runtime_dir::{ComponentStats, RuntimeDir};
+use crate::runtime_dir::{Announcement, ComponentStats, RuntimeDir};
 use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::state::{ComponentState, OwnedRuntime, Owner, stats_period};
 use crate::time::Watchdog;
 use crate::transport::{Endpoint, Receiver, Sender, Transport, TransportError};
+use std::slice::from_ref;
 use std::sync::Arc;
 
 /// Opens the gates of one component; only generated code calls it.
@@ -29,11 +30,11 @@ impl Opener {
         options: &OpenOptions,
         runtime: Option<Arc<OwnedRuntime>>,
     ) -> Result<Self, OpenError> {
-        let (Joined { registration, stats }, transports) = match options.transport.clone() {
+        let (registration, stats, transports) = match options.transport.clone() {
             Some(transport) => {
                 let transports = Transports::Own(transport);
                 needs::check(spec, &transports)?;
-                (join(spec, options)?, transports)
+                (join(spec, options)?, None, transports)
             }
             None => register(spec, options)?,
         };
@@ -58,7 +59,7 @@ impl Opener {
     /// Opens the `sub` gate at an index of the component's list.
     pub fn subscriber<T, C: Codec<T>>(&mut self, index: usize) -> Result<Sub<T>, OpenError> {
         let spec = self.gate(index);
-        let subscribe = |link| self.transports.of_connection(spec, link).subscribe(&self.connecting(spec, link));
+        let subscribe = |link| self.transports.of(spec, from_ref(link)).subscribe(&self.connecting(spec, link));
         let links = self.links(spec).iter().map(subscribe).collect::<Result<_, _>>();
         Ok(Sub::new(self.incoming::<T, C>(index, links, GateTap::new(None, false))?))
     }
@@ -68,7 +69,7 @@ impl Opener {
         let spec = self.gate(index);
         let longest = longest::<T, C>(spec.options.max_size);
         let endpoint = Endpoint { longest, ..endpoint(spec.endpoint, spec) };
-        let link = self.transports.of_gate(spec).pull(&endpoint);
+        let link = self.transports.of(spec, spec.connections).pull(&endpoint);
         Ok(Pull::new(self.incoming::<T, C>(index, link.map(|link| vec![link]), self.tap(spec)?)?))
     }
 
@@ -78,7 +79,7 @@ impl Opener {
         let in_flight = spec.options.in_flight as usize;
         let request = |link| {
             let endpoint = Endpoint { in_flight, ..self.connecting(spec, link) };
-            self.transports.of_connection(spec, link).request(&endpoint)
+            self.transports.of(spec, from_ref(link)).request(&endpoint)
         };
         let link = spec.connections.first().map(request).transpose();
         let link = link.map_err(|source| self.refused(spec, source))?;
@@ -92,7 +93,7 @@ impl Opener {
     /// Opens the `rep` gate at an index of the component's list.
     pub fn replier<A, B, C: Codec<A> + Codec<B>>(&mut self, index: usize) -> Result<Rep<A, B>, OpenError> {
         let spec = self.gate(index);
-        let link = self.transports.of_gate(spec).reply(&endpoint(spec.endpoint, spec));
+        let link = self.transports.of(spec, spec.connections).reply(&endpoint(spec.endpoint, spec));
         let link = link.map_err(|source| self.refused(spec, source))?;
         let tap = self.tap(spec)?;
         let gate = Rep::new::<C>(self.state.clone(), spec, link, tap);
@@ -140,7 +141,7 @@ impl Opener {
                 longest: longest::<T, C>(link.max_size),
                 ..self.connecting(spec, link)
             };
-            let sender = open(self.transports.of_connection(spec, link), &endpoint);
+            let sender = open(self.transports.of(spec, from_ref(link)), &endpoint);
             let sender = sender.map_err(|source| self.refused(spec, source))?;
             let has_ended = self.state.registration().end_check(link.peer_component);
             let connection = Connection::new(sender, self.name(spec), spec, link, self.state.changes(), has_ended);
@@ -162,7 +163,7 @@ impl Opener {
         if spec.tap.is_empty() {
             return Ok(GateTap::new(None, false));
         }
-        let tap = self.transports.of_tap(spec).tap(&Endpoint::new(spec.tap));
+        let tap = self.transports.of(spec, &[]).tap(&Endpoint::new(spec.tap));
         tap.map(|tap| GateTap::new(tap, spec.options.latched)).map_err(|source| self.refused(spec, source))
     }
 
@@ -181,25 +182,21 @@ impl Opener {
     }
 }
 
-/// A component that has its name, and what writes its stats, if it has any.
-struct Joined {
-    registration: Box<dyn Registered>,
-    stats: Option<(ComponentStats, StatsWriter)>,
+/// Takes the component's name in the registry of the user's, if there is one.
+fn join(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<Box<dyn Registered>, OpenError> {
+    match &options.registry {
+        Some(registry) => {
+            registry.register(spec).map_err(|source| OpenError::Registry { component: spec.name, source })
+        }
+        None => Ok(Box::new(Unregistered)),
+    }
 }
 
-/// Takes the component's name in the registry of the user's, if there is one.
-fn join(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<Joined, OpenError> {
-    let registration = match &options.registry {
-        Some(registry) => {
-            registry.register(spec).map_err(|source| OpenError::Registry { component: spec.name, source })?
-        }
-        None => Box::new(Unregistered),
-    };
-    Ok(Joined { registration, stats: None })
-}
+/// A component that has its name, what writes its stats, if it has any, and its transports.
+type Registering = (Box<dyn Registered>, Option<(ComponentStats, StatsWriter)>, Transports);
 
 /// Takes the component's name in the runtime folder.
-fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<(Joined, Transports), OpenError> {
+fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<Registering, OpenError> {
     let variables = &|name: &str| options.variable(name);
     expected::check(spec, variables)?;
     let (system, choice) = (options.system_name(variables, spec.system)?, options.transport_choice(variables)?);
@@ -209,9 +206,10 @@ fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<(Join
     let dir = runtime_dir.system(&system).map_err(failed)?;
     let transports = Transports::in_folder(spec, &dir, choice.clone())?;
     needs::check(spec, &transports)?;
-    let registration = Registration::in_folder(spec, dir, stats, &choice).map_err(failed)?;
+    let announcement = Announcement::of(spec, &choice);
+    let registration = Registration::announcing(spec, dir, announcement, stats).map_err(failed)?;
     let stats = registration.stats();
-    Ok((Joined { registration: Box::new(registration), stats }, transports))
+    Ok((Box::new(registration), stats, transports))
 }
 
 /// The longest message at a gate that accepts messages of up to `max_size` bytes.

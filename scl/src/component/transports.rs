@@ -50,26 +50,12 @@ impl Transports {
         Ok(Self::Files(ByKind { spec, choice, transports }))
     }
 
-    /// For a connection with endpoints of its own.
-    pub(super) fn of_connection(&self, gate: &GateSpec, connection: &ConnectionSpec) -> &dyn Transport {
-        self.of(|by| by.choice.of_connection(by.spec, gate, connection))
-    }
-
-    /// For a gate that listens once for all peers.
-    pub(super) fn of_gate(&self, gate: &GateSpec) -> &dyn Transport {
-        self.of(|by| by.choice.of_gate(by.spec, gate))
-    }
-
-    /// For a gate's tap.
-    pub(super) fn of_tap(&self, gate: &GateSpec) -> &dyn Transport {
-        self.of(|by| by.choice.of_tap(by.spec, gate))
-    }
-
-    fn of(&self, kind: impl Fn(&ByKind) -> TransportKind) -> &dyn Transport {
+    /// For an end of a gate, as [`TransportChoice::of`].
+    pub(super) fn of(&self, gate: &GateSpec, connections: &[ConnectionSpec]) -> &dyn Transport {
         match self {
             Self::Own(transport) => &**transport,
             Self::Files(by) => {
-                let chosen = kind(by);
+                let chosen = by.choice.of(by.spec, gate, connections);
                 // An end that only connects finds any transport, so the default's transport will do.
                 let found = by.transports.iter().find(|(kind, _)| *kind == chosen).unwrap_or(&by.transports[0]);
                 &*found.1
@@ -82,12 +68,9 @@ impl Transports {
 fn listening(spec: &'static ComponentSpec, choice: &TransportChoice) -> impl Iterator<Item = TransportKind> {
     let gates = spec.gates.iter().filter(|gate| !gate.tap.is_empty());
     gates.flat_map(move |gate| {
-        let taps = [choice.of_tap(spec, gate)];
-        let whole = (!gate.endpoint.is_empty()).then(|| choice.of_gate(spec, gate));
-        let connections = gate.connections.iter().filter(|_| gate.endpoint.is_empty());
-        taps.into_iter()
-            .chain(whole)
-            .chain(connections.map(move |connection| choice.of_connection(spec, gate, connection)))
+        let at_once = if gate.endpoint.is_empty() { 1 } else { gate.connections.len().max(1) };
+        let connections = gate.connections.chunks(at_once);
+        [&[][..]].into_iter().chain(connections).map(move |connections| choice.of(spec, gate, connections))
     })
 }
 

@@ -3,6 +3,7 @@
 use super::*;
 use crate::runtime_dir::{RuntimeDir, Seen, bind_ipc};
 use crate::spec::Schema;
+use crate::transport_choice::TransportChoice;
 use std::fs;
 use std::future::poll_fn;
 use std::os::unix::fs::PermissionsExt;
@@ -18,6 +19,11 @@ static SENSOR: ComponentSpec = ComponentSpec {
     schema: Some(Schema { hash: "1111", descriptors: b"descriptors" }),
 };
 
+fn registered(dir: SystemDir, stats_period: Option<Duration>) -> Registration {
+    let announcement = Announcement::of(&SENSOR, &TransportChoice::default());
+    Registration::announcing(&SENSOR, dir, announcement, stats_period).unwrap()
+}
+
 struct Stage {
     root: TempDir,
     registration: Registration,
@@ -28,13 +34,7 @@ struct Stage {
 impl Stage {
     async fn new() -> Self {
         let root = tempfile::tempdir().unwrap();
-        let registration = Registration::in_folder(
-            &SENSOR,
-            system(root.path()),
-            Some(Duration::from_millis(500)),
-            &TransportChoice::default(),
-        )
-        .unwrap();
+        let registration = registered(system(root.path()), Some(Duration::from_millis(500)));
         let keeping = tokio::spawn(registration.keep());
         // It is watching when it waits for the first time.
         yield_now().await;
@@ -100,13 +100,7 @@ async fn files_and_folders_that_are_removed_are_created_again() {
 #[tokio::test]
 async fn what_is_removed_before_it_is_watched_is_created_again() {
     let root = tempfile::tempdir().unwrap();
-    let registration = Registration::in_folder(
-        &SENSOR,
-        system(root.path()),
-        Some(Duration::from_millis(500)),
-        &TransportChoice::default(),
-    )
-    .unwrap();
+    let registration = registered(system(root.path()), Some(Duration::from_millis(500)));
     fs::remove_dir_all(root.path().join("run")).unwrap();
     let keeping = tokio::spawn(registration.keep());
     let mut stage = Stage { root, registration, keeping, seen: Seen::default() };
@@ -169,7 +163,7 @@ async fn what_a_killed_process_left_behind_is_removed() {
     let dir = system(root.path());
     let old = dir.folder().join("sensor.measurements.old.tcp");
     fs::write(&old, "127.0.0.1:80").unwrap();
-    let _registration = Registration::in_folder(&SENSOR, dir, None, &TransportChoice::default()).unwrap();
+    let _registration = registered(dir, None);
     assert!(!old.exists());
 }
 
@@ -177,7 +171,7 @@ async fn what_a_killed_process_left_behind_is_removed() {
 async fn a_forked_child_removes_and_restores_nothing() {
     let root = tempfile::tempdir().unwrap();
     let dir = system(root.path());
-    let mut registration = Registration::in_folder(&SENSOR, dir.clone(), None, &TransportChoice::default()).unwrap();
+    let mut registration = registered(dir.clone(), None);
     Arc::get_mut(&mut registration.files).unwrap().process = ProcessMark::inherited();
     let keeping = tokio::spawn(registration.keep());
     yield_now().await;

@@ -7,10 +7,12 @@ use super::small_file::{read_file, write_temp};
 use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::transport_choice::TransportChoice;
 use crate::transport_kind::TransportKind;
+use rustix::fs::OFlags;
 use scl_plan::Plan;
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Value, json};
 use std::path::PathBuf;
+use std::slice::from_ref;
 use std::time::{Duration, SystemTime};
 
 /// The format's version. It grows when readers have to know; new keys alone do not need that.
@@ -110,7 +112,7 @@ impl Announcement {
     #[doc(hidden)]
     pub fn publish(&self, dir: &SystemDir) -> Result<OwnedPath, RuntimeDirError> {
         let path = dir.file_of(&self.component, ".json")?;
-        write_temp(dir.folder(), &path, format!("{:#}\n", self.to_json()).as_bytes())?.rename(&path)
+        write_temp(dir.folder(), &path, format!("{:#}\n", self.to_json()).as_bytes())?.rename(&path, OFlags::PATH)
     }
 
     /// Reads the announcement of a component, if there is one and it can be understood.
@@ -156,10 +158,9 @@ impl Announcement {
 
 fn endpoints(spec: &ComponentSpec, gate: &GateSpec, choice: &TransportChoice) -> Vec<AnnouncedEndpoint> {
     let listens = !gate.tap.is_empty();
-    let word = |kind: TransportKind| if listens { kind.word().to_owned() } else { String::new() };
     let peers =
         || gate.connections.iter().map(|connection| format!("{}.{}", connection.peer_component, connection.peer_gate));
-    let endpoint = |name: &str, contract: &str, peers: Vec<String>| AnnouncedEndpoint {
+    let endpoint = |name: &str, contract: &str, peers: Vec<String>, kind: TransportKind| AnnouncedEndpoint {
         gate: gate.name.to_owned(),
         kind: gate.kind.word().to_owned(),
         tap: false,
@@ -168,22 +169,21 @@ fn endpoints(spec: &ComponentSpec, gate: &GateSpec, choice: &TransportChoice) ->
         payload: gate.payload.to_owned(),
         codec: gate.codec.to_owned(),
         peers,
-        transport: String::new(),
+        transport: if listens { kind.word().to_owned() } else { String::new() },
     };
     let mut endpoints = if gate.endpoint.is_empty() {
         let connections = gate.connections.iter().zip(peers());
-        let announced = |(connection, peer): (&ConnectionSpec, String)| AnnouncedEndpoint {
-            transport: word(choice.of_connection(spec, gate, connection)),
-            ..endpoint(connection.endpoint, connection.contract, vec![peer])
+        let announced = |(connection, peer): (&ConnectionSpec, String)| {
+            let kind = choice.of(spec, gate, from_ref(connection));
+            endpoint(connection.endpoint, connection.contract, vec![peer], kind)
         };
         connections.map(announced).collect()
     } else {
-        let transport = word(choice.of_gate(spec, gate));
-        vec![AnnouncedEndpoint { transport, ..endpoint(gate.endpoint, gate.contract, peers().collect()) }]
+        vec![endpoint(gate.endpoint, gate.contract, peers().collect(), choice.of(spec, gate, gate.connections))]
     };
-    if !gate.tap.is_empty() {
-        let transport = word(choice.of_tap(spec, gate));
-        endpoints.push(AnnouncedEndpoint { tap: true, transport, ..endpoint(gate.tap, gate.contract, Vec::new()) });
+    if listens {
+        let tap = endpoint(gate.tap, gate.contract, Vec::new(), choice.of(spec, gate, &[]));
+        endpoints.push(AnnouncedEndpoint { tap: true, ..tap });
     }
     endpoints
 }

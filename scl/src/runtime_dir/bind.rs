@@ -5,6 +5,7 @@ use super::error::RuntimeDirError;
 use super::owned_path::OwnedPath;
 use super::small_file::write_temp;
 use super::temp_entry::TempEntry;
+use rustix::fs::OFlags;
 use rustix::net::{AddressFamily, SocketAddrUnix, SocketFlags, SocketType};
 use std::fs::{self, Permissions};
 use std::io;
@@ -42,7 +43,7 @@ pub fn bind_ipc(dir: &SystemDir, endpoint: &str) -> Result<BoundIpc, RuntimeDirE
     // Nobody can connect before `listen`, so nobody connects before the mode is set.
     fs::set_permissions(entry.path(), Permissions::from_mode(0o600)).map_err(failed)?;
     rustix::net::listen(&socket, BACKLOG).map_err(|error| failed(error.into()))?;
-    let guard = entry.rename(&path)?;
+    let guard = entry.rename(&path, OFlags::PATH)?;
     Ok(BoundIpc { listener: socket.into(), guard })
 }
 
@@ -73,7 +74,7 @@ pub fn bind_tcp(dir: &SystemDir, endpoint: &str) -> Result<BoundTcp, RuntimeDirE
     };
     let (listener, address) =
         bind().map_err(|error| RuntimeDirError::io("bind a port of 127.0.0.1 for", &path, error))?;
-    let guard = write_temp(dir.folder(), &path, format!("{address}\n").as_bytes())?.rename(&path)?;
+    let guard = write_temp(dir.folder(), &path, format!("{address}\n").as_bytes())?.rename(&path, OFlags::PATH)?;
     Ok(BoundTcp { listener, address, guard })
 }
 

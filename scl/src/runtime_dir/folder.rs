@@ -24,16 +24,9 @@ const RESERVED: [&str; 5] = [".lock", ".json", ".tcp", ".schema", ".stats"];
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RuntimeDir {
     path: PathBuf,
-    origin: Origin,
-}
-
-/// How the runtime folder was chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Origin {
-    /// By `SCL_RUNTIME_DIR`: parents are created too, and other users may read.
-    Variable,
-    /// By default: only this user has access.
-    Default,
+    /// Whether it was chosen by `SCL_RUNTIME_DIR`: then parents are created too, and other users may read. By default,
+    /// only this user has access.
+    is_chosen: bool,
 }
 
 impl RuntimeDir {
@@ -65,25 +58,25 @@ impl RuntimeDir {
     /// [`RuntimeDirError`] if the folder is not safe or cannot be examined.
     pub fn existing(env: &dyn Fn(&str) -> Option<OsString>) -> Result<Option<Self>, RuntimeDirError> {
         let dir = Self::choose(env)?;
-        Ok(verify_existing(&dir.path, dir.origin == Origin::Variable)?.then_some(dir))
+        Ok(verify_existing(&dir.path, dir.is_chosen)?.then_some(dir))
     }
 
     fn choose(env: &dyn Fn(&str) -> Option<OsString>) -> Result<Self, RuntimeDirError> {
         let variable = |name| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
         let absolute = |name| variable(name).filter(|path| path.is_absolute());
-        let (path, origin) = if let Some(path) = variable("SCL_RUNTIME_DIR") {
+        let (path, is_chosen) = if let Some(path) = variable("SCL_RUNTIME_DIR") {
             if !path.is_absolute() {
                 return Err(RuntimeDirError::RelativeFolder { variable: "SCL_RUNTIME_DIR", path });
             }
             // Removes a slash at the end, which would make the verification follow a link.
-            (path.components().collect(), Origin::Variable)
+            (path.components().collect(), true)
         } else if let Some(session) = absolute("XDG_RUNTIME_DIR").filter(|path| is_own_folder(path)) {
-            (session.join("scl"), Origin::Default)
+            (session.join("scl"), false)
         } else {
             let temporary = absolute("TMPDIR").unwrap_or_else(|| "/tmp".into());
-            (temporary.join(format!("scl-{}", own_user())), Origin::Default)
+            (temporary.join(format!("scl-{}", own_user())), false)
         };
-        Ok(Self { path, origin })
+        Ok(Self { path, is_chosen })
     }
 
     /// Its path.
@@ -128,8 +121,7 @@ impl RuntimeDir {
     }
 
     fn create(&self) -> Result<(), RuntimeDirError> {
-        create_folder(&self.path, self.origin == Origin::Variable)?;
-        verify_folder(&self.path, self.origin == Origin::Variable)
+        create_folder(&self.path, self.is_chosen)
     }
 }
 
@@ -246,18 +238,17 @@ impl SystemDir {
     }
 
     fn create(&self) -> Result<(), RuntimeDirError> {
-        create_folder(&self.path, false)?;
-        verify_folder(&self.path, false)
+        create_folder(&self.path, false)
     }
 }
 
-fn create_folder(path: &Path, parents: bool) -> Result<(), RuntimeDirError> {
-    match DirBuilder::new().mode(0o700).recursive(parents).create(path) {
-        // Whatever exists there is verified next.
+/// Creates and verifies a folder, and its parents if it was chosen.
+fn create_folder(path: &Path, is_chosen: bool) -> Result<(), RuntimeDirError> {
+    match DirBuilder::new().mode(0o700).recursive(is_chosen).create(path) {
         Err(error) if error.kind() != io::ErrorKind::AlreadyExists => {
             Err(RuntimeDirError::io("create the runtime folder", path, error))
         }
-        _ => Ok(()),
+        _ => verify_folder(path, is_chosen),
     }
 }
 

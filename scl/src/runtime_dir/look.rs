@@ -7,7 +7,7 @@ use super::schema::SCHEMA_LIMIT;
 use super::small_file::read_file;
 use bytes::Bytes;
 use std::collections::BTreeSet;
-use std::fs::{self, DirEntry};
+use std::fs::{self, FileType};
 use std::io;
 
 /// Whether a component runs.
@@ -30,7 +30,7 @@ impl RuntimeDir {
     /// The folder cannot be read.
     pub fn systems(&self) -> io::Result<Vec<String>> {
         // Not through a link, whose target may belong to another user.
-        names(fs::read_dir(self.path())?, |entry, name| is_folder(entry).then(|| name.to_owned()))
+        names(fs::read_dir(self.path())?, |kind, name| Some(name).filter(|_| kind.is_dir()))
     }
 
     /// The names of the systems of which a component runs, sorted.
@@ -57,9 +57,8 @@ impl SystemDir {
     ///
     /// The folder cannot be read, for example because it was removed.
     pub fn components(&self) -> io::Result<Vec<String>> {
-        names(fs::read_dir(self.folder())?, |entry, name| {
-            let component = name.strip_suffix(".lock").or_else(|| name.strip_suffix(".json"))?;
-            is_file(entry).then(|| component.to_owned())
+        names(fs::read_dir(self.folder())?, |kind, name| {
+            name.strip_suffix(".lock").or_else(|| name.strip_suffix(".json")).filter(|_| kind.is_file())
         })
     }
 
@@ -92,21 +91,14 @@ impl SystemDir {
 
 /// The names that `pick` finds in a folder, each once and sorted. Entries that vanish meanwhile, and names that SCL
 /// never gives, are passed over.
-fn names(entries: fs::ReadDir, pick: impl Fn(&DirEntry, &str) -> Option<String>) -> io::Result<Vec<String>> {
+fn names(entries: fs::ReadDir, pick: impl Fn(FileType, &str) -> Option<&str>) -> io::Result<Vec<String>> {
     let mut found = BTreeSet::new();
     for entry in entries {
         let entry = entry?;
-        let name = entry.file_name();
-        found.extend(name.to_str().filter(|name| is_plain(name)).and_then(|name| pick(&entry, name)));
+        let (name, kind) = (entry.file_name(), entry.file_type());
+        let picked = name.to_str().filter(|name| is_plain(name)).and_then(|name| pick(kind.ok()?, name));
+        found.extend(picked.map(str::to_owned));
     }
     found.remove("");
     Ok(found.into_iter().collect())
-}
-
-fn is_file(entry: &DirEntry) -> bool {
-    entry.file_type().is_ok_and(|kind| kind.is_file())
-}
-
-fn is_folder(entry: &DirEntry) -> bool {
-    entry.file_type().is_ok_and(|kind| kind.is_dir())
 }

@@ -47,17 +47,9 @@ impl TempEntry {
         &self.path
     }
 
-    /// Renames it to `path`, replacing what is there. Dropping the returned value removes it.
-    pub(super) fn rename(self, path: &Path) -> Result<OwnedPath, RuntimeDirError> {
-        self.rename_opened(path, OFlags::PATH)
-    }
-
-    /// The same; the returned value has the file open for writing.
-    pub(super) fn rename_open(self, path: &Path) -> Result<OwnedPath, RuntimeDirError> {
-        self.rename_opened(path, OFlags::WRONLY)
-    }
-
-    fn rename_opened(self, path: &Path, access: OFlags) -> Result<OwnedPath, RuntimeDirError> {
+    /// Renames it to `path`, replacing what is there. The returned value has the file open, with this access; dropping
+    /// it removes the file.
+    pub(super) fn rename(self, path: &Path, access: OFlags) -> Result<OwnedPath, RuntimeDirError> {
         let owned = OwnedPath::open(&self.path, path, access);
         let owned = owned.map_err(|error| RuntimeDirError::io("open", &self.path, error))?;
         self.rename_and_keep(path)?;
@@ -127,7 +119,7 @@ mod tests {
         drop(entry);
         assert_eq!(count(folder.path()), 0);
         create().rename_and_keep(&folder.path().join("kept")).unwrap();
-        let owned = create().rename(&folder.path().join("owned")).unwrap();
+        let owned = create().rename(&folder.path().join("owned"), OFlags::PATH).unwrap();
         assert_eq!(count(folder.path()), 2);
         drop(owned);
         assert_eq!(count(folder.path()), 1);

@@ -101,8 +101,13 @@ fn the_last_exception_for_either_end_counts() {
     let [frames, jobs] = camera.gates else { unreachable!("two gates") };
     for (text, expected) in cases {
         let choice: TransportChoice = text.parse().unwrap();
-        let connections = frames.connections.iter().map(|connection| choice.of_connection(&camera, frames, connection));
-        let others = [choice.of_tap(&camera, frames), choice.of_gate(&camera, jobs), choice.of_tap(&camera, jobs)];
+        let connections =
+            frames.connections.iter().map(|connection| choice.of(&camera, frames, std::slice::from_ref(connection)));
+        let others = [
+            choice.of(&camera, frames, &[]),
+            choice.of(&camera, jobs, jobs.connections),
+            choice.of(&camera, jobs, &[]),
+        ];
         let found: Vec<&str> = connections.chain(others).map(TransportKind::word).collect();
         assert_eq!(found.join(" "), expected, "{text}");
     }

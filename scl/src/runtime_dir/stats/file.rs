@@ -6,6 +6,7 @@ use crate::runtime_dir::SystemDir;
 use crate::runtime_dir::error::RuntimeDirError;
 use crate::runtime_dir::owned_path::OwnedPath;
 use crate::runtime_dir::small_file::{open_file, write_temp};
+use rustix::fs::OFlags;
 use rustix::io::{pread, pwrite};
 use std::fs::File;
 use std::io;
@@ -78,7 +79,7 @@ impl StatsFile {
 }
 
 fn place(dir: &SystemDir, path: &Path, block: &[u8]) -> Result<OwnedPath, RuntimeDirError> {
-    write_temp(dir.folder(), path, block)?.rename_open(path)
+    write_temp(dir.folder(), path, block)?.rename(path, OFlags::WRONLY)
 }
 
 /// In three steps, so that no reordering within a write makes a half-written block look whole.
