@@ -14,11 +14,11 @@ pub use opener::Opener;
 pub use outcome::Returned;
 pub(crate) use realtime::Settings as RealTimeSettings;
 
-use crate::error::{BlockingError, Missing, MissingPeer, NotFlushed, NotReady, OpenError, PeerName};
-use crate::gate::AnyGate;
+use crate::error::{BlockingError, MissingPeer, NotFlushed, NotReady, OpenError, PeerName};
+use crate::gate::{AnyGate, Watch};
 use crate::log;
 use crate::options::OpenOptions;
-use crate::spec::{ComponentSpec, GateSpec};
+use crate::spec::ComponentSpec;
 pub use crate::state::ComponentHandle;
 use crate::state::{Flush, OwnedRuntime};
 use std::sync::Arc;
@@ -60,20 +60,18 @@ pub fn open_blocking<C: Component>(options: OpenOptions) -> Result<C, OpenError>
 /// Waits until all required peers are connected.
 #[doc(hidden)]
 pub async fn ready<C: Component>(component: &C, timeout: Duration) -> Result<(), NotReady> {
-    let missing = || {
-        let gates = component.gates();
-        gates.iter().flat_map(|gate| gate.missing().into_iter().map(|missing| (gate.spec(), missing))).collect()
-    };
-    wait_for_peers(component.handle(), missing, timeout).await
+    let watches: Vec<Watch> = component.gates().into_iter().map(AnyGate::watch).collect();
+    wait_for_peers(component.handle(), &watches, timeout).await
 }
 
-/// Waits until no peer is missing at any gate.
+/// Waits until no peer is missing at any of these gates.
 pub(crate) async fn wait_for_peers(
     handle: &ComponentHandle,
-    missing: impl Fn() -> Vec<(&'static GateSpec, Missing)>,
+    watches: &[Watch],
     timeout: Duration,
 ) -> Result<(), NotReady> {
     let state = &handle.0;
+    let missing = || watches.iter().flat_map(|watch| watch.missing().into_iter().map(|missing| (watch.spec, missing)));
     let _waiting = state.waiting();
     let changes = state.changes();
     let started = Instant::now();
@@ -82,7 +80,7 @@ pub(crate) async fn wait_for_peers(
         let mut changed = std::pin::pin!(changes.next());
         // Subscribe before checking, so that no change is missed.
         changed.as_mut().enable();
-        if missing().is_empty() {
+        if missing().next().is_none() {
             return Ok(());
         }
         let ended = state.check().is_err();
@@ -97,7 +95,7 @@ pub(crate) async fn wait_for_peers(
             }
         };
         if ended || !changed.await {
-            let missing = missing().into_iter().map(|(gate, missing)| {
+            let missing = missing().map(|(gate, missing)| {
                 let reason = state.explain(gate, &missing);
                 let (peer, refused) = (PeerName::of(missing.connection), missing.refusal.is_some());
                 MissingPeer { gate: gate.name, peer, reason, refused }
@@ -105,7 +103,7 @@ pub(crate) async fn wait_for_peers(
             let missing: Vec<MissingPeer> = missing.collect();
             return match missing.is_empty() {
                 true => Ok(()),
-                false => Err(NotReady { component: state.spec().name, missing, waited: started.elapsed() }),
+                false => Err(NotReady { component: state.spec.name, missing, waited: started.elapsed() }),
             };
         }
     }

@@ -50,10 +50,10 @@ impl Drop for EndOfWait<'_> {
 }
 
 impl GateFigures {
-    /// Sets everything to zero but the connections, and keeps their memory.
-    pub(crate) fn clear(&mut self) {
+    /// Sets everything but the connections, whose memory is kept.
+    pub(crate) fn set(&mut self, counts: Self) {
         let connections = std::mem::take(&mut self.connections);
-        *self = Self { connections, ..Self::default() };
+        *self = Self { connections, ..counts };
     }
 
     fn copy_from(&mut self, other: &Self) {
@@ -63,11 +63,11 @@ impl GateFigures {
     }
 
     /// What is known of the connections of a gate whose peers share an endpoint.
-    pub(crate) fn share(&mut self, peers: u64, taken: u64) {
+    pub(crate) fn share(&mut self) {
         let all = self.connections.len() as u64;
         for connection in &mut self.connections {
-            connection.connected = peers >= all;
-            connection.taken = if all == 1 { taken } else { 0 };
+            connection.connected = self.peers >= all;
+            connection.taken = if all == 1 { self.received } else { 0 };
         }
     }
 

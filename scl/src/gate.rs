@@ -51,8 +51,8 @@ pub(crate) use tap::GateTap;
 pub use view::View;
 pub(crate) use watch::Watch;
 
-use crate::error::{Missing, RecvError};
-use crate::spec::GateSpec;
+use crate::error::{PeerName, RecvError};
+use crate::spec::{ConnectionSpec, GateSpec};
 use std::task::{Context, Poll};
 
 /// What the gates of all kinds have in common. Only SCL's gates implement it.
@@ -60,11 +60,8 @@ pub trait AnyGate: sealed::Sealed {
     /// What the topology says about the gate.
     fn spec(&self) -> &'static GateSpec;
 
-    /// The required peers that are not connected. Gates that listen for any number of peers (`rep`, `pull`) have none.
-    #[doc(hidden)]
-    fn missing(&self) -> Vec<Missing>;
-
-    /// The same, for as long as the gate exists.
+    /// Tells the required peers that are not connected, for as long as the gate exists. Gates that listen for any
+    /// number of peers (`rep`, `pull`) have none.
     #[doc(hidden)]
     fn watch(&self) -> Watch;
 }
@@ -90,6 +87,13 @@ pub trait ReceivingGate: AnyGate {
     /// # Cancel safety
     /// It may be called once and never again. Each call replaces the waker of the one before.
     fn poll_ready(&mut self, cx: &mut Context<'_>) -> Poll<Result<(), RecvError>>;
+}
+
+/// The limit of a connection that a message of this length exceeds: the peer, the length, and the peer's
+/// `max_size`.
+fn exceeded(connection: Option<&'static ConnectionSpec>, length: usize) -> Option<(PeerName, u64, u64)> {
+    let connection = connection.filter(|connection| length as u64 > connection.max_size)?;
+    Some((PeerName::of(connection), length as u64, connection.max_size))
 }
 
 mod sealed {

@@ -2,7 +2,7 @@
 
 use crate::environment::{self, Variables};
 use crate::error::OpenError;
-use crate::sync::{is_thread_ending, on_another_thread};
+use crate::sync::on_living_thread;
 use tracing::level_filters::LevelFilter;
 
 /// Reads `SCL_LOG`: the most detailed messages that are logged.
@@ -11,25 +11,15 @@ use tracing::level_filters::LevelFilter;
 /// [`OpenError::Environment`] if the value is not a level.
 pub(crate) fn level(variables: Variables<'_>) -> Result<LevelFilter, OpenError> {
     let expected = "`error`, `warn`, `info`, `debug`, `trace` or `off`";
-    let level = environment::read(variables, "SCL_LOG", expected, |word| match word {
-        "off" => Some(LevelFilter::OFF),
-        "error" => Some(LevelFilter::ERROR),
-        "warn" => Some(LevelFilter::WARN),
-        "info" => Some(LevelFilter::INFO),
-        "debug" => Some(LevelFilter::DEBUG),
-        "trace" => Some(LevelFilter::TRACE),
-        _ => None,
-    })?;
-    Ok(level.unwrap_or(LevelFilter::WARN))
+    // Not the numbers and other spellings that it parses as well.
+    let parse = |word: &str| word.parse().ok().filter(|level: &LevelFilter| level.to_string() == word);
+    Ok(environment::read(variables, "SCL_LOG", expected, parse)?.unwrap_or(LevelFilter::WARN))
 }
 
 /// Logs a warning about the end of a component. Its thread may be ending, too, and a log that keeps something in a
 /// destroyed thread-local value would panic there.
 pub(crate) fn warn(text: &str) {
-    match is_thread_ending() {
-        true => on_another_thread(|| tracing::warn!("{text}")),
-        false => tracing::warn!("{text}"),
-    }
+    on_living_thread(|| tracing::warn!("{text}"));
 }
 
 /// Without the feature `logging` the program chooses what happens to its log.

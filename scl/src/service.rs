@@ -26,7 +26,7 @@ static SERVICE: OnceLock<Option<Arc<Service>>> = OnceLock::new();
 /// From now on the components that this process opens are reported to the service manager, if there is one. Further
 /// calls do nothing.
 pub(crate) fn start(variables: Variables<'_>) {
-    SERVICE.get_or_init(|| Service::of(variables).map(Arc::new));
+    SERVICE.get_or_init(|| manager(variables).map(|socket| Arc::new(Service::new(socket, watchdog(variables)))));
 }
 
 /// Takes a component into what is reported. `follows_calls`: see [`Member`].
@@ -71,11 +71,6 @@ struct Reported {
 }
 
 impl Service {
-    /// Returns `None` if there is no service manager, or it cannot be reached.
-    fn of(variables: Variables<'_>) -> Option<Self> {
-        Some(Self::new(manager(variables)?, watchdog(variables)))
-    }
-
     fn new(socket: Socket, watchdog: Option<Duration>) -> Self {
         Self { socket, watchdog, reported: Mutex::default(), untold: AtomicBool::new(false) }
     }

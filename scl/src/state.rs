@@ -26,7 +26,7 @@ use crate::registry::{Neighbour, Registered as RegisteredComponent};
 use crate::runtime_dir::ComponentStats;
 use crate::service::{self, Member};
 use crate::spec::{ComponentSpec, GateSpec};
-use crate::sync::{AbortOnDrop, is_thread_ending, lock, on_another_thread};
+use crate::sync::{AbortOnDrop, lock, on_another_thread, on_living_thread};
 use scl_fork::ProcessMark;
 #[cfg(feature = "protobuf")]
 use scl_shape::FileDescriptorSet;
@@ -41,7 +41,7 @@ use tokio::sync::futures::Notified;
 
 /// The part of a component that lives as long as any of its gates.
 pub(crate) struct ComponentState {
-    spec: &'static ComponentSpec,
+    pub(crate) spec: &'static ComponentSpec,
     process: ProcessMark,
     changes: Changes,
     ends: Mutex<Vec<Registered>>,
@@ -57,13 +57,13 @@ pub(crate) struct ComponentState {
     /// Whether all calls of the gates have been ended for good.
     calls_ended: AtomicBool,
     /// Whether it is one of the two components of a unit test.
-    is_test: bool,
+    pub(crate) is_test: bool,
     /// The message types of `schemas:`, decoded when the first gate needs them.
     #[cfg(feature = "protobuf")]
     message_types: OnceLock<Option<FileDescriptorSet>>,
     /// What wakes the waiting calls of gates without a sending end.
     waiting_calls: Mutex<Vec<Weak<dyn WakeCall>>>,
-    monitor: Arc<Monitor>,
+    pub(crate) monitor: Arc<Monitor>,
     /// Writes the component's stats, if it has any.
     _stats: Option<AbortOnDrop>,
     /// What a service manager is told of the component, if there is one.
@@ -75,7 +75,7 @@ pub(crate) struct ComponentState {
     /// Keeps the registration if the runtime folder is removed.
     _keeper: AbortOnDrop,
     /// Dropped last: once the lock is released, another process may run this component.
-    registration: Box<dyn RegisteredComponent>,
+    pub(crate) registration: Box<dyn RegisteredComponent>,
 }
 
 /// A sending end and the task that drives it.
@@ -111,12 +111,13 @@ impl Changes {
 }
 
 impl ComponentState {
-    /// Needs a tokio runtime.
+    /// Needs a tokio runtime. `is_test`: it is one of the two components of a unit test.
     pub(crate) fn new(
         spec: &'static ComponentSpec,
         registration: Box<dyn RegisteredComponent>,
         stats: Option<(ComponentStats, StatsWriter)>,
         runtime: Option<Arc<OwnedRuntime>>,
+        is_test: bool,
     ) -> Self {
         let handle = Handle::current();
         let runtime_ended = Arc::new(AtomicBool::new(false));
@@ -141,7 +142,7 @@ impl ComponentState {
             handle,
             runtime_ended,
             calls_ended: AtomicBool::new(false),
-            is_test: false,
+            is_test,
             #[cfg(feature = "protobuf")]
             message_types: OnceLock::new(),
             waiting_calls: Mutex::default(),
@@ -155,33 +156,11 @@ impl ComponentState {
         }
     }
 
-    /// Sets whether it is one of the two components of a unit test.
-    pub(crate) fn of_test(mut self, is_test: bool) -> Self {
-        self.is_test = is_test;
-        self
-    }
-
-    pub(crate) fn is_test(&self) -> bool {
-        self.is_test
-    }
-
-    pub(crate) fn spec(&self) -> &'static ComponentSpec {
-        self.spec
-    }
-
     /// The message types of `schemas:`, if there are any.
     #[cfg(feature = "protobuf")]
     pub(crate) fn message_types(&self) -> Option<&FileDescriptorSet> {
         let decode = || scl_shape::decode(self.spec.schema?.descriptors).ok();
         self.message_types.get_or_init(decode).as_ref()
-    }
-
-    pub(crate) fn registration(&self) -> &dyn RegisteredComponent {
-        &*self.registration
-    }
-
-    pub(crate) fn monitor(&self) -> &Monitor {
-        &self.monitor
     }
 
     pub(crate) fn changes(&self) -> Changes {
@@ -216,27 +195,24 @@ impl ComponentState {
 
     /// A gate was dropped. Its end is dropped too, as soon as its peer has taken everything, or after [`LINGER`].
     pub(crate) fn release(self: &Arc<Self>, end: Arc<Mutex<dyn SendingEnd>>) {
-        match is_thread_ending() {
-            // Ends enter the runtime, which such a thread cannot.
-            true => on_another_thread(|| self.release_here(Arc::clone(&end))),
-            false => self.release_here(end),
-        }
+        // Ends enter the runtime, which a thread that is ending cannot.
+        on_living_thread(|| self.release_here(&end));
     }
 
-    fn release_here(self: &Arc<Self>, end: Arc<Mutex<dyn SendingEnd>>) {
+    fn release_here(self: &Arc<Self>, end: &Arc<Mutex<dyn SendingEnd>>) {
         if self.runtime_ended.load(Ordering::Acquire) {
             // Handed over when the component is dropped.
             return;
         }
-        if self.is_done(&end) {
+        if self.is_done(end) {
             // What waits for a peer that is not running is reported when the component is closed.
-            let waiting = lock(&end).waits_for_absent_peer();
+            let waiting = lock(end).waits_for_absent_peer();
             lock(&self.given_up).extend(waiting);
-            return self.remove(&end);
+            return self.remove(end);
         }
         // Weak, so that the socket is freed when the component is dropped, and not only when the runtime drops the
         // task.
-        let (state, end) = (Arc::downgrade(self), Arc::downgrade(&end));
+        let (state, end) = (Arc::downgrade(self), Arc::downgrade(end));
         self.handle.spawn(async move {
             let done = poll_fn(|cx| match (state.upgrade(), end.upgrade()) {
                 (Some(state), Some(end)) => state.poll_done(&end, cx),
@@ -372,10 +348,7 @@ impl Drop for ComponentState {
         debug_assert!(!self.is_inherited(), "an owner keeps what a forked child inherits");
         let ends = std::mem::take(&mut *lock(&self.ends));
         let ends: Vec<_> = ends.into_iter().map(|one| one.end).collect();
-        match is_thread_ending() {
-            true => on_another_thread(|| self.hand_over(&ends)),
-            false => self.hand_over(&ends),
-        }
+        on_living_thread(|| self.hand_over(&ends));
         // Their tasks have been aborted, but one may be in the middle of a poll. Sockets must be gone before the lock
         // is.
         ends.iter().for_each(owner::await_other_users);

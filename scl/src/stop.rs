@@ -25,7 +25,7 @@ use std::time::Duration;
 /// The grace period if `SCL_STOP_WITHIN` is not set.
 const GRACE_PERIOD: Duration = Duration::from_secs(3);
 
-static STOP: StopState = StopState::new();
+pub(crate) static STOP: StopState = StopState::new();
 /// Whether the thread that watches for signals runs.
 static WATCHING: AtomicBool = AtomicBool::new(false);
 
@@ -129,25 +129,10 @@ pub fn gates_stopped() -> bool {
     STOP.gates_stopped()
 }
 
-/// Waits until a stop is requested, without handling it.
-pub(crate) fn requested() -> impl Future<Output = ()> + Send + 'static {
-    STOP.requested()
-}
-
-/// Waits until [`gates_stopped`].
-pub(crate) fn until_gates_stopped() -> impl Future<Output = ()> + Send + 'static {
-    STOP.until_gates_stopped()
-}
-
 /// Returns true if a stop was requested. Unlike [`is_stop_requested`](crate::is_stop_requested), asking does not mean
 /// that the program handles the request itself.
 pub fn was_requested() -> bool {
     STOP.is_requested()
-}
-
-/// The exit code of a program that is still running after its grace period, once that is over.
-pub(crate) fn overdue_code() -> Option<u8> {
-    STOP.overdue_code()
 }
 
 /// Waits for a future, or until [`gates_stopped`], whichever comes first.

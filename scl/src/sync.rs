@@ -28,6 +28,11 @@ pub(crate) fn is_thread_ending() -> bool {
     Handle::try_current().is_err_and(|error| error.is_thread_local_destroyed())
 }
 
+/// Makes a call here or, if the calling thread is ending, on another one.
+pub(crate) fn on_living_thread<T: Send>(call: impl Fn() -> T + Sync) -> T {
+    if is_thread_ending() { on_another_thread(call) } else { call() }
+}
+
 /// Makes a call on a thread of its own, which has its thread-local values, and waits for it.
 pub(crate) fn on_another_thread<T: Send>(call: impl Fn() -> T + Sync) -> T {
     thread::scope(|threads| {

@@ -219,11 +219,7 @@ impl Component {
     /// # Cancel safety
     /// Cancel safe.
     pub async fn ready(&self, timeout: Duration) -> Result<(), NotReady> {
-        let missing = || {
-            let watches = self.watches.iter();
-            watches.flat_map(|watch| watch.missing().into_iter().map(|missing| (watch.spec, missing))).collect()
-        };
-        wait_for_peers(&self.handle, missing, timeout).await
+        wait_for_peers(&self.handle, &self.watches, timeout).await
     }
 
     /// [`ready`](Self::ready) from a plain thread.

@@ -98,5 +98,5 @@ fn exit_code(result: Result<(), Error>) -> ExitCode {
             ExitCode::FAILURE
         }
     };
-    stop::overdue_code().map_or(code, ExitCode::from)
+    stop::STOP.overdue_code().map_or(code, ExitCode::from)
 }

@@ -38,7 +38,7 @@ impl Opener {
             }
             None => register(spec, options)?,
         };
-        let state = Owner::new(ComponentState::new(spec, registration, stats, runtime).of_test(options.is_test));
+        let state = Owner::new(ComponentState::new(spec, registration, stats, runtime, options.is_test));
         state.start_reporting();
         Ok(Self { state, transports })
     }
@@ -46,14 +46,16 @@ impl Opener {
     /// Opens the `pub` gate at an index of the component's list.
     pub fn publisher<T, C: Codec<T>>(&mut self, index: usize) -> Result<Pub<T>, OpenError> {
         let tap = self.tap(self.gate(index))?;
-        self.outgoing::<T, C>(index, tap, |transport, endpoint| transport.publish(endpoint)).map(Pub::new)
+        self.outgoing::<T, C>(index, tap, |transport, endpoint| transport.publish(endpoint))
+            .map(|outgoing| Pub { outgoing })
     }
 
     /// Opens the `push` gate at an index of the component's list.
     pub fn pusher<T, C: Codec<T>>(&mut self, index: usize) -> Result<Push<T>, OpenError> {
         // The puller has the tap.
         let no_tap = GateTap::new(None, false);
-        self.outgoing::<T, C>(index, no_tap, |transport, endpoint| transport.push(endpoint)).map(Push::new)
+        self.outgoing::<T, C>(index, no_tap, |transport, endpoint| transport.push(endpoint))
+            .map(|outgoing| Push { outgoing })
     }
 
     /// Opens the `sub` gate at an index of the component's list.
@@ -61,7 +63,7 @@ impl Opener {
         let spec = self.gate(index);
         let subscribe = |link| self.transports.of(spec, from_ref(link)).subscribe(&self.connecting(spec, link));
         let links = self.links(spec).iter().map(subscribe).collect::<Result<_, _>>();
-        Ok(Sub::new(self.incoming::<T, C>(index, links, GateTap::new(None, false))?))
+        Ok(Sub { incoming: self.incoming::<T, C>(index, links, GateTap::new(None, false))? })
     }
 
     /// Opens the `pull` gate at an index of the component's list.
@@ -70,7 +72,7 @@ impl Opener {
         let longest = longest::<T, C>(spec.options.max_size);
         let endpoint = Endpoint { longest, ..endpoint(spec.endpoint, spec) };
         let link = self.transports.of(spec, spec.connections).pull(&endpoint);
-        Ok(Pull::new(self.incoming::<T, C>(index, link.map(|link| vec![link]), self.tap(spec)?)?))
+        Ok(Pull { incoming: self.incoming::<T, C>(index, link.map(|link| vec![link]), self.tap(spec)?)? })
     }
 
     /// Opens the `req` gate at an index of the component's list.
@@ -107,11 +109,11 @@ impl Opener {
     }
 
     fn follow(&self, index: usize, figures: FigureSource) {
-        self.state.monitor().follow(index, figures);
+        self.state.monitor.follow(index, figures);
     }
 
     fn gate(&self, index: usize) -> &'static GateSpec {
-        &self.state.spec().gates[index]
+        &self.state.spec.gates[index]
     }
 
     fn incoming<T, C: Codec<T>>(
@@ -143,7 +145,7 @@ impl Opener {
             };
             let sender = open(self.transports.of(spec, from_ref(link)), &endpoint);
             let sender = sender.map_err(|source| self.refused(spec, source))?;
-            let has_ended = self.state.registration().end_check(link.peer_component);
+            let has_ended = self.state.registration.end_check(link.peer_component);
             let connection = Connection::new(sender, self.name(spec), spec, link, self.state.changes(), has_ended);
             Ok(self.state.drive(connection))
         };
@@ -156,7 +158,7 @@ impl Opener {
     /// The connections of a gate: all, or in a unit test that to its counterpart.
     fn links(&self, spec: &'static GateSpec) -> &'static [ConnectionSpec] {
         let first = spec.connections.len().min(1);
-        if self.state.is_test() { &spec.connections[..first] } else { spec.connections }
+        if self.state.is_test { &spec.connections[..first] } else { spec.connections }
     }
 
     fn tap(&self, spec: &'static GateSpec) -> Result<GateTap, OpenError> {
@@ -169,12 +171,12 @@ impl Opener {
 
     /// The endpoint of one connection, whose connecting end checks its peer first.
     fn connecting(&self, spec: &'static GateSpec, link: &'static ConnectionSpec) -> Endpoint {
-        let check = self.state.registration().peer_check(spec, link);
+        let check = self.state.registration.peer_check(spec, link);
         Endpoint { check, queue: link.queue as usize, ..endpoint(link.endpoint, spec) }
     }
 
     fn name(&self, spec: &'static GateSpec) -> GateName {
-        GateName::new(self.state.spec().name, spec.name)
+        GateName::new(self.state.spec.name, spec.name)
     }
 
     fn refused(&self, spec: &'static GateSpec, source: TransportError) -> OpenError {

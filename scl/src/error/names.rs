@@ -77,7 +77,7 @@ impl fmt::Display for Peers {
 
 /// A peer that is not connected.
 #[derive(Debug, Clone)]
-pub struct Missing {
+pub(crate) struct Missing {
     pub(crate) connection: &'static ConnectionSpec,
     /// Why this end does not connect to it, if it refuses to.
     pub(crate) refusal: Option<String>,

@@ -230,7 +230,7 @@ impl Connection {
             link.detach();
         }
         if kind == PeerKind::Foreign && self.kind == GateKind::Pub {
-            let policy = self.queue.policy();
+            let policy = self.queue.policy;
             // The component, when it comes, must find what waited for it; so a program in its place gets a copy.
             let copy = |frame: &mut Frame| Frame::from(frame.make_bytes().clone());
             let mut waiting = match self.peer {
@@ -262,18 +262,12 @@ impl Connection {
     fn hand_over(&mut self, driven: Option<Driven>) {
         let mut cx = Context::from_waker(&self.task);
         let account = &mut self.account;
-        match (&mut self.peer, &mut self.latch) {
-            (Some(link), None) => {
-                link.send_all(&mut cx, driven, self.queue.items_mut(), &mut |length| account.hand(length));
+        if let Some(link) = &mut self.peer {
+            let joined = self.latch.as_ref().and_then(|latch| latch.take_joined(&mut self.queue));
+            link.send_all(&mut cx, driven, self.queue.items_mut(), &mut |length| account.hand(length));
+            if let (Some(joined), Some(latch)) = (joined, &mut self.latch) {
+                send_joined(&mut **link, latch, &mut self.queue, account, joined, &mut cx);
             }
-            (Some(link), Some(latch)) => {
-                let joined = latch.take_joined(&mut self.queue);
-                link.send_all(&mut cx, driven, self.queue.items_mut(), &mut |length| account.hand(length));
-                if let Some(joined) = joined {
-                    send_joined(&mut **link, latch, &mut self.queue, account, joined, &mut cx);
-                }
-            }
-            (None, _) => {}
         }
         self.dropping &= !self.queue.is_empty();
         // A flush looks at acknowledgements as well, which arrive without a change of the queue.
@@ -296,9 +290,9 @@ impl Connection {
         }
         let pushed = self.queue.push(message);
         self.note_queued(pushed);
-        if pushed != Pushed::Stored && !self.dropping && !self.queue.policy().newest_only() {
+        if pushed != Pushed::Stored && !self.dropping && !self.queue.policy.newest_only() {
             self.dropping = true;
-            let (gate, queue) = (self.gate, self.queue.policy().capacity);
+            let (gate, queue) = (self.gate, self.queue.policy.capacity);
             let reason = if self.peer.is_some() { "it reads too slowly" } else { "it is not connected" };
             if self.has_completed() {
                 tracing::debug!(%gate, queue, "queue of {} is full; dropping messages: it has ended", self.peer_name());

@@ -187,10 +187,7 @@ impl Exchange {
     }
 
     pub(super) fn stats(&self) -> GateStats {
-        let end = self.lock();
-        let mut stats = end.counts();
-        end.activity.add_to(&mut stats);
-        stats
+        GateStats { waiting: 0, ..GateStats::of(|figures| self.lock().read_figures(figures)) }
     }
 
     pub(super) fn count_undecodable(&self) {
@@ -307,30 +304,22 @@ impl End {
         self.link.wait(within)
     }
 
-    /// The gate's counts, without its activity and the calls in progress.
-    fn counts(&self) -> GateStats {
-        GateStats {
+    fn read_figures(&self, figures: &mut GateFigures) {
+        let waiting = self.calls.in_progress() as u64;
+        let connected = self.link.is_connected();
+        figures.set(GateFigures {
             sent: self.sent,
             received: self.received,
             rejected: self.undecodable,
             undecodable: self.undecodable,
-            peers: self.link.is_connected().into(),
-            ..GateStats::default()
-        }
-    }
-
-    fn read_figures(&self, figures: &mut GateFigures) {
-        let waiting = self.calls.in_progress();
-        let connected = self.link.is_connected();
-        GateStats { waiting, ..self.counts() }.write_to(figures);
-        self.activity.add_to_figures(figures);
+            waiting,
+            peers: connected.into(),
+            ..GateFigures::default()
+        });
+        self.activity.add_to(figures);
         for connection in &mut figures.connections {
-            *connection = ConnectionFigures {
-                connected,
-                waiting: waiting as u64,
-                taken: self.received,
-                ..ConnectionFigures::default()
-            };
+            *connection =
+                ConnectionFigures { connected, waiting, taken: self.received, ..ConnectionFigures::default() };
         }
     }
 

@@ -1,12 +1,13 @@
 //! The connections of a sending gate: a message that is encoded goes over each of them, or over one in turn.
 
-use super::Connection;
 use super::stats::{GateStats, PeerStats};
 use super::tap::{GateTap, ObservedKind};
 use super::watch::Watch;
+use super::{Connection, exceeded};
 use crate::codec::EncodeError;
 use crate::error::{BlockingError, GateName, Missing, PeerName, SendError, SendTimeoutError, TrySendError};
 use crate::figures::FigureSource;
+use crate::runtime_dir::GateFigures;
 use crate::spec::{ConnectionSpec, GateKind, GateSpec};
 use crate::state::{Owner, SendingEnd};
 use crate::sync::lock;
@@ -30,7 +31,7 @@ pub(crate) struct Fanout {
     /// The connection whose turn it is, if the gate shares.
     turn: usize,
     /// The peer that accepts the shortest messages.
-    strictest: Option<&'static ConnectionSpec>,
+    pub(super) strictest: Option<&'static ConnectionSpec>,
     /// Number of connects and disconnects reported by `peers_changed`.
     reported: u64,
     /// Counts the gate itself, whose connections may live longer.
@@ -63,7 +64,7 @@ impl Fanout {
     ) -> Self {
         let may_wait = spec.connections.iter().any(|connection| spec.options.waits_for(connection.when_full));
         let shares = spec.kind == GateKind::Push && connections.len() > 1;
-        let name = GateName::new(state.spec().name, spec.name);
+        let name = GateName::new(state.spec.name, spec.name);
         let strictest = spec.connections.iter().min_by_key(|connection| connection.max_size);
         Self {
             spec,
@@ -84,8 +85,8 @@ impl Fanout {
     pub(super) fn accept(&self, encode: impl FnOnce() -> Result<Outbound, EncodeError>) -> Result<Outbound, SendError> {
         self.state.check().map_err(self.refused())?;
         let message = encode().map_err(|source| SendError::Encode { gate: self.name, source })?;
-        match self.too_long(message.len()) {
-            Some(TooLong { peer, size, limit }) => Err(SendError::TooLong { gate: self.name, peer, size, limit }),
+        match exceeded(self.strictest, message.len()) {
+            Some((peer, size, limit)) => Err(SendError::TooLong { gate: self.name, peer, size, limit }),
             None => Ok(message),
         }
     }
@@ -190,12 +191,6 @@ impl Fanout {
         lent.next().unwrap_or_else(|| (Loan::new(HeapMemory::zeroed(length, alignment)), None))
     }
 
-    /// The limit that a message of this length exceeds.
-    pub(super) fn too_long(&self, length: usize) -> Option<TooLong> {
-        let connection = self.strictest.filter(|connection| length as u64 > connection.max_size)?;
-        Some(TooLong { peer: PeerName::of(connection), size: length as u64, limit: connection.max_size })
-    }
-
     fn refused(&self) -> impl Fn(BlockingError) -> SendError + use<> {
         let gate = self.name;
         move |source| SendError::Blocking { gate, source }
@@ -285,11 +280,12 @@ impl Fanout {
             if connections.iter().any(|connection| connection.strong_count() == 0) {
                 return is_open;
             }
-            figures.clear();
+            figures.set(GateFigures::default());
             for (index, connection) in connections.iter().enumerate() {
                 let Some(connection) = connection.upgrade() else { continue };
-                let own = lock(&connection).add_to_figures(figures);
-                figures.connections[index] = own;
+                let mut connection = lock(&connection);
+                connection.request_acknowledgement();
+                figures.connections[index] = connection.add_to_figures(figures);
             }
             figures.tap_dropped = dropped();
             figures.dropped_for_observers += figures.tap_dropped;
@@ -302,29 +298,14 @@ impl Fanout {
     }
 
     pub(crate) fn stats(&self) -> GateStats {
-        let mut stats = GateStats { dropped_for_observers: self.tap.dropped(), ..GateStats::default() };
-        for connection in self.connections.iter().map(|connection| lock(connection)) {
-            let (peer, all) = (connection.stats(), connection.counts());
-            all.activity.add_to(&mut stats);
-            stats.sent += all.sent;
-            stats.replaced += all.replaced;
-            stats.dropped_oldest += peer.dropped_oldest;
-            stats.dropped_newest += peer.dropped_newest;
-            stats.dropped_for_observers += all.dropped_for_observers;
-            stats.lost += peer.lost;
-            stats.waiting += peer.waiting as usize;
-            stats.peers += usize::from(peer.connected);
-        }
-        stats
+        GateStats::of(|figures| {
+            figures.dropped_for_observers = self.tap.dropped();
+            for connection in &self.connections {
+                let own = lock(connection).add_to_figures(figures);
+                figures.waiting += own.in_flight;
+            }
+        })
     }
-}
-
-/// A message is longer than a peer accepts.
-pub(super) struct TooLong {
-    /// The peer that accepts the shortest messages.
-    pub(super) peer: PeerName,
-    pub(super) size: u64,
-    pub(super) limit: u64,
 }
 
 /// What is left to hand over stays with the component; the sockets are freed as soon as that is done.

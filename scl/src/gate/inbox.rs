@@ -8,10 +8,9 @@ use super::catch_up::{Caller, CatchUp};
 use super::links::{Arrived, Links};
 use super::queue::{Pushed, Queue, QueuePolicy};
 use super::ready_set::{ReadySet, ReadySignals};
-use super::stats::{Activity, CoarseTime, GateStats};
+use super::stats::{Activity, CoarseTime};
 use super::tap::{GateTap, ObservedKind};
 use super::undecodable::UndecodableCount;
-use crate::error::Missing;
 use crate::figures::FiguresInWait;
 use crate::runtime_dir::GateFigures;
 use crate::spec::{GateSpec, WhenFull};
@@ -29,7 +28,7 @@ const CATCH_UP: Duration = Duration::from_millis(10);
 
 /// What has arrived at a gate and was not given to the program yet.
 pub(super) struct Inbox {
-    links: Links,
+    pub(super) links: Links,
     queue: Queue<Arrived>,
     /// Whether the last receiving call found nothing, and nothing was taken in since.
     was_empty: bool,
@@ -43,7 +42,7 @@ pub(super) struct Inbox {
     listens: bool,
     /// Messages that the codec could not read.
     pub(super) undecodable: UndecodableCount,
-    pub(super) activity: Activity,
+    activity: Activity,
     in_wait: Arc<FiguresInWait>,
     tap: GateTap,
     ready: ReadySignals,
@@ -167,7 +166,7 @@ impl Inbox {
     fn pass_over(&mut self, arrived: &mut VecDeque<Arrived>) {
         for _ in 0..TAKE_IN {
             let Poll::Ready(newer) = self.poll_links() else { return };
-            if arrived.len() >= self.queue.policy().capacity {
+            if arrived.len() >= self.queue.policy.capacity {
                 arrived.pop_front();
             }
             arrived.push_back(newer);
@@ -233,7 +232,7 @@ impl Inbox {
     /// Takes in a message in place of one that has left a full queue. The links are connected already.
     fn take_in_for_room(&mut self) {
         // Not for each message, because a fast program would notice that.
-        let last = self.activity.last();
+        let last = self.activity.last;
         if std::mem::replace(&mut self.told_at, last) != last {
             self.links.note_waiting();
         }
@@ -264,7 +263,7 @@ impl Inbox {
         let gone = if !self.queue.is_full() {
             self.queue.push(arrived);
             None
-        } else if arrived.latched.is_some() && self.queue.policy().when_full == WhenFull::DropNewest {
+        } else if arrived.latched.is_some() && self.queue.policy.when_full == WhenFull::DropNewest {
             // It is the state that holds; those before it are not.
             self.queue.push_over_newest(arrived).map(|newest| newest.link)
         } else {
@@ -294,42 +293,27 @@ impl Inbox {
         self.links.fetch(if self.newest_only { CATCH_UP } else { Duration::ZERO });
     }
 
-    /// The required peers that are not connected, of a gate with one link per peer.
-    pub(super) fn missing(&self, spec: &'static GateSpec) -> Vec<Missing> {
-        self.links.missing(spec)
-    }
-
-    /// The gate's counts, without its activity.
-    pub(super) fn counts(&self) -> GateStats {
-        let undecodable = self.undecodable.total();
-        GateStats {
+    /// Brings the figures of the gate up to date.
+    pub(super) fn read_figures(&self, figures: &mut GateFigures) {
+        let (undecodable, tap_dropped) = (self.undecodable.total(), self.tap.dropped());
+        figures.set(GateFigures {
             received: self.links.received(),
             rejected: undecodable + self.links.malformed(),
             undecodable,
             replaced: self.queue.replaced,
             dropped_oldest: self.queue.dropped_oldest,
             dropped_newest: self.queue.dropped_newest,
-            dropped_for_observers: self.tap.dropped(),
-            waiting: self.queue.len(),
-            peers: self.peers(),
-            ..GateStats::default()
-        }
-    }
-
-    /// Brings the figures of the gate up to date.
-    fn read_figures(&self, figures: &mut GateFigures) {
-        let counts = self.counts();
-        counts.write_to(figures);
-        self.activity.add_to_figures(figures);
+            dropped_for_observers: tap_dropped,
+            tap_dropped,
+            waiting: self.queue.len() as u64,
+            peers: self.links.peers() as u64,
+            ..GateFigures::default()
+        });
+        self.activity.add_to(figures);
         if self.listens {
-            return figures.share(counts.peers as u64, counts.received);
+            return figures.share();
         }
         self.links.add_to_figures(figures);
-    }
-
-    /// Number of connected peers.
-    pub(super) fn peers(&self) -> usize {
-        self.links.peers()
     }
 }
 

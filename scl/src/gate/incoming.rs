@@ -52,7 +52,7 @@ impl<T> Incoming<T> {
         links: Vec<Box<dyn Receiver>>,
         tap: GateTap,
     ) -> Self {
-        let name = GateName::new(state.spec().name, spec.name);
+        let name = GateName::new(state.spec.name, spec.name);
         let inbox = SharedInbox::new(spec, links, tap, &state);
         Self {
             spec,
@@ -76,12 +76,14 @@ impl<T> Incoming<T> {
         self.next_blocking(Self::decode)
     }
 
-    /// Waits for the next message that can be decoded. It is decoded here and not in [`Recv`], because a long message
-    /// would be moved, and take room on the stack, once more.
+    /// Waits for the next message that can be decoded. It is decoded here and not in `IoWaker::call`, because a long
+    /// message would be moved, and take room on the stack, once more.
     async fn next<R>(&mut self, mut caller: Caller, decode: impl Decode<T, R>) -> Result<R, RecvError> {
         loop {
             for _ in 0..AT_ONCE {
-                let arrived = Recv { gate: self, caller, is_waiting: false }.await;
+                let polled =
+                    |cx: &mut Context<'_>| self.poll_arrived(cx, std::mem::replace(&mut caller, Caller::SameCall));
+                let arrived = self.inbox.io.call(polled).await;
                 let Some(arrived) = arrived else { return self.refuse() };
                 caller = Caller::NewCall;
                 if let Some(decoded) = unless_skipped(self.spec, decode(self, arrived)) {
@@ -154,7 +156,7 @@ impl<T> Incoming<T> {
     /// Returns no message if the call has to fail, as [`refuse`](Self::refuse) does. An error in its place would
     /// overlap with the message, which the compiler then moves in pieces: with a short message that takes a noticeable
     /// part of the time.
-    fn poll_arrived(&mut self, cx: &mut Context<'_>, caller: Caller) -> Poll<Option<Arrived>> {
+    fn poll_arrived(&self, cx: &mut Context<'_>, caller: Caller) -> Poll<Option<Arrived>> {
         if self.state.check().is_err() {
             return Poll::Ready(None);
         }
@@ -231,52 +233,6 @@ impl<T> Incoming<T> {
         Ok(())
     }
 
-    #[cfg(feature = "raw")]
-    pub(crate) async fn recv_view(&mut self) -> Result<View<T>, RecvError>
-    where
-        T: FromBytes + KnownLayout + Immutable,
-    {
-        self.check_views()?;
-        self.next(Caller::NewCall, Self::view).await
-    }
-
-    #[cfg(feature = "raw")]
-    pub(crate) fn recv_view_blocking(&mut self) -> Result<View<T>, RecvError>
-    where
-        T: FromBytes + KnownLayout + Immutable,
-    {
-        self.check_views()?;
-        self.next_blocking(Self::view)
-    }
-
-    #[cfg(feature = "raw")]
-    pub(crate) fn try_recv_view(&mut self) -> Result<Option<View<T>>, RecvError>
-    where
-        T: FromBytes + KnownLayout + Immutable,
-    {
-        self.check_views()?;
-        self.try_next(Self::view)
-    }
-
-    /// Fails before a message is taken.
-    #[cfg(feature = "raw")]
-    fn check_views(&self) -> Result<(), RecvError> {
-        if self.codec == TypeId::of::<Raw>() {
-            return Ok(());
-        }
-        Err(RecvError::NoViews { gate: self.name, codec: self.spec.codec })
-    }
-
-    #[cfg(feature = "raw")]
-    fn view(&mut self, Arrived { link, frame, latched }: Arrived) -> Result<View<T>, RecvError>
-    where
-        T: FromBytes + KnownLayout + Immutable,
-    {
-        self.latched = latched;
-        let received = frame.len();
-        View::new(frame).ok_or_else(|| self.undecodable(link, Raw::wrong_length::<T>(received)))
-    }
-
     fn refused(&self, source: BlockingError) -> RecvError {
         RecvError::Blocking { gate: self.name, source }
     }
@@ -315,7 +271,7 @@ impl<T> Incoming<T> {
     pub(crate) fn is_connected(&self) -> bool {
         match self.spec.endpoint {
             "" => self.missing().is_empty(),
-            _ => self.inbox.lock().peers() > 0,
+            _ => self.inbox.lock().links.peers() > 0,
         }
     }
 
@@ -323,13 +279,13 @@ impl<T> Incoming<T> {
         if !self.spec.endpoint.is_empty() {
             return Vec::new();
         }
-        self.inbox.lock().missing(self.spec)
+        self.inbox.lock().links.missing(self.spec)
     }
 
     pub(crate) fn watch(&self) -> Watch {
         let (spec, inbox, reporting) = (self.spec, self.inbox.downgrade(), self.inbox.downgrade());
         let watch = Watch::new(spec, move || match inbox.upgrade().filter(|_| spec.endpoint.is_empty()) {
-            Some(inbox) => lock(&inbox).missing(spec),
+            Some(inbox) => lock(&inbox).links.missing(spec),
             None => Vec::new(),
         });
         watch
@@ -341,10 +297,39 @@ impl<T> Incoming<T> {
     }
 
     pub(crate) fn stats(&self) -> GateStats {
-        let inbox = self.inbox.lock();
-        let mut stats = inbox.counts();
-        inbox.activity.add_to(&mut stats);
-        stats
+        GateStats::of(|figures| self.inbox.lock().read_figures(figures))
+    }
+}
+
+#[cfg(feature = "raw")]
+impl<T: FromBytes + KnownLayout + Immutable> Incoming<T> {
+    pub(crate) async fn recv_view(&mut self) -> Result<View<T>, RecvError> {
+        self.check_views()?;
+        self.next(Caller::NewCall, Self::view).await
+    }
+
+    pub(crate) fn recv_view_blocking(&mut self) -> Result<View<T>, RecvError> {
+        self.check_views()?;
+        self.next_blocking(Self::view)
+    }
+
+    pub(crate) fn try_recv_view(&mut self) -> Result<Option<View<T>>, RecvError> {
+        self.check_views()?;
+        self.try_next(Self::view)
+    }
+
+    /// Fails before a message is taken.
+    fn check_views(&self) -> Result<(), RecvError> {
+        if self.codec == TypeId::of::<Raw>() {
+            return Ok(());
+        }
+        Err(RecvError::NoViews { gate: self.name, codec: self.spec.codec })
+    }
+
+    fn view(&mut self, Arrived { link, frame, latched }: Arrived) -> Result<View<T>, RecvError> {
+        self.latched = latched;
+        let received = frame.len();
+        View::new(frame).ok_or_else(|| self.undecodable(link, Raw::wrong_length::<T>(received)))
     }
 }
 
@@ -362,29 +347,3 @@ impl<T> Drop for Incoming<T> {
 trait Decode<T, R>: Fn(&mut Incoming<T>, Arrived) -> Result<R, RecvError> {}
 
 impl<T, R, D: Fn(&mut Incoming<T>, Arrived) -> Result<R, RecvError>> Decode<T, R> for D {}
-
-/// A receiving call. Dropping it before it is ready hands the gate's I/O back to the background task.
-struct Recv<'a, T> {
-    gate: &'a mut Incoming<T>,
-    caller: Caller,
-    is_waiting: bool,
-}
-
-impl<T> Future for Recv<'_, T> {
-    type Output = Option<Arrived>;
-
-    fn poll(mut self: std::pin::Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Self::Output> {
-        let caller = std::mem::replace(&mut self.caller, Caller::SameCall);
-        let polled = self.gate.poll_arrived(cx, caller);
-        self.is_waiting = polled.is_pending();
-        polled
-    }
-}
-
-impl<T> Drop for Recv<'_, T> {
-    fn drop(&mut self) {
-        if self.is_waiting {
-            self.gate.inbox.io.cancel();
-        }
-    }
-}

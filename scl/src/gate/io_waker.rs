@@ -6,9 +6,10 @@
 
 use crate::state::WakeCall;
 use crate::sync::{keep_waker, lock};
+use std::pin::Pin;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
-use std::task::{Wake, Waker};
+use std::task::{Context, Poll, Wake, Waker};
 
 #[derive(Default)]
 pub(crate) struct IoWaker {
@@ -43,6 +44,11 @@ impl IoWaker {
         }
     }
 
+    /// A call that waits until `poll` is ready. Dropping it before that hands the I/O back to the background task.
+    pub(super) fn call<R, P: FnMut(&mut Context<'_>) -> Poll<R> + Unpin>(&self, poll: P) -> Call<'_, P> {
+        Call { io: self, poll, is_waiting: false }
+    }
+
     pub(crate) fn set_task(&self, task: &Waker) {
         keep_waker(&mut lock(&self.wakers).task, task);
     }
@@ -73,6 +79,30 @@ impl Wake for IoWaker {
             (call, task)
         };
         call.into_iter().chain(task).for_each(Waker::wake);
+    }
+}
+
+pub(super) struct Call<'a, P> {
+    io: &'a IoWaker,
+    poll: P,
+    is_waiting: bool,
+}
+
+impl<R, P: FnMut(&mut Context<'_>) -> Poll<R> + Unpin> Future for Call<'_, P> {
+    type Output = R;
+
+    fn poll(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<R> {
+        let polled = (self.poll)(cx);
+        self.is_waiting = polled.is_pending();
+        polled
+    }
+}
+
+impl<P> Drop for Call<'_, P> {
+    fn drop(&mut self) {
+        if self.is_waiting {
+            self.io.cancel();
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Messages written in place, into memory that a connection lends.
 
-use super::fanout::{Fanout, Outbound, TooLong};
+use super::exceeded;
+use super::fanout::{Fanout, Outbound};
 use crate::error::{LoanError, SendError, SendTimeoutError, TrySendError};
 use crate::transport::Loan;
 use std::marker::PhantomData;
@@ -28,7 +29,7 @@ impl<'a, T: ?Sized> Loaned<'a, T> {
     pub(super) fn new(fanout: &'a mut Fanout, length: usize, alignment: usize) -> Result<Self, LoanError> {
         let gate = fanout.name;
         fanout.state.check().map_err(|source| LoanError::Blocking { gate, source })?;
-        if let Some(TooLong { peer, size, limit }) = fanout.too_long(length) {
+        if let Some((peer, size, limit)) = exceeded(fanout.strictest, length) {
             return Err(LoanError::TooLong { gate, peer, size, limit });
         }
         // A program without async may not have had a turn since its peer connected.

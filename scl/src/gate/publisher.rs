@@ -25,14 +25,10 @@ use std::time::Duration;
 /// }
 /// ```
 pub struct Pub<T> {
-    pub(super) outgoing: Outgoing<T>,
+    pub(crate) outgoing: Outgoing<T>,
 }
 
 impl<T> Pub<T> {
-    pub(crate) fn new(outgoing: Outgoing<T>) -> Self {
-        Self { outgoing }
-    }
-
     /// Sends a message to every subscriber.
     ///
     /// The message is written to each peer's socket before this returns. If a peer has not taken the messages before

@@ -21,14 +21,10 @@ use std::time::Duration;
 /// }
 /// ```
 pub struct Push<T> {
-    pub(super) outgoing: Outgoing<T>,
+    pub(crate) outgoing: Outgoing<T>,
 }
 
 impl<T> Push<T> {
-    pub(crate) fn new(outgoing: Outgoing<T>) -> Self {
-        Self { outgoing }
-    }
-
     /// Sends a message to a puller.
     ///
     /// The message is written to each peer's socket before this returns. If a peer has not taken the messages before

@@ -15,7 +15,7 @@ pub(crate) struct QueuePolicy {
 /// Messages that wait, oldest first.
 pub(crate) struct Queue<T> {
     items: VecDeque<T>,
-    policy: QueuePolicy,
+    pub(crate) policy: QueuePolicy,
     /// Values that a newer one has replaced where only the newest counts: no drops.
     pub(crate) replaced: u64,
     pub(crate) dropped_oldest: u64,
@@ -88,10 +88,6 @@ impl<T> Queue<T> {
     /// The messages themselves, for a link that takes several at once.
     pub(crate) fn items_mut(&mut self) -> &mut VecDeque<T> {
         &mut self.items
-    }
-
-    pub(crate) fn policy(&self) -> QueuePolicy {
-        self.policy
     }
 
     pub(crate) fn len(&self) -> usize {

@@ -4,7 +4,6 @@
 /// Implements `AnyGate` and `Stream` for a gate that receives.
 macro_rules! receiving_gate {
     ($gate:ident) => {
-        use crate::error::Missing;
         use crate::gate::{AnyGate, ReceivingGate, Watch, sealed};
         use crate::spec::GateSpec;
         use futures_core::Stream;
@@ -23,10 +22,6 @@ macro_rules! receiving_gate {
         impl<T> AnyGate for $gate<T> {
             fn spec(&self) -> &'static GateSpec {
                 self.incoming.spec
-            }
-
-            fn missing(&self) -> Vec<Missing> {
-                self.incoming.missing()
             }
 
             fn watch(&self) -> Watch {

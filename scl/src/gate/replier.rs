@@ -7,9 +7,9 @@ use super::stats::GateStats;
 use super::tap::{GateTap, ObservedKind};
 use super::undecodable::{AT_ONCE, SkipLimit, report, skips, unless_skipped};
 use super::watch::Watch;
-use super::{AnyGate, ReceivingGate};
+use super::{AnyGate, ReceivingGate, exceeded};
 use crate::codec::{Codec, DecodeError};
-use crate::error::{BlockingError, GateName, Missing, PeerName, Peers, RecvError, RecvTimeoutError, ReplyError};
+use crate::error::{BlockingError, GateName, Peers, RecvError, RecvTimeoutError, ReplyError};
 use crate::figures::FigureSource;
 use crate::spec::{ConnectionSpec, GateSpec};
 use crate::state::Owner;
@@ -65,7 +65,7 @@ impl<A, B> Rep<A, B> {
         link: Box<dyn Replier>,
         tap: GateTap,
     ) -> Self {
-        let gate = GateName::new(state.spec().name, spec.name);
+        let gate = GateName::new(state.spec.name, spec.name);
         let decoder = Decoder::new::<C>(&state, spec);
         let end = ReplyEnd::open(link, &state);
         let encoding = Mutex::new(Encoding::new::<C>(&state, spec));
@@ -84,7 +84,7 @@ impl<A, B> Rep<A, B> {
     /// # Cancel safety
     /// Cancel safe: no request is lost if this is dropped before it is ready.
     pub async fn recv(&mut self) -> Result<Request<A, B>, RecvError> {
-        Recv { gate: self, is_waiting: false }.await
+        self.end.io.call(|cx| self.poll_recv(cx, false)).await
     }
 
     /// [`recv`](Self::recv) from a plain thread.
@@ -143,7 +143,7 @@ impl<A, B> Rep<A, B> {
         self.end.figures(&self.replies.tap)
     }
 
-    fn poll_recv(&mut self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<Result<Request<A, B>, RecvError>> {
+    fn poll_recv(&self, cx: &mut Context<'_>, may_vanish: bool) -> Poll<Result<Request<A, B>, RecvError>> {
         if let Err(source) = self.replies.state.check() {
             return Poll::Ready(Err(self.refused(source)));
         }
@@ -176,7 +176,7 @@ impl<A, B> Rep<A, B> {
         if skips(self.spec) { Ok(()) } else { rejected }
     }
 
-    fn decode(&mut self, (id, IncomingRequest { body, envelope, path }): Numbered) -> Result<Request<A, B>, RecvError> {
+    fn decode(&self, (id, IncomingRequest { body, envelope, path }): Numbered) -> Result<Request<A, B>, RecvError> {
         self.replies.tap.observe(ObservedKind::Request, id, &body);
         match self.decoder.decode(body) {
             Ok(message) => Ok(Request { message, id, envelope, path, replies: Arc::clone(&self.replies) }),
@@ -201,30 +201,6 @@ impl<A, B> Drop for Rep<A, B> {
         }
         self.end.stop_reporting();
         self.replies.state.release(self.end.link());
-    }
-}
-
-/// A receiving call. Dropping it before it is ready hands the gate's I/O back to the background task.
-struct Recv<'a, A, B> {
-    gate: &'a mut Rep<A, B>,
-    is_waiting: bool,
-}
-
-impl<A, B> Future for Recv<'_, A, B> {
-    type Output = Result<Request<A, B>, RecvError>;
-
-    fn poll(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Self::Output> {
-        let polled = self.gate.poll_recv(cx, false);
-        self.is_waiting = polled.is_pending();
-        polled
-    }
-}
-
-impl<A, B> Drop for Recv<'_, A, B> {
-    fn drop(&mut self) {
-        if self.is_waiting {
-            self.gate.end.cancel();
-        }
     }
 }
 
@@ -257,9 +233,8 @@ impl<A, B> Request<A, B> {
         let gate = *gate;
         state.check().map_err(|source| ReplyError::Blocking { gate, source })?;
         let body = lock(encoding).encode(reply).map_err(|source| ReplyError::Encode { gate, source })?;
-        if let Some(connection) = strictest.filter(|connection| body.len() as u64 > connection.max_size) {
-            let (size, limit) = (body.len() as u64, connection.max_size);
-            return Err(ReplyError::TooLong { gate, peer: PeerName::of(connection), size, limit });
+        if let Some((peer, size, limit)) = exceeded(*strictest, body.len()) {
+            return Err(ReplyError::TooLong { gate, peer, size, limit });
         }
         tap.observe(ObservedKind::Reply, self.id, &body);
         self.path.reply(&self.envelope, body).map_err(|_gone| ReplyError::RequesterGone { gate })
@@ -287,10 +262,6 @@ impl<A, B> AnyGate for Rep<A, B> {
         self.spec
     }
 
-    fn missing(&self) -> Vec<Missing> {
-        Vec::new()
-    }
-
     fn watch(&self) -> Watch {
         Watch::new(self.spec, Vec::new).reporting(self.end.reporter())
     }
@@ -312,7 +283,7 @@ impl<A, B> ReceivingGate for Rep<A, B> {
 impl<A, B> Stream for Rep<A, B> {
     type Item = Result<Request<A, B>, RecvError>;
 
-    fn poll_next(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Option<Self::Item>> {
+    fn poll_next(self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Option<Self::Item>> {
         self.poll_recv(cx, true).map(Some)
     }
 }

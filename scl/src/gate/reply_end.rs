@@ -23,7 +23,7 @@ pub(super) type Numbered = (u64, IncomingRequest);
 
 pub(super) struct ReplyEnd {
     link: Arc<Mutex<Link>>,
-    io: Arc<IoWaker>,
+    pub(super) io: Arc<IoWaker>,
     _task: AbortOnDrop,
 }
 
@@ -125,20 +125,12 @@ impl ReplyEnd {
         lock(&self.link).ready = ReadySignals::default();
     }
 
-    /// A call gave up.
-    pub(super) fn cancel(&self) {
-        self.io.cancel();
-    }
-
     pub(super) fn peers(&self) -> usize {
         lock(&self.link).replier.peers()
     }
 
     pub(super) fn stats(&self) -> GateStats {
-        let link = lock(&self.link);
-        let mut stats = link.counts();
-        link.activity.add_to(&mut stats);
-        stats
+        GateStats { waiting: 0, ..GateStats::of(|figures| lock(&self.link).read_figures(figures)) }
     }
 
     /// Returns true for the first one.
@@ -203,23 +195,18 @@ impl Link {
         }
     }
 
-    /// The gate's counts, without its activity, its tap and what waits.
-    fn counts(&self) -> GateStats {
-        GateStats {
+    /// Brings the figures up to date, without those of the tap.
+    fn read_figures(&self, figures: &mut GateFigures) {
+        figures.set(GateFigures {
             received: self.received,
             rejected: self.undecodable + self.replier.malformed(),
             undecodable: self.undecodable,
-            peers: self.replier.peers(),
-            ..GateStats::default()
-        }
-    }
-
-    fn read_figures(&self, figures: &mut GateFigures) {
-        let counts = self.counts();
-        counts.write_to(figures);
-        figures.waiting = self.next.is_some().into();
-        figures.share(counts.peers as u64, counts.received);
-        self.activity.add_to_figures(figures);
+            waiting: self.next.is_some().into(),
+            peers: self.replier.peers() as u64,
+            ..GateFigures::default()
+        });
+        figures.share();
+        self.activity.add_to(figures);
     }
 
     /// Returns true if there is a request.

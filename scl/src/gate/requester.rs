@@ -1,13 +1,13 @@
 //! The `req` gate.
 
-use super::AnyGate;
 use super::decoder::Decoder;
 use super::encoding::Encoding;
 use super::exchange::{Exchange, ExchangeError};
 use super::stats::GateStats;
 use super::watch::Watch;
+use super::{AnyGate, exceeded};
 use crate::codec::{Codec, DecodeError};
-use crate::error::{BlockingError, CallError, GateName, Missing, PeerName, Peers};
+use crate::error::{BlockingError, CallError, GateName, Missing, Peers};
 use crate::figures::FigureSource;
 use crate::spec::GateSpec;
 use crate::state::Owner;
@@ -79,7 +79,7 @@ impl<A, B> Req<A, B> {
         link: Option<Box<dyn Requester>>,
         watchdogs: Vec<Watchdog>,
     ) -> Self {
-        let name = GateName::new(state.spec().name, spec.name);
+        let name = GateName::new(state.spec.name, spec.name);
         let exchange = link.map(|link| Exchange::new(link, watchdogs, &state));
         let encoding = Mutex::new(Encoding::new::<C>(&state, spec));
         let decoder = Decoder::new::<C>(&state, spec);
@@ -181,14 +181,9 @@ impl<A, B> Req<A, B> {
         let gate = *gate;
         state.check().map_err(|source: BlockingError| CallError::Blocking { gate, source })?;
         let body = lock(encoding).encode(request).map_err(|source| CallError::Encode { gate, source })?;
-        match spec.connections.first() {
-            Some(link) if body.len() as u64 > link.max_size => Err(CallError::TooLong {
-                gate,
-                peer: PeerName::of(link),
-                size: body.len() as u64,
-                limit: link.max_size,
-            }),
-            _ => Ok(body),
+        match exceeded(spec.connections.first(), body.len()) {
+            Some((peer, size, limit)) => Err(CallError::TooLong { gate, peer, size, limit }),
+            None => Ok(body),
         }
     }
 
@@ -220,10 +215,6 @@ impl<A, B> super::sealed::Sealed for Req<A, B> {}
 impl<A, B> AnyGate for Req<A, B> {
     fn spec(&self) -> &'static GateSpec {
         self.shared.spec
-    }
-
-    fn missing(&self) -> Vec<Missing> {
-        self.missing()
     }
 
     fn watch(&self) -> Watch {

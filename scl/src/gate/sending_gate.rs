@@ -4,7 +4,6 @@
 /// Implements `AnyGate` and `Sink` for a gate that sends.
 macro_rules! sending_gate {
     ($gate:ident) => {
-        use crate::error::Missing;
         use crate::gate::{AnyGate, Watch, sealed};
         use crate::spec::GateSpec;
         use futures_sink::Sink;
@@ -16,10 +15,6 @@ macro_rules! sending_gate {
         impl<T> AnyGate for $gate<T> {
             fn spec(&self) -> &'static GateSpec {
                 self.outgoing.fanout.spec
-            }
-
-            fn missing(&self) -> Vec<Missing> {
-                self.outgoing.fanout.missing()
             }
 
             fn watch(&self) -> Watch {

@@ -69,20 +69,26 @@ pub struct PeerStats {
 }
 
 impl GateStats {
-    /// Writes the counts, without the gate's connections and the time of its last activity.
-    pub(crate) fn write_to(&self, figures: &mut GateFigures) {
-        figures.clear();
-        figures.sent = self.sent;
-        figures.received = self.received;
-        figures.replaced = self.replaced;
-        figures.dropped_oldest = self.dropped_oldest;
-        figures.dropped_newest = self.dropped_newest;
-        figures.dropped_for_observers = self.dropped_for_observers;
-        figures.tap_dropped = self.dropped_for_observers;
-        figures.rejected = self.rejected;
-        figures.undecodable = self.undecodable;
-        figures.waiting = self.waiting as u64;
-        figures.peers = self.peers as u64;
+    /// The counts of a gate whose figures `read` adds to those of a gate that has done nothing.
+    pub(crate) fn of(read: impl FnOnce(&mut GateFigures)) -> Self {
+        let mut figures = GateFigures::default();
+        read(&mut figures);
+        let last_activity = figures.last_activity.map(|last| last.elapsed().unwrap_or_default());
+        Self {
+            sent: figures.sent,
+            received: figures.received,
+            replaced: figures.replaced,
+            dropped_oldest: figures.dropped_oldest,
+            dropped_newest: figures.dropped_newest,
+            dropped_for_observers: figures.dropped_for_observers,
+            lost: figures.lost,
+            rejected: figures.rejected,
+            undecodable: figures.undecodable,
+            bytes: figures.bytes,
+            waiting: figures.waiting as usize,
+            peers: figures.peers as usize,
+            last_activity: last_activity.and_then(|ago| Instant::now().checked_sub(ago)),
+        }
     }
 }
 
@@ -90,7 +96,8 @@ impl GateStats {
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Activity {
     bytes: u64,
-    last: Option<CoarseTime>,
+    /// When something was added last, to a few milliseconds.
+    pub(super) last: Option<CoarseTime>,
 }
 
 impl Activity {
@@ -99,21 +106,11 @@ impl Activity {
         self.last = Some(CoarseTime::now());
     }
 
-    /// When something was added last, to a few milliseconds.
-    pub(crate) fn last(&self) -> Option<CoarseTime> {
-        self.last
-    }
-
     pub(crate) fn plus(self, other: Self) -> Self {
         Self { bytes: self.bytes + other.bytes, last: self.last.max(other.last) }
     }
 
-    pub(crate) fn add_to(&self, stats: &mut GateStats) {
-        stats.bytes += self.bytes;
-        stats.last_activity = stats.last_activity.max(self.last.and_then(CoarseTime::to_instant));
-    }
-
-    pub(crate) fn add_to_figures(&self, figures: &mut GateFigures) {
+    pub(crate) fn add_to(&self, figures: &mut GateFigures) {
         figures.bytes += self.bytes;
         figures.last_activity = figures.last_activity.max(self.last.and_then(CoarseTime::to_system_time));
     }
@@ -128,10 +125,6 @@ impl CoarseTime {
     fn now() -> Self {
         let now = clock_gettime(ClockId::MonotonicCoarse);
         Self(Duration::new(now.tv_sec.unsigned_abs(), now.tv_nsec.unsigned_abs() as u32))
-    }
-
-    fn to_instant(self) -> Option<Instant> {
-        Instant::now().checked_sub(self.elapsed())
     }
 
     fn to_system_time(self) -> Option<SystemTime> {

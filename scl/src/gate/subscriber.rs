@@ -23,14 +23,10 @@ use std::time::Duration;
 /// }
 /// ```
 pub struct Sub<T> {
-    pub(super) incoming: Incoming<T>,
+    pub(crate) incoming: Incoming<T>,
 }
 
 impl<T> Sub<T> {
-    pub(crate) fn new(incoming: Incoming<T>) -> Self {
-        Self { incoming }
-    }
-
     /// Waits for the next message.
     ///
     /// The gate's `queue` applies to what has arrived. With `queue: 1` this is always the newest message, also after a

@@ -23,9 +23,9 @@ impl Watch {
         Self { report_to: Some(Box::new(report_to)), ..self }
     }
 
-    /// Makes the gate report to a set from now on. Returns false for a gate that never receives.
-    pub(crate) fn report_to(&self, set: Weak<ReadySet>) -> bool {
-        self.report_to.as_ref().map(|report_to| report_to(set)).is_some()
+    /// Makes the gate report to a set from now on, if it receives.
+    pub(crate) fn report_to(&self, set: Weak<ReadySet>) {
+        self.report_to.iter().for_each(|report_to| report_to(set.clone()));
     }
 
     pub(crate) fn missing(&self) -> Vec<Missing> {

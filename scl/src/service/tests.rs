@@ -169,7 +169,7 @@ fn settings_are_read_or_passed_over() {
     }
     for address in ["", "relative", "vsock:2:1", "/nowhere/at/all", "@scl-nobody-listens"] {
         let variables = |name: &str| (name == "NOTIFY_SOCKET").then(|| address.into());
-        assert!(Service::of(&variables).is_none(), "{address}");
+        assert!(manager(&variables).is_none(), "{address}");
     }
 }
 
@@ -180,7 +180,7 @@ fn an_abstract_name_is_understood() {
     let manager = socket(AddressFamily::UNIX, SocketType::DGRAM, None).unwrap();
     bind(&manager, &SocketAddrUnix::new_abstract_name(name.as_bytes()).unwrap()).unwrap();
     let variables = |asked: &str| (asked == "NOTIFY_SOCKET").then(|| format!("@{name}").into());
-    Service::of(&variables).unwrap().report_stopping();
+    Service::new(super::manager(&variables).unwrap(), watchdog(&variables)).report_stopping();
     let mut heard = [0; 64];
     let length = UnixDatagram::from(manager).recv(&mut heard).unwrap();
     assert_eq!(&heard[..length], b"STOPPING=1\n");

@@ -30,12 +30,6 @@ struct Followed {
 }
 
 impl Monitor {
-    /// `stats` are those of a component that has done nothing yet.
-    pub(crate) fn new(spec: &'static ComponentSpec, stats: ComponentStats) -> Self {
-        let sources = spec.gates.iter().map(|_| None).collect();
-        Self { spec, followed: Mutex::new(Followed { sources, open: vec![false; spec.gates.len()], stats }) }
-    }
-
     /// Follows the gate at an index of the component's list.
     pub(crate) fn follow(&self, index: usize, source: FigureSource) {
         let mut followed = lock(&self.followed);
@@ -98,7 +92,9 @@ pub(super) fn start(
 ) -> (Arc<Monitor>, Option<AbortOnDrop>) {
     let unwritten = || ComponentStats::initial(spec, std::process::id(), SystemTime::now(), Duration::ZERO);
     let (initial, writer) = stats.unzip();
-    let monitor = Arc::new(Monitor::new(spec, initial.unwrap_or_else(unwritten)));
+    let (sources, open) = (spec.gates.iter().map(|_| None).collect(), vec![false; spec.gates.len()]);
+    let followed = Followed { sources, open, stats: initial.unwrap_or_else(unwritten) };
+    let monitor = Arc::new(Monitor { spec, followed: Mutex::new(followed) });
     let task = writer.map(|writer| AbortOnDrop::spawn(handle, write_stats(Arc::downgrade(&monitor), writer)));
     (monitor, task)
 }

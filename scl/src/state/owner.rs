@@ -76,7 +76,7 @@ mod tests {
 
     #[tokio::test]
     async fn the_last_owner_outlives_those_who_use_the_component_for_a_moment() {
-        let owner = Owner::new(ComponentState::new(&SPEC, Box::new(Unregistered), None, None));
+        let owner = Owner::new(ComponentState::new(&SPEC, Box::new(Unregistered), None, None, false));
         let (another, used) = (owner.clone(), Arc::clone(&owner));
         drop(owner);
         let weak = Arc::downgrade(&used);
@@ -100,7 +100,7 @@ mod tests {
         let runtime = OwnedRuntime::start("gps").unwrap();
         let mut state = {
             let _inside = runtime.enter();
-            ComponentState::new(&SPEC, Box::new(Unregistered), None, Some(runtime))
+            ComponentState::new(&SPEC, Box::new(Unregistered), None, Some(runtime), false)
         };
         state.process = ProcessMark::inherited();
         let owner = Owner::new(state);

@@ -29,12 +29,12 @@ const TURN: Duration = Duration::from_millis(1);
 #[derive(Debug)]
 pub(crate) struct OwnedRuntime {
     shared: Arc<Shared>,
-    handle: Handle,
 }
 
 #[derive(Debug)]
 struct Shared {
-    runtime: SharedRuntime,
+    /// `None` once dropped, which may happen anywhere.
+    runtime: Option<Runtime>,
     /// What futures are polled with by the call that drives the runtime, and by no other.
     driver: Waker,
     /// Number of calls that drive the runtime or want to.
@@ -54,14 +54,10 @@ struct Shared {
     driven: AtomicUsize,
 }
 
-/// A runtime that may be dropped anywhere.
-#[derive(Debug)]
-struct SharedRuntime(Option<Runtime>);
-
-impl Drop for SharedRuntime {
+impl Drop for Shared {
     fn drop(&mut self) {
         // Waiting for its threads would panic inside async code; it has none that matter.
-        if let Some(runtime) = self.0.take() {
+        if let Some(runtime) = self.runtime.take() {
             runtime.shutdown_background();
         }
     }
@@ -90,10 +86,9 @@ impl OwnedRuntime {
         // A program that keeps its component in a thread-local value closes it there.
         prepare_thread();
         let runtime = Builder::new_current_thread().enable_all().build().map_err(failed)?;
-        let handle = runtime.handle().clone();
         let driver = waker_of_driver(&runtime).map_err(failed)?;
         let shared = Arc::new(Shared {
-            runtime: SharedRuntime(Some(runtime)),
+            runtime: Some(runtime),
             driver,
             callers: AtomicUsize::new(0),
             idle_drives: AtomicBool::new(false),
@@ -109,11 +104,11 @@ impl OwnedRuntime {
         });
         let idle = Arc::clone(&shared);
         thread::Builder::new().name("scl-idle".to_owned()).spawn(move || idle.drive_while_idle()).map_err(failed)?;
-        Ok(Arc::new(Self { shared, handle }))
+        Ok(Arc::new(Self { shared }))
     }
 
     pub(crate) fn enter(&self) -> EnterGuard<'_> {
-        self.handle.enter()
+        self.shared.runtime().enter()
     }
 
     /// Drives the runtime until a future is ready.
@@ -164,6 +159,13 @@ impl Drop for OwnedRuntime {
 }
 
 impl Shared {
+    fn runtime(&self) -> &Runtime {
+        match &self.runtime {
+            Some(runtime) => runtime,
+            None => unreachable!("the runtime is taken only when it is dropped"),
+        }
+    }
+
     /// Lets a call use the runtime, which the idle thread gives back for it.
     fn call<R>(&self, call: impl FnOnce(&Runtime) -> R) -> R {
         self.callers.fetch_add(1, Ordering::SeqCst);
@@ -172,7 +174,7 @@ impl Shared {
         if self.idle_drives.load(Ordering::SeqCst) {
             self.wanted.notify_one();
         }
-        call(self.runtime.get())
+        call(self.runtime())
     }
 
     fn is_driven(&self) -> bool {
@@ -231,7 +233,7 @@ impl Shared {
             self.idle_drives.store(true, Ordering::SeqCst);
             // A call that starts from now on sees that it has to ask for the runtime.
             if self.callers.load(Ordering::SeqCst) == 0 && !self.ended.load(Ordering::SeqCst) {
-                self.runtime.get().block_on(self.wanted.notified());
+                self.runtime().block_on(self.wanted.notified());
             }
             self.idle_drives.store(false, Ordering::SeqCst);
         }
@@ -271,15 +273,6 @@ impl Shared {
     fn wake_idle_thread(&self) {
         let _rest = lock(&self.rest);
         self.called.notify_one();
-    }
-}
-
-impl SharedRuntime {
-    fn get(&self) -> &Runtime {
-        match &self.0 {
-            Some(runtime) => runtime,
-            None => unreachable!("the runtime is taken only when it is dropped"),
-        }
     }
 }
 

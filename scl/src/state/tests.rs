@@ -43,7 +43,7 @@ fn a_call_writes_what_all_gates_hold_back_before_it_waits() {
     let runtime = OwnedRuntime::start("sensor").unwrap();
     let state = {
         let _inside = runtime.enter();
-        ComponentState::new(&SPEC, Box::new(Unregistered), None, Some(runtime.clone()))
+        ComponentState::new(&SPEC, Box::new(Unregistered), None, Some(runtime.clone()), false)
     };
     let register = |peer_takes_them| {
         let end = Arc::new(Mutex::new(Holding { messages: 3, peer_takes_them }));

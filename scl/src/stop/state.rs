@@ -11,7 +11,7 @@ const OVERDUE: u8 = 4;
 
 /// A stop request: whether it was made, and who acts on it.
 #[derive(Debug)]
-pub(super) struct StopState {
+pub(crate) struct StopState {
     /// All in one, so that the check in each gate call reads one atomic.
     flags: AtomicU8,
     /// The exit code of a program that is still running after its grace period.
@@ -60,7 +60,7 @@ impl StopState {
     }
 
     /// The exit code, if the grace period is over.
-    pub(super) fn overdue_code(&self) -> Option<u8> {
+    pub(crate) fn overdue_code(&self) -> Option<u8> {
         self.has(OVERDUE).then(|| self.overdue_code.load(Ordering::Acquire))
     }
 
@@ -70,12 +70,12 @@ impl StopState {
     }
 
     /// Waits until [`is_requested`](Self::is_requested).
-    pub(super) async fn requested(&self) {
+    pub(crate) async fn requested(&self) {
         self.wait_until(Self::is_requested).await;
     }
 
     /// Waits until [`gates_stopped`](Self::gates_stopped).
-    pub(super) async fn until_gates_stopped(&self) {
+    pub(crate) async fn until_gates_stopped(&self) {
         self.wait_until(Self::gates_stopped).await;
     }
 

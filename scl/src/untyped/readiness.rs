@@ -72,12 +72,12 @@ impl Readiness {
         state.register_calls(Arc::downgrade(&set) as _);
         let (stopping, ended) = (Arc::downgrade(&set), WakeOnDrop(Arc::downgrade(&set)));
         let stop = state.spawn(async move {
-            stop::requested().await;
+            stop::STOP.requested().await;
             stopping.upgrade().into_iter().for_each(|set| set.request_stop());
             // A program that handles the request has acknowledged it; the end of its grace period ends the calls that
             // wait.
             if !stop::gates_stopped() {
-                stop::until_gates_stopped().await;
+                stop::STOP.until_gates_stopped().await;
                 stopping.upgrade().into_iter().for_each(|set| set.set_woken(true));
             }
             let _ended = ended;

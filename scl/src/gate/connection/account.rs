@@ -32,7 +32,7 @@ impl Account {
 
 impl Connection {
     /// What became of the messages for all peers: the component, and plain ZeroMQ programs.
-    pub(crate) fn counts(&self) -> Counts {
+    fn counts(&self) -> Counts {
         let own = Counts {
             sent: self.account.handed - self.account.in_place,
             replaced: self.queue.replaced,
@@ -42,12 +42,15 @@ impl Connection {
         self.foreign.iter().fold(own.plus(self.foreign_left), |sum, one| sum.plus(one.counts()))
     }
 
-    /// Adds what this connection has done to the figures of its gate, and returns its own.
-    pub(crate) fn add_to_figures(&mut self, gate: &mut GateFigures) -> ConnectionFigures {
-        // At a slow gate, a peer acknowledges only when it is asked.
+    /// At a slow gate, a peer acknowledges only when it is asked.
+    pub(crate) fn request_acknowledgement(&mut self) {
         if let Some(link) = &mut self.peer {
             link.request_acknowledgement(&mut Context::from_waker(&self.task));
         }
+    }
+
+    /// Adds what this connection has done to the figures of its gate, and returns its own.
+    pub(crate) fn add_to_figures(&self, gate: &mut GateFigures) -> ConnectionFigures {
         let Queue { replaced, dropped_oldest, dropped_newest, .. } = self.queue;
         self.check_account();
         let (all, not_received) = (self.counts(), self.not_received());
@@ -61,7 +64,7 @@ impl Connection {
             in_flight: not_received,
             latched: self.account.latched,
         };
-        all.activity.add_to_figures(gate);
+        all.activity.add_to(gate);
         gate.sent += all.sent;
         gate.replaced += all.replaced;
         gate.dropped_oldest += dropped_oldest;

@@ -10,7 +10,7 @@ fn calls_that_wait_for_nothing_give_the_runtime_its_turns() {
     let _held = lock(&owned.shared.rest);
     let ran = Arc::new(AtomicBool::new(false));
     let task = Arc::clone(&ran);
-    owned.handle.spawn(async move {
+    owned.shared.runtime().spawn(async move {
         tokio::task::yield_now().await;
         task.store(true, Ordering::SeqCst);
     });
