@@ -13,6 +13,8 @@
 //! # }
 //! ```
 
+mod error_kind;
+
 use crate::component::RealTimeSettings;
 use crate::environment;
 use crate::error::{OpenError, Result};
@@ -27,6 +29,7 @@ pub use crate::stop::{
     ONE_REQUEST, StopSignal, end_grace_period, gates_stopped, handle as handle_stop, request as request_stop,
     was_requested as is_stop_requested,
 };
+pub use error_kind::ErrorKind;
 
 /// Writes the log to standard error, as detailed as `SCL_LOG` says, unless the process has a log already.
 ///

@@ -118,7 +118,8 @@ pub unsafe extern "C" fn scl_open_test(
 pub unsafe extern "C" fn scl_ready(component: *mut scl_component, timeout_ns: i64) -> scl_status {
     border::status(|| {
         let opened = find(component)?;
-        opened.with(|component| Ok(component.ready_blocking(Wait::of(timeout_ns).limit())?))
+        let limit = Wait::of(timeout_ns).limit();
+        opened.with(|component| component.ready_blocking(limit).map_err(|error| Failure::of_any(error.inner())))
     })
 }
 
@@ -208,7 +209,7 @@ fn set_up(options: &Options) -> Result<(), Failure> {
     host::start_log()?;
     host::notify_service_manager();
     if options.signals() {
-        host::watch_signals()?;
+        host::watch_signals().map_err(|error| Failure::of_any(error.inner()))?;
     }
     Ok(host::apply_real_time()?)
 }
@@ -220,7 +221,7 @@ fn close(handle: usize, wait: Wait) -> Result<(), Failure> {
     opened.remove_gates();
     let component = opened.component.write().unwrap_or_else(PoisonError::into_inner).take();
     match component {
-        Some(component) => Ok(component.close_blocking(wait.limit())?),
+        Some(component) => component.close_blocking(wait.limit()).map_err(|error| Failure::of_any(error.inner())),
         None => Ok(()),
     }
 }

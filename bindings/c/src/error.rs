@@ -2,13 +2,10 @@
 
 use crate::status::*;
 use crate::texts;
-use scl::host::text_with_causes;
+use scl::host::{ErrorKind, text_with_causes};
 use scl::runtime_dir::RuntimeDirError;
-use scl::untyped::{GateError, WaitError};
-use scl::{
-    BlockingError, CallError, NotFlushed, NotReady, OpenError, RecvError, RecvTimeoutError, ReplyError, SendError,
-    SendTimeoutError, TrySendError,
-};
+use scl::untyped::GateError;
+use scl::{BlockingError, OpenError};
 use std::borrow::Cow;
 use std::error::Error;
 use std::ffi::{CStr, CString, c_char};
@@ -52,30 +49,36 @@ impl Failure {
         Self::new(status, text_with_causes(error))
     }
 
+    /// An error of `scl`, with the status that belongs to it.
+    pub(crate) fn of_any(error: &(dyn Error + 'static)) -> Self {
+        let status = match ErrorKind::of(error) {
+            ErrorKind::Blocking(BlockingError::Stopped) => SCL_STOPPED,
+            ErrorKind::Blocking(BlockingError::Forked) => SCL_FORKED,
+            ErrorKind::Blocking(BlockingError::Closed) => SCL_CLOSED,
+            ErrorKind::Open(error) => opening(error),
+            ErrorKind::NotReady | ErrorKind::SendTimeout | ErrorKind::Timeout => SCL_TIMEOUT,
+            ErrorKind::NotFlushed => SCL_NOT_FLUSHED,
+            ErrorKind::Encode => SCL_ENCODE,
+            ErrorKind::TooLong => SCL_TOO_LONG,
+            ErrorKind::Full => SCL_FULL,
+            ErrorKind::Decode => SCL_DECODE,
+            ErrorKind::PeerLost => SCL_PEER_LOST,
+            ErrorKind::Refused => SCL_REFUSED,
+            ErrorKind::RequesterGone => SCL_REQUESTER_GONE,
+            _ => match error.downcast_ref() {
+                Some(GateError::Unknown { .. }) => SCL_NAME,
+                Some(GateError::Kind { .. }) => SCL_KIND,
+                _ if error.is::<std::io::Error>() => SCL_SYSTEM,
+                _ => SCL_FAILED,
+            },
+        };
+        Self::of(status, error)
+    }
+
     /// Keeps the text for `scl_error` and returns the status.
     pub(crate) fn report(self) -> scl_status {
         texts::keep(self.text);
         self.status
-    }
-}
-
-fn blocking(error: &BlockingError) -> scl_status {
-    match error {
-        BlockingError::Stopped => SCL_STOPPED,
-        BlockingError::Forked => SCL_FORKED,
-        BlockingError::Closed => SCL_CLOSED,
-        _ => SCL_FAILED,
-    }
-}
-
-impl From<GateError> for Failure {
-    fn from(error: GateError) -> Self {
-        let status = match error {
-            GateError::Unknown { .. } => SCL_NAME,
-            GateError::Kind { .. } => SCL_KIND,
-            _ => SCL_FAILED,
-        };
-        Self::of(status, &error)
     }
 }
 
@@ -93,99 +96,8 @@ fn opening(error: &OpenError) -> scl_status {
     }
 }
 
-impl From<OpenError> for Failure {
-    fn from(error: OpenError) -> Self {
-        Self::of(opening(&error), &error)
-    }
-}
-
-/// The statuses of errors that are not the end of the component.
-macro_rules! statuses {
-    ($($error:ident { $($variant:ident => $status:ident),+ })+) => { $(
-        impl From<$error> for Failure {
-            fn from(error: $error) -> Self {
-                let status = match &error {
-                    $($error::$variant { .. } => $status,)+
-                    $error::Blocking { source, .. } => blocking(source),
-                    _ => SCL_FAILED,
-                };
-                Self::of(status, &error)
-            }
-        }
-    )+ };
-}
-
-statuses! {
-    SendError { Encode => SCL_ENCODE, TooLong => SCL_TOO_LONG }
-    RecvError { Decode => SCL_DECODE }
-    CallError {
-        Encode => SCL_ENCODE,
-        TooLong => SCL_TOO_LONG,
-        Timeout => SCL_TIMEOUT,
-        PeerLost => SCL_PEER_LOST,
-        Refused => SCL_REFUSED,
-        Decode => SCL_DECODE
-    }
-    ReplyError { Encode => SCL_ENCODE, TooLong => SCL_TOO_LONG, RequesterGone => SCL_REQUESTER_GONE }
-}
-
-impl From<TrySendError> for Failure {
-    fn from(error: TrySendError) -> Self {
-        match error {
-            TrySendError::Send(error) => error.into(),
-            full => Self::of(SCL_FULL, &full),
-        }
-    }
-}
-
-impl From<SendTimeoutError> for Failure {
-    fn from(error: SendTimeoutError) -> Self {
-        match error {
-            SendTimeoutError::Send(error) => error.into(),
-            timeout => Self::of(SCL_TIMEOUT, &timeout),
-        }
-    }
-}
-
-impl From<RecvTimeoutError> for Failure {
-    fn from(error: RecvTimeoutError) -> Self {
-        match error {
-            RecvTimeoutError::Recv(error) => error.into(),
-            timeout => Self::of(SCL_TIMEOUT, &timeout),
-        }
-    }
-}
-
-impl From<WaitError> for Failure {
-    fn from(error: WaitError) -> Self {
-        let status = match &error {
-            WaitError::Recv(RecvError::Blocking { source, .. }) | WaitError::Blocking { source, .. } => {
-                blocking(source)
-            }
-            WaitError::Timeout { .. } => SCL_TIMEOUT,
-            _ => SCL_FAILED,
-        };
-        Self::of(status, &error)
-    }
-}
-
-/// Errors of calls that wait for the whole component.
-impl From<scl::Error> for Failure {
-    fn from(error: scl::Error) -> Self {
-        let error = error.inner();
-        let status = if let Some(source) = error.downcast_ref() {
-            blocking(source)
-        } else if let Some(error) = error.downcast_ref() {
-            opening(error)
-        } else if error.is::<NotReady>() {
-            SCL_TIMEOUT
-        } else if error.is::<NotFlushed>() {
-            SCL_NOT_FLUSHED
-        } else if error.is::<std::io::Error>() {
-            SCL_SYSTEM
-        } else {
-            SCL_FAILED
-        };
-        Self::of(status, error)
+impl<E: Error + 'static> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Self::of_any(&error)
     }
 }

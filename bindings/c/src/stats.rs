@@ -4,7 +4,6 @@ use crate::border;
 use crate::gate::{self, OpenGate, scl_gate};
 use crate::status::*;
 use scl::PeerStats;
-use scl::untyped::Gate;
 use serde_json::{Value, json};
 use std::ffi::{c_char, c_void};
 use std::time::Instant;
@@ -44,7 +43,7 @@ pub unsafe extern "C" fn scl_stats(
 }
 
 fn counts(open: &OpenGate) -> Value {
-    let (stats, connections) = (open.gate.stats(), connections(&open.gate));
+    let (stats, connections) = (open.gate.stats(), open.gate.peer_stats());
     let idle = stats.last_activity.map(|last| Instant::now().saturating_duration_since(last).as_nanos() as u64);
     json!({
         "sent": stats.sent,
@@ -62,14 +61,6 @@ fn counts(open: &OpenGate) -> Value {
         "idle_ns": idle,
         "connections": connections.iter().map(connection).collect::<Vec<_>>(),
     })
-}
-
-fn connections(gate: &Gate) -> Vec<PeerStats> {
-    match gate {
-        Gate::Pub(gate) => gate.peer_stats(),
-        Gate::Push(gate) => gate.peer_stats(),
-        _ => Vec::new(),
-    }
 }
 
 fn connection(stats: &PeerStats) -> Value {

@@ -106,7 +106,7 @@ impl Component {
                 Ok(()) => Ok(Some(())),
                 Err(error) => {
                     let error = Box::<dyn std::error::Error + Send + Sync>::from(error);
-                    missing = Some(*error.downcast::<NotReady>().map_err(|error| Failure::of_box(&*error))?);
+                    missing = Some(*error.downcast::<NotReady>().map_err(|error| Failure::of(&*error))?);
                     Ok(None)
                 }
             }
@@ -128,7 +128,7 @@ impl Component {
         let limit = Limit::of_seconds(timeout)?;
         self.shared.check()?;
         let gates: Vec<&Gate> = gates.iter().map(|gate| gate.get()).collect();
-        if let Some(other) = gates.iter().find(|gate| !Arc::ptr_eq(gate.shared(), &self.shared)) {
+        if let Some(other) = gates.iter().find(|gate| !Arc::ptr_eq(&gate.shared, &self.shared)) {
             let text = format!("gate `{}` is not of component `{}`", other.full_name(), self.shared.component);
             return Err(PyValueError::new_err(text));
         }
@@ -143,7 +143,7 @@ impl Component {
             return Ok(());
         }
         let component = detach(py, || {
-            self.gates.iter().for_each(|gate| gate.get().claimed().close());
+            self.gates.iter().for_each(|gate| gate.get().claimed.close());
             self.component.lock().unwrap_or_else(PoisonError::into_inner).take()
         })?;
         let Some(component) = component else { return Ok(()) };
@@ -152,7 +152,7 @@ impl Component {
         let is_done = Mutex::new(is_done);
         let within = limit.left(Duration::MAX);
         let closing = std::thread::Builder::new().name("scl-close".to_owned()).spawn(move || {
-            let closed = no_panic(|| component.close_blocking(within).map_err(|error| Failure::of_box(error.inner())));
+            let closed = no_panic(|| component.close_blocking(within).map_err(|error| Failure::of(error.inner())));
             let _nobody_waits = done.send(closed);
         });
         closing?;
@@ -175,10 +175,10 @@ impl Component {
         let component = self.component.lock().unwrap_or_else(PoisonError::into_inner);
         let component = component.as_ref().ok_or_else(|| self.shared.ended())?;
         let readiness = match all_gates {
-            true => component.readiness().map_err(|error| Failure::of_box(&error)),
-            false => component.readiness_of(&[]).map_err(|error| Failure::of_box(error.inner())),
+            true => component.readiness().map_err(|error| Failure::of(&error)),
+            false => component.readiness_of(&[]).map_err(|error| Failure::of(error.inner())),
         };
-        Ok(Readiness::new(self.shared.keep(readiness?)))
+        Ok(Readiness { readiness: self.shared.keep(readiness?) })
     }
 
     #[getter]

@@ -4,11 +4,9 @@ use crate::process::{Inside, thread_exit};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
-use scl::host::{self, text_with_causes};
-use scl::{
-    BlockingError, CallError, NotFlushed, NotReady, RecvError, RecvTimeoutError, ReplyError, SendError,
-    SendTimeoutError, TrySendError,
-};
+use scl::host::{self, ErrorKind, text_with_causes};
+use scl::{BlockingError, OpenError};
+use std::error::Error;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// An exception that is not made yet, so that it can be passed through code that has released the interpreter.
@@ -27,17 +25,28 @@ impl Failure {
         self.class == class
     }
 
-    /// The failure of a call that may fail in several ways.
-    pub(crate) fn of_box(error: &(dyn std::error::Error + 'static)) -> Self {
-        match error.downcast_ref::<BlockingError>() {
-            Some(error) => (*error).into(),
-            None if error.is::<NotFlushed>() => Self::of("NotFlushed", error),
-            None if error.is::<NotReady>() => Self::of("NotReady", error),
-            None => Self::of("Error", error),
-        }
-    }
-
-    fn of(class: &'static str, error: &dyn std::error::Error) -> Self {
+    /// The failure for an error of `scl`.
+    pub(crate) fn of(error: &(dyn Error + 'static)) -> Self {
+        let class = match ErrorKind::of(error) {
+            ErrorKind::Blocking(BlockingError::Stopped) => "Stopped",
+            ErrorKind::Blocking(BlockingError::Forked) => "Forked",
+            // The component may have been closed after the request and during the call.
+            ErrorKind::Blocking(_) if host::gates_stopped() => "Stopped",
+            ErrorKind::Blocking(_) => "Closed",
+            ErrorKind::Open(OpenError::Plan { .. }) => "PlanError",
+            ErrorKind::Open(_) => "OpenError",
+            ErrorKind::NotReady => "NotReady",
+            ErrorKind::NotFlushed => "NotFlushed",
+            ErrorKind::Encode => "EncodeError",
+            ErrorKind::TooLong => "TooLong",
+            ErrorKind::Full | ErrorKind::SendTimeout => "Full",
+            ErrorKind::Timeout => "Timeout",
+            ErrorKind::Decode => "DecodeError",
+            ErrorKind::PeerLost => "PeerLost",
+            ErrorKind::Refused => "Refused",
+            ErrorKind::RequesterGone => "RequesterGone",
+            _ => "Error",
+        };
         Self::new(class, text_with_causes(error))
     }
 
@@ -74,84 +83,8 @@ impl From<Failure> for PyErr {
     }
 }
 
-fn class_of(error: BlockingError) -> &'static str {
-    match error {
-        BlockingError::Stopped => "Stopped",
-        BlockingError::Forked => "Forked",
-        // The component may have been closed after the request and during the call.
-        _ if host::gates_stopped() => "Stopped",
-        _ => "Closed",
-    }
-}
-
-impl From<scl::OpenError> for Failure {
-    fn from(error: scl::OpenError) -> Self {
-        match error {
-            scl::OpenError::Plan { .. } => Self::of("PlanError", &error),
-            _ => Self::of("OpenError", &error),
-        }
-    }
-}
-
-/// The classes of errors that are not the end of the component.
-macro_rules! classes {
-    ($($error:ident { $($variant:ident => $class:literal),+ })+) => { $(
-        impl From<$error> for Failure {
-            fn from(error: $error) -> Self {
-                let class = match &error {
-                    $($error::$variant { .. } => $class,)+
-                    $error::Blocking { source, .. } => class_of(*source),
-                    _ => "Error",
-                };
-                Self::of(class, &error)
-            }
-        }
-    )+ };
-}
-
-classes! {
-    SendError { Encode => "EncodeError", TooLong => "TooLong" }
-    RecvError { Decode => "DecodeError" }
-    CallError {
-        Encode => "EncodeError",
-        TooLong => "TooLong",
-        Timeout => "Timeout",
-        PeerLost => "PeerLost",
-        Refused => "Refused",
-        Decode => "DecodeError"
-    }
-    ReplyError { Encode => "EncodeError", TooLong => "TooLong", RequesterGone => "RequesterGone" }
-}
-
-/// The class of an error that may also be that of a call without a time limit.
-macro_rules! classes_of_timed {
-    ($($error:ident { $variant:ident => $class:literal, $inner:ident })+) => { $(
-        impl From<$error> for Failure {
-            fn from(error: $error) -> Self {
-                match error {
-                    $error::$inner(error) => error.into(),
-                    $error::$variant { .. } => Self::of($class, &error),
-                    _ => Self::of("Error", &error),
-                }
-            }
-        }
-    )+ };
-}
-
-classes_of_timed! {
-    TrySendError { Full => "Full", Send }
-    SendTimeoutError { Timeout => "Full", Send }
-    RecvTimeoutError { Timeout => "Timeout", Recv }
-}
-
-impl From<NotReady> for Failure {
-    fn from(error: NotReady) -> Self {
-        Self::of("NotReady", &error)
-    }
-}
-
-impl From<BlockingError> for Failure {
-    fn from(error: BlockingError) -> Self {
-        Self::of(class_of(error), &error)
+impl<E: Error + 'static> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Self::of(&error)
     }
 }

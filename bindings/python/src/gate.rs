@@ -29,9 +29,9 @@ pub(crate) struct Gate {
     plan: GatePlan,
     /// Whether a full queue of a peer can make the gate wait.
     may_wait: bool,
-    shared: Arc<Shared>,
+    pub(crate) shared: Arc<Shared>,
     /// Its component may end with it, and then hands over what is left.
-    gate: Native<Claimed>,
+    pub(crate) claimed: Native<Claimed>,
 }
 
 /// What arrives at a gate.
@@ -43,22 +43,14 @@ enum Received {
 impl Gate {
     pub(crate) fn new(plan: GatePlan, shared: Arc<Shared>, gate: AnyGate) -> Self {
         let is_sender = matches!(plan.kind, GateKind::Pub | GateKind::Push);
-        let gate = shared.keep(Claimed::new(gate));
-        Self { may_wait: is_sender && plan.options.backpressure, plan, shared, gate }
-    }
-
-    pub(crate) fn shared(&self) -> &Arc<Shared> {
-        &self.shared
-    }
-
-    pub(crate) fn claimed(&self) -> &Claimed {
-        &self.gate
+        let claimed = shared.keep(Claimed::new(gate));
+        Self { may_wait: is_sender && plan.options.backpressure, plan, shared, claimed }
     }
 
     /// The gate, unless another thread uses it.
     pub(crate) fn claim(&self) -> Result<Claim<'_>, Failure> {
         self.shared.check()?;
-        self.gate.claim().map_err(|unusable| self.unusable(unusable))
+        self.claimed.claim().map_err(|unusable| self.unusable(unusable))
     }
 
     pub(crate) fn unusable(&self, unusable: Unusable) -> Failure {
@@ -71,7 +63,7 @@ impl Gate {
 
     /// Looks at the gate, also while a call uses it.
     fn visit<R>(&self, look: impl FnOnce(&mut AnyGate) -> R) -> Result<R, Failure> {
-        self.gate.visit(look).map_err(|unusable| self.unusable(unusable))
+        self.claimed.visit(look).map_err(|unusable| self.unusable(unusable))
     }
 
     /// As it is called in messages.
@@ -236,7 +228,7 @@ impl Gate {
                 Err(failure) if failure.is("Full") => failure,
                 sent => return sent.map(|()| true),
             };
-            let waker = readiness.waker();
+            let waker = readiness.readiness.waker();
             let cx = &mut Context::from_waker(&waker);
             let room = match gate {
                 AnyGate::Pub(gate) => Pin::new(gate).poll_ready(cx),
@@ -278,7 +270,7 @@ impl Gate {
             if let Some(received) = self.try_receive(gate)? {
                 return Ok(Some(received));
             }
-            let waker = readiness.waker();
+            let waker = readiness.readiness.waker();
             match gate.receiving().map(|gate| gate.poll_ready(&mut Context::from_waker(&waker))) {
                 Some(Poll::Ready(ready)) => {
                     ready?;
@@ -310,8 +302,8 @@ impl Gate {
         timeout: Option<f64>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let call = self.start_call(request, timeout)?;
-        let driver = self.shared.driver();
-        let reply = wait(py, Limit::of_seconds(None)?, &self.shared, |within| call.drive(&driver, within))?;
+        let driver = &self.shared.driver;
+        let reply = wait(py, Limit::of_seconds(None)?, &self.shared, |within| call.drive(driver, within))?;
         let reply = reply.ok_or_else(|| self.shared.ended())?;
         Ok(PyBytes::new(py, &reply))
     }
@@ -347,7 +339,8 @@ impl Gate {
 
     fn stats<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         self.shared.check_open()?;
-        stats::to_dict(py, &detach(py, || self.visit(|gate| stats::of_gate(gate)))??)
+        let (stats, peers) = detach(py, || self.visit(|gate| (gate.stats(), gate.peer_stats())))??;
+        stats::to_dict(py, &stats, &peers)
     }
 
     fn __repr__(&self) -> String {

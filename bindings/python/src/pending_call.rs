@@ -9,38 +9,32 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use scl::untyped::Driver;
 use scl::{CallError, Req};
-use std::future::poll_fn;
-use std::pin::{Pin, pin};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::pin::Pin;
 use std::sync::{Arc, Mutex, PoisonError};
-use std::task::{Context, Poll, Waker};
+use std::task::{Context, Poll};
 use std::time::Duration;
 
 /// A call of a `req` gate. Dropping it cancels the call.
 #[pyclass(frozen, module = "scl._native")]
 pub(crate) struct PendingCall {
     shared: Arc<Shared>,
-    cancelled: Arc<AtomicBool>,
     /// `None` once it is over.
     call: Native<Mutex<Option<Call>>>,
 }
 
-type Call = Pin<Box<dyn Future<Output = Reply> + Send>>;
-
-/// `None` if the call was cancelled.
-type Reply = Option<Result<Bytes, CallError>>;
+type Call = Pin<Box<dyn Future<Output = Result<Bytes, CallError>> + Send>>;
 
 impl PendingCall {
     /// Begins a call, which sends nothing before it is polled.
     pub(crate) fn start(
         shared: Arc<Shared>,
-        requester: Req<Bytes, Bytes>,
+        mut requester: Req<Bytes, Bytes>,
         request: Bytes,
         timeout: Option<Duration>,
     ) -> Self {
-        let cancelled = Arc::new(AtomicBool::new(false));
-        let call = Box::pin(exchange(requester, request, timeout, Arc::clone(&cancelled)));
-        Self { call: shared.keep(Mutex::new(Some(call))), shared, cancelled }
+        let timeout = timeout.unwrap_or(requester.timeout());
+        let call: Call = Box::pin(async move { requester.call_within(&request, timeout).await });
+        Self { call: shared.keep(Mutex::new(Some(call))), shared }
     }
 
     /// Waits for the reply no longer than a given time; `None` if there is none yet.
@@ -48,23 +42,16 @@ impl PendingCall {
         self.advance(|call| Ok(driver.wait_for(call, within)?))
     }
 
-    fn poll(&self, cx: &mut Context<'_>) -> Result<Option<Bytes>, Failure> {
-        self.advance(|call| match call.poll(cx) {
-            Poll::Ready(done) => Ok(Some(done)),
-            Poll::Pending => Ok(None),
-        })
-    }
-
     /// Takes the call a step further; `None` if that was not the last one.
     fn advance(
         &self,
-        step: impl FnOnce(Pin<&mut (dyn Future<Output = Reply> + Send)>) -> Result<Option<Reply>, Failure>,
+        step: impl FnOnce(&mut Call) -> Result<Option<Result<Bytes, CallError>>, Failure>,
     ) -> Result<Option<Bytes>, Failure> {
         let mut slot = self.call.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(call) = slot.as_mut() else { return Err(Failure::new("Answered", "this call is over")) };
-        let Some(reply) = step(call.as_mut())? else { return Ok(None) };
+        let Some(reply) = step(call)? else { return Ok(None) };
         *slot = None;
-        Ok(reply.transpose()?)
+        Ok(Some(reply?))
     }
 }
 
@@ -73,38 +60,23 @@ impl PendingCall {
     /// Returns the reply, or `None`, and then the readiness reports when there may be one.
     fn poll_reply<'py>(&self, py: Python<'py>, readiness: &Readiness) -> PyResult<Option<Bound<'py, PyBytes>>> {
         self.shared.check()?;
-        let waker = readiness.waker();
-        let reply = no_panic(|| self.poll(&mut Context::from_waker(&waker)))?;
+        let waker = readiness.readiness.waker();
+        let reply = no_panic(|| {
+            self.advance(|call| match call.as_mut().poll(&mut Context::from_waker(&waker)) {
+                Poll::Ready(done) => Ok(Some(done)),
+                Poll::Pending => Ok(None),
+            })
+        })?;
         Ok(reply.map(|reply| PyBytes::new(py, &reply)))
     }
 
     /// Ends the call; a reply that still comes is discarded. The gate can be used again.
     fn cancel(&self) {
-        self.cancelled.store(true, Ordering::Release);
-        if self.shared.is_inherited() {
-            return;
+        if !self.shared.is_inherited() {
+            let _over = no_panic(|| {
+                drop(self.call.lock().unwrap_or_else(PoisonError::into_inner).take());
+                Ok(())
+            });
         }
-        let _over = no_panic(|| self.poll(&mut Context::from_waker(Waker::noop())));
     }
-}
-
-impl Drop for PendingCall {
-    fn drop(&mut self) {
-        self.cancel();
-    }
-}
-
-async fn exchange(
-    mut requester: Req<Bytes, Bytes>,
-    request: Bytes,
-    timeout: Option<Duration>,
-    cancelled: Arc<AtomicBool>,
-) -> Reply {
-    let timeout = timeout.unwrap_or(requester.timeout());
-    let mut call = pin!(requester.call_within(&request, timeout));
-    poll_fn(|cx| match cancelled.load(Ordering::Acquire) {
-        true => Poll::Ready(None),
-        false => call.as_mut().poll(cx).map(Some),
-    })
-    .await
 }

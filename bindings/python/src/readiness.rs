@@ -4,22 +4,11 @@ use crate::native::Native;
 use pyo3::prelude::*;
 use scl::untyped;
 use std::os::fd::AsRawFd;
-use std::task::Waker;
 
 /// A file descriptor that is readable while there is something to do for an event loop.
 #[pyclass(frozen, module = "scl._native")]
 pub(crate) struct Readiness {
-    readiness: Native<untyped::Readiness>,
-}
-
-impl Readiness {
-    pub(crate) fn new(readiness: Native<untyped::Readiness>) -> Self {
-        Self { readiness }
-    }
-
-    pub(crate) fn waker(&self) -> Waker {
-        self.readiness.waker()
-    }
+    pub(crate) readiness: Native<untyped::Readiness>,
 }
 
 #[pymethods]

@@ -14,7 +14,7 @@ pub(crate) struct Shared {
     process: ProcessMark,
     closed: AtomicBool,
     closer: Closer,
-    driver: Driver,
+    pub(crate) driver: Driver,
 }
 
 impl Shared {
@@ -27,10 +27,6 @@ impl Shared {
     /// Keeps a value of the component for a Python object.
     pub(crate) fn keep<T: Send>(&self, value: T) -> Native<T> {
         Native::new(value, self.process.clone())
-    }
-
-    pub(crate) fn driver(&self) -> Driver {
-        self.driver.clone()
     }
 
     /// Fails if no call may be made, or go on waiting. What a forked child inherits is looked at first: its locks may

@@ -2,23 +2,11 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use scl::untyped::Gate;
 use scl::{GateStats, PeerStats};
 use std::time::Instant;
 
 /// The counts of a gate and of its connections.
-pub(crate) type Stats = (GateStats, Vec<PeerStats>);
-
-pub(crate) fn of_gate(gate: &Gate) -> Stats {
-    let peers = match gate {
-        Gate::Pub(gate) => gate.peer_stats(),
-        Gate::Push(gate) => gate.peer_stats(),
-        _ => Vec::new(),
-    };
-    (gate.stats(), peers)
-}
-
-pub(crate) fn to_dict<'py>(py: Python<'py>, (gate, peers): &Stats) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn to_dict<'py>(py: Python<'py>, gate: &GateStats, peers: &[PeerStats]) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     counts(&dict, gate)?;
     let connections = peers.iter().map(|peer| of_peer(py, peer)).collect::<PyResult<Vec<_>>>()?;

@@ -21,9 +21,8 @@ pub(crate) fn wait_any(py: Python<'_>, limit: Limit, shared: &Shared, gates: &[&
         }
         borrowed.push(own);
     }
-    let driver = shared.driver();
     let ready = wait(py, limit, shared, |within| {
-        match driver.wait_for(poll_fn(|cx| poll_any(&mut borrowed, cx)), within)? {
+        match shared.driver.wait_for(poll_fn(|cx| poll_any(&mut borrowed, cx)), within)? {
             Some(ready) => ready.map(Some),
             None => Ok(None),
         }

@@ -3,7 +3,7 @@
 use crate::codec::DecodeError;
 use crate::component::Opener;
 use crate::error::{Error, OpenError};
-use crate::gate::{AnyGate, GateStats, Pub, Pull, Push, ReceivingGate, Rep, Req, Request, Sub};
+use crate::gate::{AnyGate, GateStats, PeerStats, Pub, Pull, Push, ReceivingGate, Rep, Req, Request, Sub};
 use crate::spec::{GateKind, GateSpec};
 use bytes::Bytes;
 use std::time::Duration;
@@ -122,6 +122,15 @@ impl Gate {
     /// Returns the gate's counts.
     pub fn stats(&self) -> GateStats {
         with_each!(self, gate => gate.stats())
+    }
+
+    /// Returns what became of the messages of each connection of a `pub` or `push` gate. None for other kinds.
+    pub fn peer_stats(&self) -> Vec<PeerStats> {
+        match self {
+            Gate::Pub(gate) => gate.peer_stats(),
+            Gate::Push(gate) => gate.peer_stats(),
+            _ => Vec::new(),
+        }
     }
 }
 
