@@ -8,36 +8,10 @@ controller.actuator.send(controller.actuator.type(throttle=0.5))
 ```
 """
 
-from scl import codec
+from scl import _errors, codec
 from scl._buffer import Buffer
 from scl._component import Component, DynamicComponent, Transport, open, open_plan
-from scl._errors import (
-    Answered,
-    Busy,
-    Closed,
-    DecodeError,
-    EncodeError,
-    Error,
-    Forked,
-    Full,
-    InternalError,
-    NoneReceived,
-    NotFlushed,
-    NotReady,
-    OpenError,
-    PeerLost,
-    PlanError,
-    Refused,
-    RequesterGone,
-    Stopped,
-    Timeout,
-    TooLong,
-    TopologyError,
-    UnknownComponent,
-    UnknownGate,
-    UnsupportedCodecError,
-    WrongDirection,
-)
+from scl._errors import *
 from scl._gates import Gate, Pub, Pull, Push, Rep, Req, Request, Sub
 from scl._generated import GeneratedComponent
 from scl._native import __version__
@@ -46,47 +20,22 @@ from scl._tasks import until_stopped
 from scl._testing import Counterpart, DynamicCounterpart, TestableComponent, test
 
 __all__ = [
-    "Answered",
     "Buffer",
-    "Busy",
-    "Closed",
     "Component",
     "Counterpart",
-    "DecodeError",
     "DynamicComponent",
     "DynamicCounterpart",
-    "EncodeError",
-    "Error",
-    "Forked",
-    "Full",
     "Gate",
     "GeneratedComponent",
-    "InternalError",
-    "NoneReceived",
-    "NotFlushed",
-    "NotReady",
-    "OpenError",
-    "PeerLost",
-    "PlanError",
     "Pub",
     "Pull",
     "Push",
-    "Refused",
     "Rep",
     "Req",
     "Request",
-    "RequesterGone",
-    "Stopped",
     "Sub",
     "TestableComponent",
-    "Timeout",
-    "TooLong",
-    "TopologyError",
     "Transport",
-    "UnknownComponent",
-    "UnknownGate",
-    "UnsupportedCodecError",
-    "WrongDirection",
     "__version__",
     "codec",
     "open",
@@ -95,6 +44,7 @@ __all__ = [
     "test",
     "until_stopped",
 ]
+__all__ += _errors.__all__
 
 # As programs name them: in tracebacks, `repr` and `help`.
 for _name in __all__:

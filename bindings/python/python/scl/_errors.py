@@ -2,6 +2,34 @@
 
 from __future__ import annotations
 
+__all__ = [
+    "Answered",
+    "Busy",
+    "Closed",
+    "DecodeError",
+    "EncodeError",
+    "Error",
+    "Forked",
+    "Full",
+    "InternalError",
+    "NoneReceived",
+    "NotFlushed",
+    "NotReady",
+    "OpenError",
+    "PeerLost",
+    "PlanError",
+    "Refused",
+    "RequesterGone",
+    "Stopped",
+    "Timeout",
+    "TooLong",
+    "TopologyError",
+    "UnknownComponent",
+    "UnknownGate",
+    "UnsupportedCodecError",
+    "WrongDirection",
+]
+
 
 class Error(Exception):
     """The base of all exceptions of this package but `Stopped`."""
