@@ -123,6 +123,22 @@ pub(crate) unsafe fn result<'a, T>(result: *mut T, name: &str) -> Result<&'a mut
     unsafe { result.as_mut() }.ok_or_else(|| null(name))
 }
 
+/// Stores the pointer that a call makes, or NULL.
+///
+/// # Safety
+/// That of [`result`].
+pub(crate) unsafe fn give<T>(
+    result: *mut *mut T,
+    name: &str,
+    make: impl FnOnce() -> Result<*mut T, Failure>,
+) -> Result<(), Failure> {
+    // SAFETY: the caller's duty.
+    let result = unsafe { self::result(result, name) }?;
+    *result = std::ptr::null_mut();
+    *result = make()?;
+    Ok(())
+}
+
 /// Refuses a buffer of the program that cannot be one.
 pub(crate) fn check_buffer(buffer: *const c_void, capacity: usize) -> Result<(), Failure> {
     check_length(capacity, "buffer")?;

@@ -2,8 +2,7 @@
 
 use crate::border::{self, Wait};
 use crate::gate::{self, scl_gate};
-use crate::message::scl_message;
-use crate::receive::give;
+use crate::message::{self, scl_message};
 use crate::status::*;
 use scl::untyped::Gate;
 use std::ffi::c_void;
@@ -30,12 +29,13 @@ pub unsafe extern "C" fn scl_call(
         let mut open = gate::lock(gate)?;
         // SAFETY: the caller's duty.
         let request = unsafe { open.outgoing(data, len) }?;
-        match (&mut open.gate, Wait::of(timeout_ns)) {
-            (Gate::Req(gate), Wait::Forever) => Ok(gate.call_blocking(&request)?),
-            (Gate::Req(gate), wait) => Ok(gate.call_timeout(&request, wait.limit())?),
-            _ => Err(open.wrong_kind("scl_call")),
-        }
+        let reply = match (&mut open.gate, Wait::of(timeout_ns)) {
+            (Gate::Req(gate), Wait::Forever) => gate.call_blocking(&request)?,
+            (Gate::Req(gate), wait) => gate.call_timeout(&request, wait.limit())?,
+            _ => return Err(open.wrong_kind("scl_call")),
+        };
+        Ok(message::hand_over(reply))
     };
     // SAFETY: the caller's duty; NULL is refused.
-    border::status(|| unsafe { give(reply, call) })
+    border::status(|| unsafe { border::give(reply, "message", call) })
 }

@@ -2,7 +2,7 @@
 
 use crate::border::{self, Wait};
 use crate::error::Failure;
-use crate::gate::{self, scl_gate};
+use crate::gate::{self, GATES, scl_gate};
 use crate::options::Options;
 use crate::registry::Registry;
 use crate::status::*;
@@ -21,13 +21,13 @@ pub struct scl_component {
 
 /// An open component.
 pub(crate) struct Opened {
-    name: String,
+    name: &'static str,
     /// `None` once closed. Calls that wait hold a read lock.
     component: RwLock<Option<Component>>,
     /// Ends the calls of the component and its gates.
     closer: Closer,
     /// Names and handles of its gates.
-    gates: Vec<(String, usize)>,
+    gates: Vec<(&'static str, usize)>,
     /// Opened by the first `scl_fd`.
     readiness: OnceLock<Readiness>,
 }
@@ -60,11 +60,8 @@ pub unsafe extern "C" fn scl_open(
     options_json: *const c_char,
     opened: *mut *mut scl_component,
 ) -> scl_status {
-    border::status(|| {
+    let open = || {
         // SAFETY: the caller's duty; NULL is refused.
-        let opened = unsafe { border::result(opened, "opened") }?;
-        *opened = std::ptr::null_mut();
-        // SAFETY: as before.
         let (plan, name) = unsafe {
             (border::bytes(plan_json.cast::<c_void>(), plan_len, "plan_json")?, border::text(component, "component")?)
         };
@@ -73,9 +70,10 @@ pub unsafe extern "C" fn scl_open(
             // SAFETY: as before.
             false => Options::read(unsafe { border::text(options_json, "options_json") }?)?,
         };
-        *opened = open(plan, name, &options)? as *mut scl_component;
-        Ok(())
-    })
+        Ok(open(plan, name, &options)? as *mut scl_component)
+    };
+    // SAFETY: as before.
+    border::status(|| unsafe { border::give(opened, "opened", open) })
 }
 
 /// Opens a component for a unit test, together with its counterpart, which has the opposite end of each gate under the
@@ -145,7 +143,7 @@ pub unsafe extern "C" fn scl_gate_by_name(component: *mut scl_component, name: *
         let opened = find(component)?;
         // SAFETY: the caller's duty; NULL is refused.
         let name = unsafe { border::text(name, "name") }?;
-        match opened.gates.iter().find(|(known, _)| known == name) {
+        match opened.gates.iter().find(|(known, _)| *known == name) {
             Some((_, gate)) => Ok(*gate as *mut scl_gate),
             None => Err(opened.unknown_gate(name)),
         }
@@ -154,17 +152,15 @@ pub unsafe extern "C" fn scl_gate_by_name(component: *mut scl_component, name: *
 }
 
 fn open(plan: &[u8], name: &str, options: &Options) -> Result<usize, Failure> {
-    let system = read(plan)?;
-    let plan = find_plan(&system, name)?;
+    let plan = read(plan, name)?;
     set_up(options)?;
-    insert(Component::open_blocking_with(plan, options.for_opening())?)
+    insert(Component::open_blocking_with(&plan, options.for_opening())?)
 }
 
 fn open_test(plan: &[u8], name: &str) -> Result<[usize; 2], Failure> {
-    let system = read(plan)?;
-    let plan = find_plan(&system, name)?;
+    let plan = read(plan, name)?;
     host::start_log()?;
-    let (component, peer) = Component::test_blocking(plan)?;
+    let (component, peer) = Component::test_blocking(&plan)?;
     let component = insert(component)?;
     match insert(peer) {
         Ok(peer) => Ok([component, peer]),
@@ -175,33 +171,30 @@ fn open_test(plan: &[u8], name: &str) -> Result<[usize; 2], Failure> {
     }
 }
 
-fn read(plan: &[u8]) -> Result<SystemPlan, Failure> {
+/// Reads the plan of a component.
+fn read(plan: &[u8], name: &str) -> Result<Plan, Failure> {
     let utf8 = |error| Failure::new(SCL_PLAN, format!("the plan is not UTF-8: {error}"));
     let text = std::str::from_utf8(plan).map_err(utf8)?;
-    SystemPlan::from_json(text).map_err(|error| Failure::of(SCL_PLAN, &error))
-}
-
-fn find_plan<'p>(system: &'p SystemPlan, name: &str) -> Result<&'p Plan, Failure> {
-    system.component(name).map_err(|error| Failure::of(SCL_NAME, &error))
+    let system = SystemPlan::from_json(text).map_err(|error| Failure::of(SCL_PLAN, &error))?;
+    system.component(name).cloned().map_err(|error| Failure::of(SCL_NAME, &error))
 }
 
 /// Gives handles to a component and its gates.
 fn insert(mut component: Component) -> Result<usize, Failure> {
     let spec = component.spec();
-    let (name, gates) = (spec.name, spec.gates);
-    let mut opened = Opened::new(name, component.closer());
-    for gate in gates {
+    let (name, specs, mut gates) = (spec.name, spec.gates, Vec::new());
+    for gate in specs {
         let inserted = component.gate(gate.name).map_err(Failure::from).and_then(|gate| gate::insert(name, gate));
         match inserted {
-            Ok(handle) => opened.gates.push((gate.name.to_owned(), handle)),
+            Ok(handle) => gates.push((gate.name, handle)),
             Err(failure) => {
-                opened.remove_gates();
+                remove(&gates);
                 return Err(failure);
             }
         }
     }
-    opened.component = RwLock::new(Some(component));
-    COMPONENTS.insert(Arc::new(opened))
+    let (closer, component) = (component.closer(), RwLock::new(Some(component)));
+    COMPONENTS.insert(Arc::new(Opened { name, component, closer, gates, readiness: OnceLock::new() }))
 }
 
 /// What `#[scl::main]` does for a Rust program, before its first component is opened.
@@ -218,7 +211,7 @@ fn close(handle: usize, wait: Wait) -> Result<(), Failure> {
     let opened = COMPONENTS.remove(handle)?;
     opened.closer.end_calls();
     // Dropped before the flush, which waits for what they have sent.
-    opened.remove_gates();
+    remove(&opened.gates);
     let component = opened.component.write().unwrap_or_else(PoisonError::into_inner).take();
     match component {
         Some(component) => component.close_blocking(wait.limit()).map_err(|error| Failure::of_any(error.inner())),
@@ -226,35 +219,28 @@ fn close(handle: usize, wait: Wait) -> Result<(), Failure> {
     }
 }
 
+/// Invalidates the handles of a component's gates.
+fn remove(gates: &[(&str, usize)]) {
+    // Only its own gates, each once.
+    gates.iter().for_each(|(_, gate)| drop(GATES.remove(*gate)));
+}
+
 /// The component of a handle.
 pub(crate) fn find(component: *mut scl_component) -> Result<Arc<Opened>, Failure> {
     COMPONENTS.get(component as usize)
 }
 
-fn closed() -> Failure {
-    Failure::usual(SCL_CLOSED, c"the component was closed by another thread")
-}
-
 impl Opened {
-    fn new(name: &str, closer: Closer) -> Self {
-        let (component, readiness) = (RwLock::new(None), OnceLock::new());
-        Self { name: name.to_owned(), component, closer, gates: Vec::new(), readiness }
-    }
-
     /// Returns true if a handle is that of one of its gates.
     pub(crate) fn owns(&self, gate: *mut scl_gate) -> bool {
         self.gates.iter().any(|(_, handle)| *handle == gate as usize)
     }
 
-    fn remove_gates(&self) {
-        // Only this component's own gates, each once.
-        self.gates.iter().for_each(|(_, gate)| drop(gate::remove(*gate)));
-    }
-
     /// Makes a call to the component, which is not closed before it ends.
     pub(crate) fn with<T>(&self, call: impl FnOnce(&Component) -> Result<T, Failure>) -> Result<T, Failure> {
         let component = self.component.read().unwrap_or_else(PoisonError::into_inner);
-        call(component.as_ref().ok_or_else(closed)?)
+        let closed = Failure::usual(SCL_CLOSED, c"the component was closed by another thread");
+        call(component.as_ref().ok_or(closed)?)
     }
 
     /// The descriptor for event loops.
@@ -267,9 +253,9 @@ impl Opened {
     }
 
     fn unknown_gate(&self, name: &str) -> Failure {
-        let names = || self.gates.iter().map(|(name, _)| name);
-        let nearest = closest_name(name, names().map(String::as_str)).map(str::to_owned);
-        let component = self.name.clone();
-        GateError::Unknown { component, gate: name.to_owned(), nearest, known: names().cloned().collect() }.into()
+        let names = || self.gates.iter().map(|(name, _)| *name);
+        let nearest = closest_name(name, names()).map(str::to_owned);
+        let (component, known) = (self.name.to_owned(), names().map(str::to_owned).collect());
+        GateError::Unknown { component, gate: name.to_owned(), nearest, known }.into()
     }
 }

@@ -28,7 +28,7 @@ pub(crate) struct OpenGate {
     pub(crate) patience: Patience,
 }
 
-static GATES: Registry<OpenGate> = Registry::new(5, "gate");
+pub(crate) static GATES: Registry<OpenGate> = Registry::new(5, "gate");
 
 /// The largest buffer that a gate keeps for the next message, in bytes.
 const KEPT_CAPACITY: usize = 64 * 1024;
@@ -57,10 +57,7 @@ pub unsafe extern "C" fn scl_latched_age(gate: *const scl_gate) -> i64 {
 /// Errors: SCL_TOO_LONG (no peer accepts a message of this length), SCL_BUSY, SCL_HANDLE, SCL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_buffer(gate: *mut scl_gate, len: usize, buffer: *mut *mut c_void) -> scl_status {
-    border::status(|| {
-        // SAFETY: the caller's duty; NULL is refused.
-        let result = unsafe { border::result(buffer, "buffer") }?;
-        *result = std::ptr::null_mut();
+    let make = || {
         let mut open = lock(gate)?;
         let limit = open.gate.spec().connections.iter().map(|connection| connection.max_size).min().unwrap_or(u64::MAX);
         if len as u64 > limit {
@@ -68,19 +65,15 @@ pub unsafe extern "C" fn scl_buffer(gate: *mut scl_gate, len: usize, buffer: *mu
             let text = format!("gate `{name}` cannot send {len} bytes: at most {limit} are accepted; raise `max_size`");
             return Err(Failure::new(SCL_TOO_LONG, text));
         }
-        *result = border::room(&mut open.buffer, len)?;
-        Ok(())
-    })
+        border::room(&mut open.buffer, len)
+    };
+    // SAFETY: the caller's duty; NULL is refused.
+    border::status(|| unsafe { border::give(buffer, "buffer", make) })
 }
 
 pub(crate) fn insert(component: &str, gate: Gate) -> Result<usize, Failure> {
     let name = format!("{component}.{}", gate.spec().name);
     GATES.insert(OpenGate { name, gate, kept: None, buffer: Vec::new(), patience: Patience::NONE })
-}
-
-/// Invalidates a gate's handle, waits for the end of the call that uses it, and returns the gate.
-pub(crate) fn remove(handle: usize) -> Result<OpenGate, Failure> {
-    GATES.remove(handle)
 }
 
 /// Locks a gate for one call.

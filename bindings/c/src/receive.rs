@@ -33,8 +33,9 @@ pub(crate) use receive_from;
 /// SCL_CLOSED, SCL_BUSY, SCL_HANDLE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_recv(gate: *mut scl_gate, timeout_ns: i64, message: *mut *mut scl_message) -> scl_status {
+    let receive = || Ok(message::hand_over(receive(&mut *gate::lock(gate)?, timeout_ns)?));
     // SAFETY: the caller's duty; NULL is refused.
-    border::status(|| unsafe { give(message, || receive(&mut *gate::lock(gate)?, timeout_ns)) })
+    border::status(|| unsafe { border::give(message, "message", receive) })
 }
 
 /// Receives the next message of a `sub` or `pull` gate into a buffer of `capacity` bytes, and stores its length in
@@ -75,8 +76,9 @@ pub unsafe extern "C" fn scl_recv_into(
 /// Errors: SCL_NOTHING, and those of scl_recv.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_latest(gate: *mut scl_gate, message: *mut *mut scl_message) -> scl_status {
+    let newest = || Ok(message::hand_over(newest(&mut *gate::lock(gate)?)?));
     // SAFETY: the caller's duty; NULL is refused.
-    border::status(|| unsafe { give(message, || newest(&mut *gate::lock(gate)?)) })
+    border::status(|| unsafe { border::give(message, "message", newest) })
 }
 
 fn receive(open: &mut OpenGate, timeout_ns: i64) -> Result<Bytes, Failure> {
@@ -100,19 +102,4 @@ fn newest(open: &mut OpenGate) -> Result<Bytes, Failure> {
     // What was kept is older than anything that the gate has.
     let kept = open.kept.take();
     newest.or(kept).ok_or(NOTHING)
-}
-
-/// Stores what a call receives, or NULL.
-///
-/// # Safety
-/// That of `border::result`.
-pub(crate) unsafe fn give(
-    result: *mut *mut scl_message,
-    receive: impl FnOnce() -> Result<Bytes, Failure>,
-) -> Result<(), Failure> {
-    // SAFETY: the caller's duty.
-    let result = unsafe { border::result(result, "message") }?;
-    *result = std::ptr::null_mut();
-    *result = message::hand_over(receive()?);
-    Ok(())
 }

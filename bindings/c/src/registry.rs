@@ -70,7 +70,9 @@ impl<T> Registry<T> {
             }
         };
         let (chunk, offset) = place(index);
-        let slots = self.chunks[chunk].get_or_init(|| (0..FIRST << chunk).map(|_| Slot::new()).collect());
+        let new_slot =
+            |_| Slot { generation: AtomicUsize::new(1), forks: AtomicUsize::new(0), value: Mutex::new(None) };
+        let slots = self.chunks[chunk].get_or_init(|| (0..FIRST << chunk).map(new_slot).collect());
         let slot = &slots[offset];
         *lock(&slot.value) = Some(value);
         slot.forks.store(fork::count(), Ordering::Relaxed);
@@ -123,19 +125,13 @@ impl<T> Registry<T> {
         let generation = handle >> (TAG_BITS + INDEX_BITS);
         let (chunk, offset) = place(index);
         let slot = self.chunks.get(chunk).and_then(OnceLock::get).and_then(|slots| slots.get(offset));
-        match slot {
-            Some(slot) if self.is_live(slot, handle, generation) => {
-                if slot.forks.load(Ordering::Relaxed) != fork::count() {
-                    return Err(self.forked());
-                }
-                Ok((slot, generation))
-            }
-            _ => Err(self.unknown(handle)),
+        let is_tagged = handle & ((1 << TAG_BITS) - 1) == self.tag;
+        let is_live = |slot: &&Slot<T>| is_tagged && slot.generation.load(Ordering::Acquire) == generation;
+        let slot = slot.filter(is_live).ok_or_else(|| self.unknown(handle))?;
+        if slot.forks.load(Ordering::Relaxed) != fork::count() {
+            return Err(self.forked());
         }
-    }
-
-    fn is_live(&self, slot: &Slot<T>, handle: usize, generation: usize) -> bool {
-        handle & ((1 << TAG_BITS) - 1) == self.tag && slot.generation.load(Ordering::Acquire) == generation
+        Ok((slot, generation))
     }
 
     #[cold]
@@ -150,28 +146,17 @@ impl<T> Registry<T> {
     #[cold]
     fn busy(&self) -> Failure {
         let what = self.what;
-        Failure::new(
-            SCL_BUSY,
-            format!("another thread is using this {what}; use each {what} from one thread at a time"),
-        )
+        let text = format!("another thread is using this {what}; use each {what} from one thread at a time");
+        Failure::new(SCL_BUSY, text)
     }
 
     #[cold]
     fn forked(&self) -> Failure {
-        let what = self.what;
-        Failure::new(
-            SCL_FORKED,
-            format!(
-                "the {what} was opened before a `fork` and belongs to the parent process; \
-                 open the component in one process only"
-            ),
-        )
-    }
-}
-
-impl<T> Slot<T> {
-    fn new() -> Self {
-        Self { generation: AtomicUsize::new(1), forks: AtomicUsize::new(0), value: Mutex::new(None) }
+        let text = format!(
+            "the {} was opened before a `fork` and belongs to the parent process; open the component in one process only",
+            self.what
+        );
+        Failure::new(SCL_FORKED, text)
     }
 }
 

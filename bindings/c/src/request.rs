@@ -45,14 +45,12 @@ pub unsafe extern "C" fn scl_take_request(
     timeout_ns: i64,
     request: *mut *mut scl_request,
 ) -> scl_status {
-    border::status(|| {
-        // SAFETY: the caller's duty; NULL is refused.
-        let result = unsafe { border::result(request, "request") }?;
-        *result = std::ptr::null_mut();
+    let take = || {
         let request = take(&mut *gate::lock(gate)?, timeout_ns)?;
-        *result = Marked::hand_over(Taken { request, buffer: Vec::new() }).cast();
-        Ok(())
-    })
+        Ok(Marked::hand_over(Taken { request, buffer: Vec::new() }).cast())
+    };
+    // SAFETY: the caller's duty; NULL is refused.
+    border::status(|| unsafe { border::give(request, "request", take) })
 }
 
 /// Returns the bytes of a request, and stores their number in `*len` unless `len` is NULL. They are valid until
@@ -94,16 +92,14 @@ pub unsafe extern "C" fn scl_reply_buffer(
     len: usize,
     buffer: *mut *mut c_void,
 ) -> scl_status {
-    border::status(|| {
-        // SAFETY: the caller's duty; NULL is refused.
-        let result = unsafe { border::result(buffer, "buffer") }?;
-        *result = std::ptr::null_mut();
+    let make = || {
         // SAFETY: the caller promises a live request or NULL.
         unsafe { Marked::<Taken>::live(request.cast()) }?;
         // SAFETY: just found to be live; nothing else refers to this field.
-        *result = border::room(unsafe { &mut (*request.cast::<Marked<Taken>>()).inner.buffer }, len)?;
-        Ok(())
-    })
+        border::room(unsafe { &mut (*request.cast::<Marked<Taken>>()).inner.buffer }, len)
+    };
+    // SAFETY: the caller's duty; NULL is refused.
+    border::status(|| unsafe { border::give(buffer, "buffer", make) })
 }
 
 /// Frees a request that is not to be answered; its sender waits until its timeout. NULL is allowed.
