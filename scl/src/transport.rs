@@ -12,13 +12,13 @@ mod heap_memory;
 mod link_count;
 #[cfg(feature = "memory")]
 pub mod memory;
-#[cfg(any(feature = "memory", feature = "zeromq"))]
-mod origins;
 mod receiver;
 mod request;
 #[cfg(any(feature = "memory", feature = "zeromq"))]
 mod round_robin;
 mod sender;
+#[cfg(any(feature = "memory", feature = "zeromq"))]
+mod senders;
 #[cfg(feature = "zeromq")]
 pub mod zeromq;
 

@@ -23,10 +23,7 @@ impl Frame {
     /// Its length in bytes.
     #[inline]
     pub fn len(&self) -> usize {
-        match self {
-            Self::Bytes(bytes) => bytes.len(),
-            Self::Loan(loan) => loan.len(),
-        }
+        self.as_slice().len()
     }
 
     /// Returns true if it has no bytes.

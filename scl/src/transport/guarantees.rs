@@ -23,21 +23,17 @@ pub enum Guarantee {
 impl Guarantee {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Acknowledgement, Self::Waiting, Self::Freshness, Self::Requests];
+}
 
-    /// What it means for a gate, for messages.
-    fn description(self) -> &'static str {
-        match self {
+/// What it means for a gate, for messages.
+impl fmt::Display for Guarantee {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
             Self::Acknowledgement => "acknowledgements of the messages that were taken",
             Self::Waiting => "senders that wait instead of dropping messages",
             Self::Freshness => "the newest message, also after a pause",
             Self::Requests => "requests and replies",
-        }
-    }
-}
-
-impl fmt::Display for Guarantee {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.description())
+        })
     }
 }
 

@@ -25,7 +25,7 @@ mod tests;
 
 use super::{Endpoint, Guarantees, Receiver, Replier, Requester, Sender, Transport, TransportError};
 use bytes::Bytes;
-use pipe::{EndTerms, PipeReader, PipeWriter};
+use pipe::{PipeReader, PipeWriter, pipe_of};
 use request_reply::{ToReplier, ToRequester};
 use std::sync::Arc;
 use switchboard::Switchboard;
@@ -81,22 +81,18 @@ impl Memory {
     /// `NEWEST`: how many messages are in flight to an end that wants only the newest one.
     fn holding<const NEWEST: usize>() -> Self {
         // Only the receiving end decides how much is in flight.
-        let publishing = Switchboard::new(|listener, connector| message_pipe(listener, connector, NEWEST));
+        let publishing = Switchboard::new(|listener, connector| pipe_of(in_flight::<NEWEST>(connector), listener));
         let pulling = Switchboard::new(|listener, connector| {
-            let (writer, reader) = message_pipe(connector, listener, NEWEST);
+            let (writer, reader) = pipe_of(in_flight::<NEWEST>(listener), connector);
             (reader, writer)
         });
         Self { publishing, pulling, replying: Switchboard::new(request_reply::connect) }
     }
 }
 
-fn message_pipe(
-    sending: EndTerms,
-    receiving: EndTerms,
-    in_flight_newest: usize,
-) -> (PipeWriter<Bytes>, PipeReader<Bytes>) {
-    let capacity = if receiving.newest_only { in_flight_newest } else { IN_FLIGHT };
-    pipe::pipe_of(capacity, sending)
+/// How many messages a connection to this receiving end holds.
+fn in_flight<const NEWEST: usize>(receiving: &Endpoint) -> usize {
+    if receiving.newest_only { NEWEST } else { IN_FLIGHT }
 }
 
 impl Default for Memory {
@@ -112,11 +108,11 @@ impl Transport for Memory {
     }
 
     fn publish(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError> {
-        Ok(Box::new(send::Publisher(self.publishing.listen(endpoint)?)))
+        Ok(Box::new(self.publishing.listen(endpoint)?))
     }
 
     fn subscribe(&self, endpoint: &Endpoint) -> Result<Box<dyn Receiver>, TransportError> {
-        Ok(Box::new(receive::Subscriber::new(self.publishing.connect(endpoint), endpoint)))
+        Ok(Box::new(receive::Subscriber::new(self.publishing.connect(endpoint))))
     }
 
     fn push(&self, endpoint: &Endpoint) -> Result<Box<dyn Sender>, TransportError> {
@@ -124,15 +120,15 @@ impl Transport for Memory {
     }
 
     fn pull(&self, endpoint: &Endpoint) -> Result<Box<dyn Receiver>, TransportError> {
-        Ok(Box::new(receive::Puller::new(self.pulling.listen(endpoint)?, endpoint)))
+        Ok(Box::new(receive::Puller::new(self.pulling.listen(endpoint)?)))
     }
 
     fn request(&self, endpoint: &Endpoint) -> Result<Box<dyn Requester>, TransportError> {
-        Ok(Box::new(request_reply::MemoryRequester::new(self.replying.connect(endpoint), endpoint)))
+        Ok(Box::new(request_reply::MemoryRequester::new(self.replying.connect(endpoint))))
     }
 
     fn reply(&self, endpoint: &Endpoint) -> Result<Box<dyn Replier>, TransportError> {
-        Ok(Box::new(request_reply::MemoryReplier::new(self.replying.listen(endpoint)?, endpoint)))
+        Ok(Box::new(request_reply::MemoryReplier::new(self.replying.listen(endpoint)?)))
     }
 }
 

@@ -4,17 +4,28 @@ use std::task::Poll;
 
 pub(super) struct RoundRobin<H> {
     pub(super) connections: Vec<H>,
-    /// The connection to poll first.
+    in_a_row: usize,
+    /// The connection whose turn it is, and how many items it has delivered in it.
     next: usize,
+    delivered: usize,
 }
 
 impl<H> RoundRobin<H> {
-    pub(super) fn new() -> Self {
-        Self { connections: Vec::new(), next: 0 }
+    /// `in_a_row`: how many items one connection may deliver while others may have some as well.
+    pub(super) fn new(in_a_row: usize) -> Self {
+        Self { connections: Vec::new(), in_a_row, next: 0, delivered: 0 }
+    }
+
+    /// Returns true if the next poll begins with another connection than the last one.
+    pub(super) fn is_turn_over(&self) -> bool {
+        self.delivered >= self.in_a_row
     }
 
     /// Polls each connection once, until one is ready with an item. Drops those that are ready with `None`.
     pub(super) fn poll<M>(&mut self, mut poll: impl FnMut(&mut H) -> Poll<Option<M>>) -> Poll<M> {
+        if self.is_turn_over() {
+            self.next_turn();
+        }
         for _ in 0..self.connections.len() {
             if self.next >= self.connections.len() {
                 self.next = 0;
@@ -22,12 +33,17 @@ impl<H> RoundRobin<H> {
             match poll(&mut self.connections[self.next]) {
                 Poll::Ready(None) => drop(self.connections.remove(self.next)),
                 Poll::Ready(Some(item)) => {
-                    self.next += 1;
+                    self.delivered += 1;
                     return Poll::Ready(item);
                 }
-                Poll::Pending => self.next += 1,
+                Poll::Pending => self.next_turn(),
             }
         }
         Poll::Pending
+    }
+
+    fn next_turn(&mut self) {
+        self.next += 1;
+        self.delivered = 0;
     }
 }

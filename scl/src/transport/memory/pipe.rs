@@ -1,6 +1,7 @@
 //! A bounded queue between two ends, each of which notices when the other is dropped.
 
 use crate::sync::{keep_waker, lock};
+use crate::transport::Endpoint;
 use std::cell::Cell;
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -10,22 +11,11 @@ use std::time::Instant;
 
 /// Creates a queue of at most `capacity` items.
 pub(super) fn pipe<T>(capacity: usize) -> (PipeWriter<T>, PipeReader<T>) {
-    pipe_of(capacity, EndTerms::default())
+    pipe_of(capacity, &Endpoint::new(""))
 }
 
-/// What one end is like.
-#[derive(Clone, Copy, Default)]
-pub(super) struct EndTerms {
-    /// It wants only the newest message.
-    pub(super) newest_only: bool,
-    /// It waits instead of dropping messages.
-    pub(super) lossless: bool,
-    /// It keeps its last message for those that join.
-    pub(super) latched: bool,
-}
-
-/// The same, and the reader knows what its writer is like.
-pub(super) fn pipe_of<T>(capacity: usize, writer_terms: EndTerms) -> (PipeWriter<T>, PipeReader<T>) {
+/// The same, and the reader knows what its writer was told.
+pub(super) fn pipe_of<T>(capacity: usize, writer: &Endpoint) -> (PipeWriter<T>, PipeReader<T>) {
     let state = State {
         queue: VecDeque::new(),
         sent: 0,
@@ -39,7 +29,8 @@ pub(super) fn pipe_of<T>(capacity: usize, writer_terms: EndTerms) -> (PipeWriter
         writer: None,
         reader: None,
     };
-    let shared = Arc::new(Shared { state: Mutex::new(state), received: AtomicU64::new(0), capacity, writer_terms });
+    let (state, received) = (Mutex::new(state), AtomicU64::new(0));
+    let shared = Arc::new(Shared { state, received, capacity, lossless: writer.lossless, latched: writer.latched });
     (PipeWriter { shared: Arc::clone(&shared) }, PipeReader { shared, taken: Cell::new(0), latched: Cell::new(None) })
 }
 
@@ -60,7 +51,8 @@ struct Shared<T> {
     /// Number of items that the reader has taken and its caller does not keep for later.
     received: AtomicU64,
     capacity: usize,
-    writer_terms: EndTerms,
+    lossless: bool,
+    latched: bool,
 }
 
 struct State<T> {
@@ -109,13 +101,8 @@ impl<T> State<T> {
 
 impl<T> PipeWriter<T> {
     /// Appends an item, or returns it if there is no room or no reader. Wakes the task when to try again, or to find
-    /// out that the reader is gone.
-    pub(super) fn send(&self, cx: &Context<'_>, item: T) -> Result<(), T> {
-        self.send_latched(cx, item, None)
-    }
-
-    /// The same. `sent`: when the item was sent, if that was before the reader joined.
-    pub(super) fn send_latched(&self, cx: &Context<'_>, item: T, sent: Option<Instant>) -> Result<(), T> {
+    /// out that the reader is gone. `sent`: when the item was sent, if that was before the reader joined.
+    pub(super) fn send(&self, cx: &Context<'_>, item: T, sent: Option<Instant>) -> Result<(), T> {
         let mut state = lock(&self.shared.state);
         if state.closed {
             drop(state);
@@ -269,12 +256,12 @@ impl<T> PipeReader<T> {
 
     /// Returns true if the writer waits instead of dropping items.
     pub(super) fn is_lossless(&self) -> bool {
-        self.shared.writer_terms.lossless
+        self.shared.lossless
     }
 
     /// Returns true if the writer keeps its last item for readers that join.
     pub(super) fn is_latched(&self) -> bool {
-        self.shared.writer_terms.latched
+        self.shared.latched
     }
 
     /// When an item was sent, if that was before this reader joined: the last one taken, or one that many before.

@@ -1,7 +1,7 @@
 //! The ends for requests and replies.
 
 use super::IN_FLIGHT;
-use super::pipe::{EndTerms, PipeReader, PipeWriter, pipe};
+use super::pipe::{PipeReader, PipeWriter, pipe};
 use super::switchboard::{Connector, Listener};
 use crate::transport::round_robin::RoundRobin;
 use crate::transport::{Answer, Endpoint, IncomingRequest, Replier, ReplyPath, Requester, RequesterGone};
@@ -9,55 +9,46 @@ use bytes::{BufMut, Bytes, BytesMut};
 use std::sync::Arc;
 use std::task::{Context, Poll, Waker, ready};
 
-/// A request or a reply, with the request's number.
+/// A request and its number.
 struct Numbered {
     id: u64,
     body: Bytes,
 }
 
-/// What comes back for a request: nothing if it was refused.
-struct Answered {
-    id: u64,
-    body: Option<Bytes>,
-}
-
-impl Answered {
-    fn fits(&self, max_size: usize) -> bool {
-        self.body.as_ref().is_none_or(|body| body.len() <= max_size)
-    }
+fn fits(answer: &Answer, max_size: usize) -> bool {
+    !matches!(answer, Answer::Reply { body, .. } if body.len() > max_size)
 }
 
 /// The replier's half of a connection.
 pub(super) struct ToRequester {
     requests: PipeReader<Numbered>,
-    replies: Arc<Replies>,
+    replies: Arc<PipeWriter<Answer>>,
     envelopes: BytesMut,
 }
 
 /// The requester's half of a connection.
 pub(super) struct ToReplier {
     requests: PipeWriter<Numbered>,
-    replies: PipeReader<Answered>,
+    replies: PipeReader<Answer>,
 }
 
 /// Replies are not limited in number: each belongs to a request, and requesters discard old ones before the next
 /// request.
-pub(super) fn connect(_listener: EndTerms, _connector: EndTerms) -> (ToRequester, ToReplier) {
+pub(super) fn connect(_listener: &Endpoint, _connector: &Endpoint) -> (ToRequester, ToReplier) {
     let (request, requests) = pipe(IN_FLIGHT);
     let (reply, replies) = pipe(usize::MAX);
-    let to_requester = ToRequester { requests, replies: Arc::new(Replies(reply)), envelopes: BytesMut::new() };
+    let to_requester = ToRequester { requests, replies: Arc::new(reply), envelopes: BytesMut::new() };
     (to_requester, ToReplier { requests: request, replies })
 }
 
 pub(super) struct MemoryRequester {
     connector: Connector<ToRequester, ToReplier>,
     replier: Option<ToReplier>,
-    max_size: usize,
 }
 
 impl MemoryRequester {
-    pub(super) fn new(connector: Connector<ToRequester, ToReplier>, endpoint: &Endpoint) -> Self {
-        Self { connector, replier: None, max_size: endpoint.max_size }
+    pub(super) fn new(connector: Connector<ToRequester, ToReplier>) -> Self {
+        Self { connector, replier: None }
     }
 
     fn disconnect(&mut self) {
@@ -74,7 +65,7 @@ impl Requester for MemoryRequester {
                 continue;
             };
             match replier.replies.poll_recv(cx) {
-                Poll::Ready(Some(reply)) if reply.fits(self.max_size) => {}
+                Poll::Ready(Some(answer)) if fits(&answer, self.connector.endpoint.max_size) => {}
                 Poll::Ready(_) => self.disconnect(),
                 Poll::Pending if replier.requests.has_room(cx) => return Poll::Ready(()),
                 Poll::Pending => return Poll::Pending,
@@ -84,7 +75,7 @@ impl Requester for MemoryRequester {
 
     fn request(&mut self, cx: &mut Context<'_>, id: u64, body: Bytes) -> Result<(), Bytes> {
         let Some(replier) = &self.replier else { return Err(body) };
-        replier.requests.send(cx, Numbered { id, body }).map_err(|refused| refused.body)
+        replier.requests.send(cx, Numbered { id, body }, None).map_err(|refused| refused.body)
     }
 
     fn is_connected(&self) -> bool {
@@ -94,10 +85,7 @@ impl Requester for MemoryRequester {
     fn poll_answer(&mut self, cx: &mut Context<'_>) -> Poll<Answer> {
         let Some(replier) = &self.replier else { return Poll::Ready(Answer::Lost) };
         Poll::Ready(match ready!(replier.replies.poll_recv(cx)) {
-            Some(reply) if reply.fits(self.max_size) => match reply {
-                Answered { id, body: Some(body) } => Answer::Reply { id, body },
-                Answered { id, body: None } => Answer::Refused { id },
-            },
+            Some(answer) if fits(&answer, self.connector.endpoint.max_size) => answer,
             _ => {
                 self.disconnect();
                 Answer::Lost
@@ -119,19 +107,18 @@ impl ToReplier {
 pub(super) struct MemoryReplier {
     listener: Listener<ToRequester, ToReplier>,
     requesters: RoundRobin<ToRequester>,
-    max_size: usize,
 }
 
 impl MemoryReplier {
-    pub(super) fn new(listener: Listener<ToRequester, ToReplier>, endpoint: &Endpoint) -> Self {
-        Self { listener, requesters: RoundRobin::new(), max_size: endpoint.max_size }
+    pub(super) fn new(listener: Listener<ToRequester, ToReplier>) -> Self {
+        Self { listener, requesters: RoundRobin::new(1) }
     }
 }
 
 impl Replier for MemoryReplier {
     fn poll_request(&mut self, cx: &mut Context<'_>) -> Poll<IncomingRequest> {
         self.drive(cx);
-        let max_size = self.max_size;
+        let max_size = self.listener.endpoint.max_size;
         self.requesters.poll(|requester| {
             let request = requester.requests.poll_recv(cx);
             // Without a request, the requester is removed and thereby disconnected.
@@ -171,27 +158,25 @@ impl ToRequester {
 /// Tells the requester and those who hold unanswered requests that the replier is gone.
 impl Drop for ToRequester {
     fn drop(&mut self) {
-        self.replies.0.close();
+        self.replies.close();
     }
 }
 
-struct Replies(PipeWriter<Answered>);
-
-impl ReplyPath for Replies {
+impl ReplyPath for PipeWriter<Answer> {
     fn reply(&self, envelope: &Bytes, body: Bytes) -> Result<(), RequesterGone> {
-        self.answer(envelope, Some(body))
+        self.answer(envelope, |id| Answer::Reply { id, body })
     }
 
     fn refuse(&self, envelope: &Bytes) {
         // A requester that is gone waits for nothing.
-        let _told = self.answer(envelope, None);
+        let _told = self.answer(envelope, |id| Answer::Refused { id });
     }
 }
 
-impl Replies {
-    fn answer(&self, envelope: &Bytes, body: Option<Bytes>) -> Result<(), RequesterGone> {
+impl PipeWriter<Answer> {
+    fn answer(&self, envelope: &Bytes, answer: impl FnOnce(u64) -> Answer) -> Result<(), RequesterGone> {
         let id = envelope[..].try_into().map(u64::from_be_bytes).map_err(|_not_from_here| RequesterGone)?;
         let cx = Context::from_waker(Waker::noop());
-        self.0.send(&cx, Answered { id, body }).map_err(|_gone| RequesterGone)
+        self.send(&cx, answer(id), None).map_err(|_gone| RequesterGone)
     }
 }

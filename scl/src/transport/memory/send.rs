@@ -11,12 +11,11 @@ use std::sync::Arc;
 use std::task::{Context, Poll, ready};
 use std::time::{Duration, Instant};
 
-pub(super) struct Publisher(pub(super) Listener<PipeWriter<Bytes>, PipeReader<Bytes>>);
-
-impl Sender for Publisher {
+/// A publisher.
+impl Sender for Listener<PipeWriter<Bytes>, PipeReader<Bytes>> {
     fn poll_peer(&mut self, cx: &mut Context<'_>) -> Poll<Peer> {
         loop {
-            let subscriber = ready!(self.0.poll_connection(cx));
+            let subscriber = ready!(self.poll_connection(cx));
             if subscriber.is_open() {
                 return Poll::Ready(peer(MemoryLink::new(subscriber, None)));
             }
@@ -89,11 +88,11 @@ impl Link for MemoryLink {
         if matches!(message, Frame::Loan(_)) && !self.pipe.has_room(cx) {
             return Sent::Full(message);
         }
-        self.sent(self.pipe.send(cx, self.lender.take_back(message)))
+        self.sent(self.pipe.send(cx, self.lender.take_back(message), None))
     }
 
     fn send_latched(&mut self, cx: &mut Context<'_>, message: Frame, age: Duration) -> Sent {
-        self.sent(self.pipe.send_latched(cx, message.into_bytes(), Instant::now().checked_sub(age)))
+        self.sent(self.pipe.send(cx, message.into_bytes(), Instant::now().checked_sub(age)))
     }
 
     fn send_all(

@@ -1,8 +1,8 @@
 //! Endpoints by name: one end listens, any number connect, in any order.
 
-use super::pipe::{EndTerms, wake};
+use super::pipe::wake;
 use crate::sync::{keep_waker, lock};
-use crate::transport::{Endpoint, PeerCheck, TransportError};
+use crate::transport::{Endpoint, TransportError};
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll, Waker};
@@ -13,8 +13,8 @@ pub(super) struct Switchboard<L, C> {
     pair: Pair<L, C>,
 }
 
-/// Creates a connection, from what its listener and its connector are like.
-type Pair<L, C> = fn(EndTerms, EndTerms) -> (L, C);
+/// Creates a connection, from what its listener and its connector were told.
+type Pair<L, C> = fn(&Endpoint, &Endpoint) -> (L, C);
 
 struct Table<L, C> {
     by_name: HashMap<String, Registered<L, C>>,
@@ -24,24 +24,19 @@ struct Table<L, C> {
 
 /// The ends at one endpoint.
 struct Registered<L, C> {
-    listener: Option<Registration<L>>,
-    connectors: Vec<Registration<C>>,
+    listener: Option<Shared<L>>,
+    connectors: Vec<Shared<C>>,
 }
 
-struct Registration<H> {
-    backlog: Arc<Mutex<Backlog<H>>>,
-    terms: EndTerms,
-    /// Of a listener: its number. Of a connector: unused.
-    number: u64,
-    /// Of a connector: whether it decides itself when to connect.
-    has_check: bool,
-}
+/// An end, shared by its owner and the table.
+type Shared<H> = Arc<Mutex<End<H>>>;
 
-/// New connections that an end has not looked at yet.
-struct Backlog<H> {
-    connections: VecDeque<H>,
-    /// Of a connector: the listener it was connected to last.
+struct End<H> {
+    endpoint: Endpoint,
+    /// Of a listener: its number. Of a connector: that of the listener it was connected to last.
     listener: u64,
+    /// New connections that it has not looked at yet.
+    connections: VecDeque<H>,
     waiting: Option<Waker>,
 }
 
@@ -56,7 +51,7 @@ impl<L, C> Switchboard<L, C> {
     pub(super) fn listen(self: &Arc<Self>, endpoint: &Endpoint) -> Result<Listener<L, C>, TransportError> {
         let mut table = lock(&self.table);
         table.listeners += 1;
-        let listener = Registration::new(endpoint, table.listeners);
+        let listener = End::shared(endpoint, table.listeners);
         let registered = table.by_name.entry(endpoint.name.to_string()).or_default();
         if registered.listener.is_some() {
             let reason = "another end is already listening there; open each component once per `Memory`";
@@ -64,51 +59,50 @@ impl<L, C> Switchboard<L, C> {
         }
         let mut woken = Vec::new();
         for connector in &registered.connectors {
-            if !connector.has_check {
-                let (to_connector, _nobody_waits_yet) = self.pair_up(&listener, connector);
-                lock(&connector.backlog).connections.push_back(to_connector);
+            let mut connector = lock(connector);
+            if connector.endpoint.check.is_none() {
+                let (to_connector, _nobody_waits_yet) = self.pair_up(&listener, &mut connector);
+                connector.connections.push_back(to_connector);
             }
-            woken.push(lock(&connector.backlog).waiting.take());
+            woken.push(connector.waiting.take());
         }
-        let backlog = Arc::clone(&listener.backlog);
-        registered.listener = Some(listener);
+        registered.listener = Some(Arc::clone(&listener));
         drop(table);
         woken.into_iter().for_each(wake);
-        Ok(Listener { switchboard: Arc::clone(self), name: endpoint.name.to_string(), backlog })
+        Ok(Listener { switchboard: Arc::clone(self), endpoint: endpoint.clone(), end: listener })
     }
 
     /// Connects to the listener at an endpoint, and to each new one that replaces it.
     pub(super) fn connect(self: &Arc<Self>, endpoint: &Endpoint) -> Connector<L, C> {
-        let connector = Registration::new(endpoint, 0);
-        let backlog = Arc::clone(&connector.backlog);
+        let connector = End::shared(endpoint, 0);
         let mut table = lock(&self.table);
         let registered = table.by_name.entry(endpoint.name.to_string()).or_default();
         let mut woken = None;
-        if let Some(listener) = registered.listener.as_ref().filter(|_| !connector.has_check) {
-            let (to_connector, waker) = self.pair_up(listener, &connector);
+        if let Some(listener) = registered.listener.as_ref().filter(|_| endpoint.check.is_none()) {
+            let mut connector = lock(&connector);
+            let (to_connector, waker) = self.pair_up(listener, &mut connector);
             woken = waker;
-            lock(&backlog).connections.push_back(to_connector);
+            connector.connections.push_back(to_connector);
         }
-        registered.connectors.push(connector);
+        registered.connectors.push(Arc::clone(&connector));
         drop(table);
         wake(woken);
         Connector {
             switchboard: Arc::clone(self),
-            name: endpoint.name.to_string(),
-            backlog,
-            check: endpoint.check.clone(),
+            endpoint: endpoint.clone(),
+            end: connector,
             refusal: None,
             again: false,
         }
     }
 
     /// Connects two ends; returns the connector's half, and the waker of the listener.
-    fn pair_up(&self, listener: &Registration<L>, connector: &Registration<C>) -> (C, Option<Waker>) {
-        let (to_listener, to_connector) = (self.pair)(listener.terms, connector.terms);
-        lock(&connector.backlog).listener = listener.number;
-        let mut backlog = lock(&listener.backlog);
-        backlog.connections.push_back(to_listener);
-        (to_connector, backlog.waiting.take())
+    fn pair_up(&self, listener: &Shared<L>, connector: &mut End<C>) -> (C, Option<Waker>) {
+        let mut listener = lock(listener);
+        let (to_listener, to_connector) = (self.pair)(&listener.endpoint, &connector.endpoint);
+        connector.listener = listener.listener;
+        listener.connections.push_back(to_listener);
+        (to_connector, listener.waiting.take())
     }
 
     fn remove(&self, name: &str, end: impl FnOnce(&mut Registered<L, C>)) {
@@ -121,17 +115,10 @@ impl<L, C> Switchboard<L, C> {
     }
 }
 
-impl<H> Registration<H> {
-    fn new(endpoint: &Endpoint, number: u64) -> Self {
-        let backlog = Backlog { connections: VecDeque::new(), listener: 0, waiting: None };
-        let has_check = endpoint.check.is_some();
-        let Endpoint { newest_only, lossless, latched, .. } = *endpoint;
-        let terms = EndTerms { newest_only, lossless, latched };
-        Self { backlog: Arc::new(Mutex::new(backlog)), terms, number, has_check }
-    }
-
-    fn belongs_to(&self, backlog: &Arc<Mutex<Backlog<H>>>) -> bool {
-        Arc::ptr_eq(&self.backlog, backlog)
+impl<H> End<H> {
+    fn shared(endpoint: &Endpoint, listener: u64) -> Shared<H> {
+        let (endpoint, connections) = (endpoint.clone(), VecDeque::new());
+        Arc::new(Mutex::new(Self { endpoint, listener, connections, waiting: None }))
     }
 }
 
@@ -144,31 +131,31 @@ impl<L, C> Default for Registered<L, C> {
 /// An end that listens at its endpoint until it is dropped.
 pub(super) struct Listener<L, C> {
     switchboard: Arc<Switchboard<L, C>>,
-    name: String,
-    backlog: Arc<Mutex<Backlog<L>>>,
+    pub(super) endpoint: Endpoint,
+    end: Shared<L>,
 }
 
 impl<L, C> Listener<L, C> {
     /// Returns the next new connection.
     pub(super) fn poll_connection(&self, cx: &Context<'_>) -> Poll<L> {
-        let mut backlog = lock(&self.backlog);
-        if let Some(connection) = backlog.connections.pop_front() {
+        let mut end = lock(&self.end);
+        if let Some(connection) = end.connections.pop_front() {
             return Poll::Ready(connection);
         }
-        keep_waker(&mut backlog.waiting, cx.waker());
+        keep_waker(&mut end.waiting, cx.waker());
         Poll::Pending
     }
 
     /// Counts the new connections of some kind.
     pub(super) fn count(&self, of_kind: impl Fn(&L) -> bool) -> usize {
-        lock(&self.backlog).connections.iter().filter(|&connection| of_kind(connection)).count()
+        lock(&self.end).connections.iter().filter(|&connection| of_kind(connection)).count()
     }
 }
 
 impl<L, C> Drop for Listener<L, C> {
     fn drop(&mut self) {
-        self.switchboard.remove(&self.name, |registered| {
-            registered.listener.take_if(|listener| listener.belongs_to(&self.backlog));
+        self.switchboard.remove(&self.endpoint.name, |registered| {
+            registered.listener.take_if(|listener| Arc::ptr_eq(listener, &self.end));
         });
     }
 }
@@ -176,9 +163,8 @@ impl<L, C> Drop for Listener<L, C> {
 /// An end that connects to whichever end listens at its endpoint, until it is dropped.
 pub(super) struct Connector<L, C> {
     switchboard: Arc<Switchboard<L, C>>,
-    name: String,
-    backlog: Arc<Mutex<Backlog<C>>>,
-    check: Option<PeerCheck>,
+    pub(super) endpoint: Endpoint,
+    end: Shared<C>,
     refusal: Option<String>,
     /// Whether to connect once more to the listener of the last connection.
     again: bool,
@@ -190,7 +176,7 @@ impl<L, C> Connector<L, C> {
         if !self.finds_listener(cx) {
             return Poll::Pending;
         }
-        if let Some(check) = &self.check {
+        if let Some(check) = &self.endpoint.check {
             // Without holding a lock, because the check is code of others.
             self.refusal = check().err();
             if self.refusal.is_some() {
@@ -203,26 +189,25 @@ impl<L, C> Connector<L, C> {
     /// Returns true if there is a new connection, or a listener to connect to.
     fn finds_listener(&self, cx: &Context<'_>) -> bool {
         let table = lock(&self.switchboard.table);
-        let mut backlog = lock(&self.backlog);
-        keep_waker(&mut backlog.waiting, cx.waker());
-        let listener = table.by_name.get(&self.name).and_then(|registered| registered.listener.as_ref());
-        !backlog.connections.is_empty()
-            || listener.is_some_and(|listener| self.again || listener.number != backlog.listener)
+        let mut end = lock(&self.end);
+        keep_waker(&mut end.waiting, cx.waker());
+        let listener = table.by_name.get(&*self.endpoint.name).and_then(|registered| registered.listener.as_ref());
+        !end.connections.is_empty()
+            || listener.is_some_and(|listener| self.again || lock(listener).listener != end.listener)
     }
 
     fn take_or_connect(&mut self) -> Poll<C> {
         let table = lock(&self.switchboard.table);
-        let connection = lock(&self.backlog).connections.pop_front();
-        if let Some(connection) = connection {
+        let mut end = lock(&self.end);
+        if let Some(connection) = end.connections.pop_front() {
             self.again = false;
             return Poll::Ready(connection);
         }
         // Since the listener was found, it may have been dropped.
-        let Some(registered) = table.by_name.get(&self.name) else { return Poll::Pending };
-        let own = registered.connectors.iter().find(|connector| connector.belongs_to(&self.backlog));
-        let Some((listener, own)) = registered.listener.as_ref().zip(own) else { return Poll::Pending };
-        let (connection, waker) = self.switchboard.pair_up(listener, own);
-        drop(table);
+        let listener = table.by_name.get(&*self.endpoint.name).and_then(|registered| registered.listener.as_ref());
+        let Some(listener) = listener else { return Poll::Pending };
+        let (connection, waker) = self.switchboard.pair_up(listener, &mut end);
+        drop((table, end));
         wake(waker);
         self.again = false;
         Poll::Ready(connection)
@@ -235,21 +220,22 @@ impl<L, C> Connector<L, C> {
 
     /// Returns true if there is a new connection of some kind.
     pub(super) fn has_connection(&self, of_kind: impl Fn(&C) -> bool) -> bool {
-        lock(&self.backlog).connections.iter().any(of_kind)
+        lock(&self.end).connections.iter().any(of_kind)
     }
 
     /// Why the check refused the end that is listening.
     pub(super) fn refusal(&self) -> Option<String> {
         let table = lock(&self.switchboard.table);
-        let is_listening = table.by_name.get(&self.name).is_some_and(|registered| registered.listener.is_some());
+        let is_listening =
+            table.by_name.get(&*self.endpoint.name).is_some_and(|registered| registered.listener.is_some());
         self.refusal.clone().filter(|_| is_listening)
     }
 }
 
 impl<L, C> Drop for Connector<L, C> {
     fn drop(&mut self) {
-        self.switchboard.remove(&self.name, |registered| {
-            registered.connectors.retain(|connector| !connector.belongs_to(&self.backlog));
+        self.switchboard.remove(&self.endpoint.name, |registered| {
+            registered.connectors.retain(|connector| !Arc::ptr_eq(connector, &self.end));
         });
     }
 }

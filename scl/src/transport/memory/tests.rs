@@ -146,8 +146,8 @@ fn a_writer_is_woken_when_everything_is_taken_if_it_asked() {
     let (wakes, waker) = counting_waker();
     let cx = Context::from_waker(&waker);
     for asks in [false, true] {
-        writer.send(&cx, 1).unwrap();
-        writer.send(&cx, 2).unwrap();
+        writer.send(&cx, 1, None).unwrap();
+        writer.send(&cx, 2, None).unwrap();
         let before = wakes.count();
         if asks {
             writer.wake_when_empty(&cx);
@@ -165,7 +165,7 @@ fn sending_to_a_reader_that_is_gone_wakes_the_task() {
     drop(reader);
     let (wakes, waker) = counting_waker();
     let cx = Context::from_waker(&waker);
-    assert_eq!(writer.send(&cx, 1), Err(1));
+    assert_eq!(writer.send(&cx, 1, None), Err(1));
     assert_eq!(wakes.count(), 1);
     writer.send_all(&cx, &mut VecDeque::from([1]), identity, |_| panic!("sent"));
     assert_eq!(wakes.count(), 2);

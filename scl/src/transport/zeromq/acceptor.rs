@@ -47,7 +47,7 @@ const RETRY: Duration = Duration::from_secs(1);
 pub(super) struct Acceptor {
     dir: Arc<SystemDir>,
     kind: TransportKind,
-    endpoint: Endpoint,
+    pub(super) endpoint: Endpoint,
     socket: SocketType,
     scl: SclReady,
     hello: Bytes,

@@ -40,7 +40,7 @@ struct Exchange {
 impl ReplyingEnd {
     pub(super) fn open(dir: &Arc<SystemDir>, kind: TransportKind, endpoint: &Endpoint) -> Result<Self, TransportError> {
         let acceptor = Acceptor::open(dir, kind, endpoint, SocketType::Router, SclReady::default())?;
-        Ok(Self { acceptor, requesters: RoundRobin::new(), malformed: 0 })
+        Ok(Self { acceptor, requesters: RoundRobin::new(1), malformed: 0 })
     }
 
     fn accept(&mut self, cx: &mut Context<'_>) {
