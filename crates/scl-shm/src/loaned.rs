@@ -13,16 +13,25 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub(crate) type Uninitialised = SampleMutUninit<Engine, [MaybeUninit<u8>], ()>;
 pub(crate) type Sample = SampleMut<Engine, [u8], ()>;
 
-/// Counts a value until it is dropped.
+/// A sample that is given back and counted until then. Not in a forked child: the parent still uses it.
 #[derive(Debug)]
-pub(crate) struct Counted(Arc<AtomicUsize>);
+pub(crate) struct Held<S> {
+    pub(crate) sample: S,
+    _counted: Counted,
+    // Last: the node must outlive the sample.
+    _memory: Arc<SharedMemory>,
+}
 
-impl Counted {
-    pub(crate) fn new(count: &Arc<AtomicUsize>) -> Self {
+impl<S> Held<S> {
+    pub(crate) fn new(sample: S, count: &Arc<AtomicUsize>, memory: &Arc<SharedMemory>) -> ProcessOwned<Self> {
         count.fetch_add(1, Ordering::Relaxed);
-        Self(count.clone())
+        ProcessOwned::new(Self { sample, _counted: Counted(count.clone()), _memory: memory.clone() })
     }
 }
+
+/// Counts a value until it is dropped.
+#[derive(Debug)]
+struct Counted(Arc<AtomicUsize>);
 
 impl Drop for Counted {
     fn drop(&mut self) {
@@ -34,17 +43,11 @@ impl Drop for Counted {
 /// parent may still fill it.
 ///
 /// What it contains at first is unspecified: zeros or parts of older messages of the same connection.
+#[derive(Debug)]
 pub struct LoanedSample {
-    held: ProcessOwned<Held>,
+    pub(crate) held: ProcessOwned<Held<Sample>>,
     /// Who lent it.
     pub(crate) sender: u128,
-}
-
-struct Held {
-    sample: Sample,
-    _counted: Counted,
-    // Last: the node must outlive the sample.
-    _memory: Arc<SharedMemory>,
 }
 
 // SAFETY: A shared reference gives access to the payload for reading only (`as_slice`), and to nothing else of the
@@ -53,11 +56,6 @@ struct Held {
 unsafe impl Sync for LoanedSample {}
 
 impl LoanedSample {
-    pub(crate) fn new(sample: Sample, sender: u128, counted: Counted, memory: &Arc<SharedMemory>) -> Self {
-        let held = Held { sample, _counted: counted, _memory: memory.clone() };
-        Self { held: ProcessOwned::new(held), sender }
-    }
-
     /// Sends it. Returns the number of receivers that got it.
     pub(crate) fn send(self) -> Result<usize, SendError> {
         self.held.into_inner().sample.send()
@@ -71,12 +69,6 @@ impl LoanedSample {
     /// The content, to be filled.
     pub fn as_mut_slice(&mut self) -> &mut [u8] {
         self.held.sample.payload_mut()
-    }
-}
-
-impl std::fmt::Debug for LoanedSample {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("LoanedSample").field("length", &self.as_slice().len()).finish_non_exhaustive()
     }
 }
 

@@ -10,7 +10,7 @@ use iceoryx2::service::ipc_threadsafe::Service as Engine;
 use scl_fork::ProcessMark;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::Duration;
 
 #[cfg(test)]
@@ -23,6 +23,7 @@ type Builder = iceoryx2::service::builder::publish_subscribe::Builder<[u8], (), 
 const CLEANING: Duration = Duration::from_secs(1);
 
 /// Shared memory among the programs of a system.
+#[derive(Debug)]
 pub struct SharedMemory {
     /// `None` only while it is dropped.
     node: Option<Mutex<Node<Engine>>>,
@@ -32,7 +33,7 @@ pub struct SharedMemory {
 
 /// The nodes of this process, and those that it has inherited of the one that it was forked from. Two of one process in
 /// one folder would each take the other's files for those of a stranger.
-static NODES: Mutex<Option<HashMap<PathBuf, Weak<SharedMemory>>>> = Mutex::new(None);
+static NODES: LazyLock<Mutex<HashMap<PathBuf, Weak<SharedMemory>>>> = LazyLock::new(Mutex::default);
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
@@ -46,7 +47,6 @@ impl SharedMemory {
     pub fn open(system: &Path) -> Result<Arc<Self>, ShmError> {
         crate::log::direct();
         let mut nodes = lock(&NODES);
-        let nodes = nodes.get_or_insert_default();
         nodes.retain(|_, node| node.strong_count() > 0);
         if let Some(memory) = nodes.get(system).and_then(Weak::upgrade).filter(|memory| memory.process.is_own()) {
             return Ok(memory);
@@ -80,8 +80,8 @@ impl SharedMemory {
 
     /// A service that no end of SCL would create.
     #[cfg(test)]
-    pub(crate) fn foreign_service(&self, name: &ServiceName, settings: impl Fn(Builder) -> Builder) -> Port {
-        let builder = self.node().service_builder(&name.as_str().try_into().unwrap());
+    pub(crate) fn foreign_service(&self, name: ServiceName, settings: impl Fn(Builder) -> Builder) -> Port {
+        let builder = self.node().service_builder(&name.to_string().as_str().try_into().unwrap());
         settings(builder.publish_subscribe::<[u8]>()).create().unwrap()
     }
 
@@ -98,8 +98,7 @@ impl Drop for SharedMemory {
             return std::mem::forget(self.node.take());
         }
         let nodes = lock(&NODES);
-        let is_open_again =
-            nodes.iter().flatten().any(|(system, node)| node.strong_count() > 0 && self.folder.is_of(system));
+        let is_open_again = nodes.iter().any(|(system, node)| node.strong_count() > 0 && self.folder.is_of(system));
         // A program that opens the system meanwhile waits, so no file in use is removed.
         let locked = self.folder.lock();
         self.node = None;
@@ -107,11 +106,5 @@ impl Drop for SharedMemory {
         if (locked.is_ok() || self.folder.is_gone()) && !is_open_again {
             self.folder.remove_if_unused();
         }
-    }
-}
-
-impl std::fmt::Debug for SharedMemory {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("SharedMemory").field("folder", &self.folder).finish_non_exhaustive()
     }
 }

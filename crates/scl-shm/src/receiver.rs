@@ -2,9 +2,9 @@
 
 use crate::error::{ReceiveError, ShmError};
 use crate::limits::{self, Limits};
-use crate::loaned::Counted;
+use crate::loaned::Held;
 use crate::node::SharedMemory;
-use crate::service::{self, Port, ServiceName};
+use crate::service::{self, ServiceName};
 use bytes::Bytes;
 use iceoryx2::port::subscriber::Subscriber;
 use iceoryx2::sample::Sample;
@@ -14,6 +14,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The receiving end of a connection.
+#[derive(Debug)]
 pub struct SampleReceiver {
     port: Subscriber<Engine, [u8], ()>,
     limits: Limits,
@@ -23,15 +24,8 @@ pub struct SampleReceiver {
     memory: Arc<SharedMemory>,
 }
 
-/// A received sample, which is given back when it is dropped. Not in a forked child: the parent may still read it.
-struct Received(ProcessOwned<Held>);
-
-struct Held {
-    sample: Sample<Engine, [u8], ()>,
-    _counted: Counted,
-    // Last: the node must outlive the sample.
-    _memory: Arc<SharedMemory>,
-}
+/// A received sample.
+struct Received(ProcessOwned<Held<Sample<Engine, [u8], ()>>>);
 
 impl AsRef<[u8]> for Received {
     fn as_ref(&self) -> &[u8] {
@@ -44,22 +38,18 @@ impl SharedMemory {
     ///
     /// # Errors
     /// [`ShmError`] if the service exists already or cannot be created.
-    pub fn receiver(self: &Arc<Self>, name: &ServiceName, limits: Limits) -> Result<SampleReceiver, ShmError> {
+    pub fn receiver(self: &Arc<Self>, name: ServiceName, limits: Limits) -> Result<SampleReceiver, ShmError> {
         limits::require(0)?;
         let service = service::create(&self.node(), name, &limits)?;
-        SampleReceiver::new(&service, limits, self)
-    }
-}
-
-impl SampleReceiver {
-    fn new(service: &Port, limits: Limits, memory: &Arc<SharedMemory>) -> Result<Self, ShmError> {
         let port = service
             .subscriber_builder()
             .create()
             .map_err(|error| ShmError::engine("create a receiving port", error))?;
-        Ok(Self { port, limits, kept: Arc::new(AtomicUsize::new(0)), copied: 0, memory: memory.clone() })
+        Ok(SampleReceiver { port, limits, kept: Arc::new(AtomicUsize::new(0)), copied: 0, memory: self.clone() })
     }
+}
 
+impl SampleReceiver {
     /// The most samples that may be sent and not acknowledged.
     pub fn in_flight(&self) -> usize {
         self.limits.in_flight()
@@ -81,18 +71,11 @@ impl SampleReceiver {
             self.copied += 1;
             return Ok(Bytes::copy_from_slice(sample.payload()));
         }
-        let held = Held { sample, _counted: Counted::new(&self.kept), _memory: self.memory.clone() };
-        Ok(Bytes::from_owner(Received(ProcessOwned::new(held))))
+        Ok(Bytes::from_owner(Received(Held::new(sample, &self.kept, &self.memory))))
     }
 
     /// Number of samples that were copied because too many were kept.
     pub fn copied(&self) -> u64 {
         self.copied
-    }
-}
-
-impl std::fmt::Debug for SampleReceiver {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("SampleReceiver").field("limits", &self.limits).finish_non_exhaustive()
     }
 }

@@ -3,9 +3,9 @@
 use crate::committed::Committed;
 use crate::error::{LoanError, SendError, ShmError};
 use crate::limits::{self, Limits};
-use crate::loaned::{self, Counted, LoanedSample, Uninitialised};
+use crate::loaned::{self, Held, LoanedSample, Uninitialised};
 use crate::node::SharedMemory;
-use crate::service::{self, Port, ServiceName};
+use crate::service::{self, ServiceName};
 use iceoryx2::port::publisher::Publisher;
 use iceoryx2::port::{BackpressureAction, LoanError as EngineLoanError};
 use iceoryx2::prelude::{AllocationStrategy, BackpressureStrategy};
@@ -14,6 +14,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The sending end of a connection.
+#[derive(Debug)]
 pub struct SampleSender {
     port: Publisher<Engine, [u8], ()>,
     id: u128,
@@ -32,15 +33,9 @@ impl SharedMemory {
     ///
     /// # Errors
     /// [`ShmError`] if the service does not exist, or is not one that [`receiver`](Self::receiver) has created.
-    pub fn sender(self: &Arc<Self>, name: &ServiceName, expected: usize) -> Result<SampleSender, ShmError> {
+    pub fn sender(self: &Arc<Self>, name: ServiceName, expected: usize) -> Result<SampleSender, ShmError> {
         limits::require(0)?;
         let (service, limits) = service::open(&self.node(), name)?;
-        SampleSender::new(&service, limits, expected, self)
-    }
-}
-
-impl SampleSender {
-    fn new(service: &Port, limits: Limits, expected: usize, memory: &Arc<SharedMemory>) -> Result<Self, ShmError> {
         let port = service
             .publisher_builder()
             .max_loaned_samples(limits.loans())
@@ -53,9 +48,11 @@ impl SampleSender {
             .map_err(|error| ShmError::engine("create a sending port", error))?;
         let id = port.id().value();
         let (committed, loans) = (Committed::default(), Arc::new(AtomicUsize::new(0)));
-        Ok(Self { port, id, limits, longest: 0, committed, loans, memory: memory.clone() })
+        Ok(SampleSender { port, id, limits, longest: 0, committed, loans, memory: self.clone() })
     }
+}
 
+impl SampleSender {
     /// The most samples that may be sent and not acknowledged. What is sent beyond is lost.
     pub fn in_flight(&self) -> usize {
         self.limits.in_flight()
@@ -83,7 +80,7 @@ impl SampleSender {
     }
 
     fn count(&self, sample: loaned::Sample) -> LoanedSample {
-        LoanedSample::new(sample, self.id, Counted::new(&self.loans), &self.memory)
+        LoanedSample { held: Held::new(sample, &self.loans, &self.memory), sender: self.id }
     }
 
     fn lend(&mut self, length: usize) -> Result<Uninitialised, LoanError> {
@@ -119,11 +116,5 @@ impl SampleSender {
             Ok(0) => Err(SendError::NoReceiver),
             Err(error) => Err(SendError::Engine(format!("{error:?}"))),
         }
-    }
-}
-
-impl std::fmt::Debug for SampleSender {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("SampleSender").field("id", &self.id).field("limits", &self.limits).finish_non_exhaustive()
     }
 }

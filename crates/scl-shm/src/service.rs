@@ -15,42 +15,28 @@ const ALIGNMENT: usize = 64;
 
 pub(crate) type Port = PortFactory<Engine, [u8], ()>;
 
-/// The name of the service of one connection. No other connection has it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ServiceName(String);
+/// The name of the service of one connection: a number, written as 32 hexadecimal digits. No other connection has it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ServiceName(pub u128);
 
 impl ServiceName {
-    /// Length of a name, in letters.
-    const LENGTH: usize = 32;
-
     /// A new name that cannot be guessed.
     pub fn unique() -> Self {
-        let random = || RandomState::new().build_hasher().finish();
-        Self(format!("{:016x}{:016x}", random(), u64::from(std::process::id()) ^ random().rotate_left(17)))
-    }
-
-    /// Parses what a peer has sent.
-    pub fn parse(text: &str) -> Option<Self> {
-        let is_ours = |byte: u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte);
-        (text.len() == Self::LENGTH && text.bytes().all(is_ours)).then(|| Self(text.to_owned()))
-    }
-
-    /// Its text.
-    pub fn as_str(&self) -> &str {
-        &self.0
+        let random = || u128::from(RandomState::new().build_hasher().finish());
+        Self(random() << 64 | (random() ^ u128::from(std::process::id())))
     }
 }
 
 impl fmt::Display for ServiceName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
+        write!(f, "{:032x}", self.0)
     }
 }
 
 /// Creates the service; the receiving end does, because its queue decides on the settings.
-pub(crate) fn create(node: &Node<Engine>, name: &ServiceName, limits: &Limits) -> Result<Port, ShmError> {
+pub(crate) fn create(node: &Node<Engine>, name: ServiceName, limits: &Limits) -> Result<Port, ShmError> {
     let failed = |error: &dyn fmt::Debug| ShmError::engine("create the connection's service", error);
-    let name = name.as_str().try_into().map_err(|error| failed(&error))?;
+    let name = name.to_string().as_str().try_into().map_err(|error| failed(&error))?;
     let alignment = Alignment::new(ALIGNMENT).ok_or_else(|| failed(&ALIGNMENT))?;
     let settings = node
         .service_builder(&name)
@@ -67,9 +53,9 @@ pub(crate) fn create(node: &Node<Engine>, name: &ServiceName, limits: &Limits) -
 }
 
 /// Opens the service that the receiving end has created, and returns its limits: the longest message is not known.
-pub(crate) fn open(node: &Node<Engine>, name: &ServiceName) -> Result<(Port, Limits), ShmError> {
+pub(crate) fn open(node: &Node<Engine>, name: ServiceName) -> Result<(Port, Limits), ShmError> {
     let failed = |error: &dyn fmt::Debug| ShmError::engine("open the connection's service", error);
-    let name = name.as_str().try_into().map_err(|error| failed(&error))?;
+    let name = name.to_string().as_str().try_into().map_err(|error| failed(&error))?;
     let service = node.service_builder(&name).publish_subscribe::<[u8]>().open().map_err(|error| failed(&error))?;
     let found = {
         use iceoryx2::service::port_factory::PortFactory as _;
@@ -89,20 +75,4 @@ pub(crate) fn open(node: &Node<Engine>, name: &ServiceName) -> Result<(Port, Lim
         return wrong("an unexpected number of samples");
     }
     Ok((service, limits))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_are_parsed_or_refused() {
-        let name = ServiceName::unique();
-        assert_eq!(ServiceName::parse(name.as_str()), Some(name.clone()));
-        assert_ne!(name, ServiceName::unique());
-        for wrong in ["", "abc", &"g".repeat(32), &"A".repeat(32), &"a".repeat(33), "../../../../../../../../etc/pass"]
-        {
-            assert_eq!(ServiceName::parse(wrong), None, "{wrong}");
-        }
-    }
 }

@@ -13,8 +13,8 @@ fn pair(queue: usize) -> Pair {
     let folder = TempDir::with_prefix("scl-shm").unwrap();
     let memory = SharedMemory::open(folder.path()).unwrap();
     let name = ServiceName::unique();
-    let receiver = memory.receiver(&name, Limits { queue, longest: 1 << 20 }).unwrap();
-    let sender = memory.sender(&name, 1000).unwrap();
+    let receiver = memory.receiver(name, Limits { queue, longest: 1 << 20 }).unwrap();
+    let sender = memory.sender(name, 1000).unwrap();
     Pair { sender, receiver, folder }
 }
 
@@ -122,19 +122,19 @@ fn services_are_found_by_their_name_only_and_once() {
     let Pair { folder, .. } = pair(1);
     let memory = SharedMemory::open(folder.path()).unwrap();
     let name = ServiceName::unique();
-    assert!(memory.sender(&name, 1).unwrap_err().to_string().contains("open the connection's service"));
+    assert!(memory.sender(name, 1).unwrap_err().to_string().contains("open the connection's service"));
     let limits = Limits { queue: 1, longest: 1 };
-    let _receiver = memory.receiver(&name, limits).unwrap();
-    assert!(memory.receiver(&name, limits).unwrap_err().to_string().contains("create the connection's service"));
-    let _sender = memory.sender(&name, 1).unwrap();
-    assert!(memory.sender(&name, 1).is_err(), "there is room for one");
+    let _receiver = memory.receiver(name, limits).unwrap();
+    assert!(memory.receiver(name, limits).unwrap_err().to_string().contains("create the connection's service"));
+    let _sender = memory.sender(name, 1).unwrap();
+    assert!(memory.sender(name, 1).is_err(), "there is room for one");
 }
 
 #[test]
 fn services_with_other_settings_are_refused() {
     let folder = TempDir::with_prefix("scl-shm").unwrap();
     let memory = SharedMemory::open(folder.path()).unwrap();
-    let foreign = |name: &ServiceName, overflow, publishers| {
+    let foreign = |name: ServiceName, overflow, publishers| {
         memory.foreign_service(name, |service| service.enable_safe_overflow(overflow).max_publishers(publishers))
     };
     for (overflow, publishers, expected) in [
@@ -143,8 +143,8 @@ fn services_with_other_settings_are_refused() {
         (false, 1, "the peer's service has room for more than one connection"),
     ] {
         let name = ServiceName::unique();
-        let _service = foreign(&name, overflow, publishers);
-        assert_eq!(memory.sender(&name, 1).unwrap_err().to_string(), expected);
+        let _service = foreign(name, overflow, publishers);
+        assert_eq!(memory.sender(name, 1).unwrap_err().to_string(), expected);
     }
 }
 

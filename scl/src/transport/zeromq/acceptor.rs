@@ -15,7 +15,7 @@ use super::shared_memory::Offer;
 use super::stream::{Stream, is_blocked};
 use super::tcp_user::UserChecks;
 use super::timer::Timer;
-use super::zmtp::{Decoder, Item, PeerReady, SclReady, ServiceId, SocketType, hello};
+use super::zmtp::{Decoder, Item, PeerReady, SclReady, SocketType, hello};
 use crate::runtime_dir::{OwnedPath, Seen, SystemDir};
 use crate::transport::{Endpoint, TransportError};
 use bytes::Bytes;
@@ -72,7 +72,7 @@ pub(super) struct Acceptor {
 struct Handshake {
     session: Session,
     /// The service that was offered.
-    service: Option<ServiceId>,
+    service: Option<u128>,
     deadline: Instant,
 }
 

@@ -155,8 +155,7 @@ impl Inbound {
     }
 
     fn take_sample(&mut self, sequence: u64, length: u64) -> Result<Bytes, Closed> {
-        let message = self.arriving.receive(sequence, length)?;
-        let waits = self.arriving.count_taken();
+        let (message, waits) = self.arriving.receive(sequence, length)?;
         // Its memory is not the socket's, so its bytes do not count.
         self.count_taken(0);
         if waits && !self.credit.as_ref().is_some_and(ReceiveCredit::is_deferred) {

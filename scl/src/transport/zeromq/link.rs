@@ -5,7 +5,7 @@ mod reading;
 use super::burst::{Burst, GATHERED};
 use super::credit::SendCredit;
 use super::session::{Closed, Session};
-use super::shared_memory::{SampleOutcome, Sharing};
+use super::shared_memory::Sharing;
 use super::topics::Topics;
 use super::waiting_report::WaitingReport;
 use super::zmtp::{FLUSH, Header, PeerReady, latched};
@@ -14,7 +14,6 @@ use crate::transport::link_count::LinkAlive;
 use crate::transport::{Disconnected, Driven, Frame, Link, Loan, Resumed, Sent};
 use bytes::{BufMut, BytesMut};
 use std::collections::VecDeque;
-use std::io;
 use std::task::Context;
 use std::time::{Duration, Instant};
 
@@ -168,9 +167,9 @@ impl SendLink {
     fn send_sample(&mut self, cx: &mut Context<'_>, message: &mut Frame) -> bool {
         let Some(credit) = &mut self.credit else { return false };
         let written = match self.sharing.send(message, credit.sent() + 1) {
-            SampleOutcome::Inline => return false,
-            SampleOutcome::Announce(command) => self.session.write(&command).and_then(|()| self.session.flush(cx)),
-            SampleOutcome::Lost(reason) => Err(io::Error::other(reason)),
+            Ok(None) => return false,
+            Ok(Some(command)) => self.session.write(&command).and_then(|()| self.session.flush(cx)),
+            Err(error) => Err(error),
         };
         // Also if that failed: the sample is gone, so the message is on its way, and lost with the connection. Its
         // bytes are not the socket's.

@@ -30,14 +30,3 @@ pub(super) use sending::Sharing;
 /// Messages up to this length go through the socket, which is faster for them.
 #[cfg(feature = "shm")]
 const INLINE: usize = 16 << 10;
-
-/// What became of a message that may be sent in shared memory.
-#[cfg_attr(not(feature = "shm"), expect(dead_code, reason = "every message goes through the socket"))]
-pub(super) enum SampleOutcome {
-    /// It was sent as a sample; this command announces it.
-    Announce([u8; 31]),
-    /// It is to be sent through the socket.
-    Inline,
-    /// It was consumed but not sent, for this reason; the connection is broken.
-    Lost(String),
-}

@@ -1,10 +1,10 @@
 //! Without the feature `shm`: every message goes through the socket.
 
 use super::super::zmtp::{PeerReady, ProtocolError, ShmReady};
-use super::SampleOutcome;
 use crate::runtime_dir::SystemDir;
 use crate::transport::{Endpoint, Frame, Loan, TransportError};
 use bytes::Bytes;
+use std::io;
 
 /// Nothing is offered.
 pub(in super::super) enum Offer {}
@@ -37,8 +37,8 @@ impl Sharing {
         false
     }
 
-    pub(in super::super) fn send(&mut self, _message: &mut Frame, _number: u64) -> SampleOutcome {
-        SampleOutcome::Inline
+    pub(in super::super) fn send(&mut self, _message: &mut Frame, _number: u64) -> io::Result<Option<[u8; 31]>> {
+        Ok(None)
     }
 
     pub(in super::super) fn acknowledge(&mut self, _number: u64) {}
@@ -60,12 +60,8 @@ impl Arriving {
         false
     }
 
-    pub(in super::super) fn receive(&mut self, _sequence: u64, _length: u64) -> Result<Bytes, ProtocolError> {
+    pub(in super::super) fn receive(&mut self, _sequence: u64, _length: u64) -> Result<(Bytes, bool), ProtocolError> {
         Err(ProtocolError::Sample("the peer sent a sample without shared memory".to_owned()))
-    }
-
-    pub(in super::super) fn count_taken(&mut self) -> bool {
-        false
     }
 
     pub(in super::super) fn acknowledged(&mut self) {}

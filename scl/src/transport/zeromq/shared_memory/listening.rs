@@ -1,6 +1,6 @@
 //! What a listening end checks when it is opened, and offers to each of its peers.
 
-use super::super::zmtp::{ServiceId, ShmReady};
+use super::super::zmtp::ShmReady;
 use crate::causes::text_with_causes;
 use crate::runtime_dir::SystemDir;
 use crate::transport::{Endpoint, TransportError};
@@ -35,16 +35,6 @@ impl Offer {
 
     /// What to offer to the next peer: a service of its own.
     pub(in super::super) fn next(&self) -> ShmReady {
-        ShmReady { service: ServiceId::of(&ServiceName::unique()) }
-    }
-}
-
-impl ServiceId {
-    fn of(name: &ServiceName) -> Option<Self> {
-        Self::parse(name.as_str())
-    }
-
-    pub(super) fn name(&self) -> Option<ServiceName> {
-        ServiceName::parse(&self.to_string())
+        ShmReady { service: Some(ServiceName::unique().0) }
     }
 }

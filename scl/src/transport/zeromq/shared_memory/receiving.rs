@@ -5,7 +5,7 @@ use crate::causes::text_with_causes;
 use crate::runtime_dir::SystemDir;
 use crate::transport::Endpoint;
 use bytes::Bytes;
-use scl_shm::{Limits, SampleReceiver, ServiceName, SharedMemory, ShmError};
+use scl_shm::{Limits, SampleReceiver, ServiceName, SharedMemory};
 
 /// Shared memory at the receiving side.
 pub(in super::super) struct Arriving {
@@ -21,9 +21,9 @@ impl Arriving {
     /// Opens shared memory if both ends have agreed on it. The peer has to be told if it [is open](Self::is_open).
     pub(in super::super) fn open(dir: &SystemDir, peer: &PeerReady, endpoint: &Endpoint) -> Self {
         let limits = Limits { queue: endpoint.queue, longest: endpoint.longest };
-        let service = peer.service.and_then(|service| service.name());
-        let receiver = service.and_then(|service| {
-            open(dir, &service, limits)
+        let receiver = peer.service.and_then(|service| {
+            SharedMemory::open(dir.folder())
+                .and_then(|memory| memory.receiver(ServiceName(service), limits))
                 .inspect_err(|error| {
                     let reason = text_with_causes(error);
                     tracing::warn!(endpoint = %endpoint.name, "cannot share memory with a sending peer: {reason}");
@@ -37,39 +37,30 @@ impl Arriving {
         self.receiver.is_some()
     }
 
-    /// Returns the sample that the peer has announced.
-    pub(in super::super) fn receive(&mut self, sequence: u64, length: u64) -> Result<Bytes, ProtocolError> {
-        let wrong = |reason: &dyn ToString| Err(ProtocolError::Sample(reason.to_string()));
+    /// Returns the sample that the peer has announced, and whether half of the window waits to be acknowledged.
+    pub(in super::super) fn receive(&mut self, sequence: u64, length: u64) -> Result<(Bytes, bool), ProtocolError> {
+        let wrong = |reason: &dyn ToString| ProtocolError::Sample(reason.to_string());
         let Some(receiver) = &mut self.receiver else {
-            return wrong(&"the peer sent a sample without shared memory");
+            return Err(wrong(&"the peer sent a sample without shared memory"));
         };
         if length > self.max_size {
             return Err(ProtocolError::TooLong { announced: length, limit: self.max_size });
         }
         self.received += 1;
         if sequence != self.received {
-            return wrong(&format!("the peer announced sample {sequence} instead of {}", self.received));
+            return Err(wrong(&format!("the peer announced sample {sequence} instead of {}", self.received)));
         }
         let copied = receiver.copied();
-        let message = receiver.receive(length).or_else(|error| wrong(&error))?;
+        let message = receiver.receive(length).map_err(|error| wrong(&error))?;
         if receiver.copied() > copied && receiver.copied().is_power_of_two() {
             let count = receiver.copied();
             tracing::warn!("copying messages from shared memory, {count} so far: too many are kept by the program");
         }
-        Ok(message)
-    }
-
-    /// Counts a sample. Returns true if half of the window waits to be acknowledged.
-    pub(in super::super) fn count_taken(&mut self) -> bool {
         self.unacknowledged += 1;
-        self.receiver.as_ref().is_some_and(|receiver| 2 * self.unacknowledged >= receiver.in_flight())
+        Ok((message, 2 * self.unacknowledged >= receiver.in_flight()))
     }
 
     pub(in super::super) fn acknowledged(&mut self) {
         self.unacknowledged = 0;
     }
-}
-
-fn open(dir: &SystemDir, service: &ServiceName, limits: Limits) -> Result<SampleReceiver, ShmError> {
-    SharedMemory::open(dir.folder())?.receiver(service, limits)
 }

@@ -1,13 +1,14 @@
 //! The sending side of a connection.
 
 use super::super::zmtp::{self, PeerReady};
-use super::{INLINE, SampleOutcome};
+use super::INLINE;
 use crate::causes::text_with_causes;
 use crate::runtime_dir::SystemDir;
 use crate::transport::{Frame, Loan, LoanedMemory};
 use bytes::Bytes;
-use scl_shm::{LoanedSample, SampleSender, ServiceName, SharedMemory, ShmError};
+use scl_shm::{LoanedSample, SampleSender, ServiceName, SharedMemory};
 use std::collections::VecDeque;
+use std::io;
 use std::path::PathBuf;
 
 /// The length for which the first segment has room. Longer messages make the engine allocate another one, once.
@@ -51,15 +52,14 @@ impl LoanedMemory for LoanedSample {
 
 impl Sharing {
     pub(in super::super) fn new(dir: &SystemDir, peer: &PeerReady) -> Self {
-        let agreed = |service: ServiceName| State::Agreed { service, folder: dir.folder().to_owned() };
-        let service = peer.service.and_then(|service| service.name());
-        Self { state: service.map_or(State::Off, agreed), inline: 0 }
+        let agreed = |service| State::Agreed { service: ServiceName(service), folder: dir.folder().to_owned() };
+        Self { state: peer.service.map_or(State::Off, agreed), inline: 0 }
     }
 
     /// Opens shared memory; the peer has opened it.
     pub(in super::super) fn open(&mut self) {
         let State::Agreed { service, folder } = std::mem::replace(&mut self.state, State::Off) else { return };
-        match open(&folder, &service) {
+        match SharedMemory::open(&folder).and_then(|memory| memory.sender(service, EXPECTED)) {
             Ok(sender) => {
                 self.state = State::Open(Box::new(Open { sender, sent: 0, unacknowledged: VecDeque::new() }));
             }
@@ -84,26 +84,28 @@ impl Sharing {
     }
 
     /// Sends a message as a sample, if it is long and there is memory. `number` is its number among all messages of the
-    /// connection. A loan of this link is taken from `message`; anything else is copied.
-    pub(in super::super) fn send(&mut self, message: &mut Frame, number: u64) -> SampleOutcome {
+    /// connection. A loan of this link is taken from `message`; anything else is copied. Returns the command that
+    /// announces the sample, or `None` if the message is to be sent through the socket.
+    ///
+    /// # Errors
+    /// The message was consumed but not sent; the connection is broken.
+    pub(in super::super) fn send(&mut self, message: &mut Frame, number: u64) -> io::Result<Option<[u8; 31]>> {
         let length = message.len();
         if !self.is_for(length) || !self.has_room() {
-            return SampleOutcome::Inline;
+            return Ok(None);
         }
-        let State::Open(open) = &mut self.state else { return SampleOutcome::Inline };
+        let State::Open(open) = &mut self.state else { return Ok(None) };
         let sample = match open.take(message).map_or_else(|| open.sender.copy(message.as_slice()), Ok) {
             Ok(sample) => sample,
             Err(error) => {
                 self.count_inline(&error);
-                return SampleOutcome::Inline;
+                return Ok(None);
             }
         };
-        if let Err(error) = open.sender.send(sample) {
-            return SampleOutcome::Lost(error.to_string());
-        }
+        open.sender.send(sample).map_err(io::Error::other)?;
         open.sent += 1;
         open.unacknowledged.push_back(number);
-        SampleOutcome::Announce(zmtp::sample(open.sent, length as u64))
+        Ok(Some(zmtp::sample(open.sent, length as u64)))
     }
 
     /// Handles an acknowledgement of all messages up to a number.
@@ -147,8 +149,4 @@ impl Open {
         let Frame::Loan(loan) = std::mem::replace(message, Frame::Bytes(Bytes::new())) else { return None };
         loan.downcast().ok().map(|sample| *sample)
     }
-}
-
-fn open(folder: &std::path::Path, service: &ServiceName) -> Result<SampleSender, ShmError> {
-    SharedMemory::open(folder)?.sender(service, EXPECTED)
 }

@@ -41,11 +41,11 @@ impl Liar {
         .await;
         let text = String::from_utf8_lossy(&heard).into_owned();
         let service = text.split(&format!("shm={},", memory_format().unwrap())).nth(1).unwrap()[..32].to_owned();
-        Self { stream, service: ServiceName::parse(&service).unwrap(), receiver }
+        Self { stream, service: ServiceName(u128::from_str_radix(&service, 16).unwrap()), receiver }
     }
 
     fn sender(&self, stage: &Stage) -> SampleSender {
-        SharedMemory::open(stage.dir.folder()).unwrap().sender(&self.service, 1).unwrap()
+        SharedMemory::open(stage.dir.folder()).unwrap().sender(self.service, 1).unwrap()
     }
 
     /// The puller closes the connection, and then serves a good pusher.

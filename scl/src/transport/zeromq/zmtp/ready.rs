@@ -19,8 +19,9 @@ const MOST_IN_FLIGHT: usize = 4096;
 pub(in crate::transport::zeromq) struct PeerReady {
     /// Present if the peer is an SCL end whose version is known.
     pub(in crate::transport::zeromq) scl: Option<SclReady>,
-    /// The service in which both ends share memory, if one offers that and both can.
-    pub(in crate::transport::zeromq) service: Option<ServiceId>,
+    /// The service in which both ends share memory, if one offers that and both can. READY has it only if it is the
+    /// peer that offers it.
+    pub(in crate::transport::zeromq) service: Option<u128>,
 }
 
 impl PeerReady {
@@ -50,24 +51,7 @@ pub(in crate::transport::zeromq) struct SclReady {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(in crate::transport::zeromq) struct ShmReady {
     /// A listening end offers this service.
-    pub(in crate::transport::zeromq) service: Option<ServiceId>,
-}
-
-/// The name of a service: hexadecimal digits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::transport::zeromq) struct ServiceId([u8; 32]);
-
-impl ServiceId {
-    pub(in crate::transport::zeromq) fn parse(text: &str) -> Option<Self> {
-        let digits: [u8; 32] = text.as_bytes().try_into().ok()?;
-        digits.iter().all(|digit| matches!(digit, b'0'..=b'9' | b'a'..=b'f')).then_some(Self(digits))
-    }
-}
-
-impl std::fmt::Display for ServiceId {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        self.0.iter().try_for_each(|&digit| std::fmt::Write::write_char(f, digit.into()))
-    }
+    pub(in crate::transport::zeromq) service: Option<u128>,
 }
 
 impl SclReady {
@@ -90,18 +74,16 @@ impl SclReady {
         }
         let mut ready = Self::default();
         for word in words {
-            if let Some(window) = word.strip_prefix("window=") {
-                ready.window = parse_window(window);
-            } else if word == "newest" {
-                ready.newest_only = true;
-            } else if word == "lossless" {
-                ready.lossless = true;
-            } else if let Some(requests) = word.strip_prefix("in-flight=") {
-                ready.in_flight = requests.parse().ok().filter(|&requests| requests <= MOST_IN_FLIGHT);
-            } else if word == "latched" {
-                ready.latched = true;
-            } else if let Some(shm) = word.strip_prefix("shm=") {
-                ready.shm = ShmReady::parse(shm)?;
+            match (word, word.split_once('=')) {
+                ("newest", _) => ready.newest_only = true,
+                ("lossless", _) => ready.lossless = true,
+                ("latched", _) => ready.latched = true,
+                (_, Some(("window", window))) => ready.window = parse_window(window),
+                (_, Some(("in-flight", requests))) => {
+                    ready.in_flight = requests.parse().ok().filter(|&requests| requests <= MOST_IN_FLIGHT);
+                }
+                (_, Some(("shm", shm))) => ready.shm = ShmReady::parse(shm)?,
+                _ => {}
             }
         }
         Ok(Some(ready))
@@ -117,7 +99,7 @@ impl ShmReady {
 
     fn encode(self) -> String {
         let Some(format) = memory_format() else { return String::new() };
-        let service = self.service.map_or_else(String::new, |service| format!(",{service}"));
+        let service = self.service.map_or_else(String::new, |service| format!(",{service:032x}"));
         format!(" shm={format}{service}")
     }
 
@@ -128,12 +110,18 @@ impl ShmReady {
         };
         match rest.strip_prefix(',') {
             Some(service) => {
-                let service = ServiceId::parse(service).ok_or(ProtocolError::MalformedReady)?;
+                let service = parse_service(service).ok_or(ProtocolError::MalformedReady)?;
                 Ok(Some(Self { service: Some(service) }))
             }
             None => Ok(rest.is_empty().then_some(Self { service: None })),
         }
     }
+}
+
+/// Reads the 32 hexadecimal digits that name a service.
+fn parse_service(text: &str) -> Option<u128> {
+    let are_digits = text.len() == 32 && text.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'));
+    u128::from_str_radix(text, 16).ok().filter(|_| are_digits)
 }
 
 /// A window of nothing would never let a message pass, so it counts as none.
@@ -175,7 +163,7 @@ pub(super) fn parse(socket: SocketType, mut properties: &[u8]) -> Result<PeerRea
         let shown = &peer[..peer.len().min(16)];
         return Err(ProtocolError::SocketType { own: socket, peer: shown.escape_ascii().to_string() });
     }
-    Ok(PeerReady { scl, service: None })
+    Ok(PeerReady { scl, service: scl.and_then(|scl| scl.shm).and_then(|shm| shm.service) })
 }
 
 fn split_property(properties: &[u8]) -> Option<(&[u8], &[u8], &[u8])> {
@@ -184,4 +172,18 @@ fn split_property(properties: &[u8]) -> Option<(&[u8], &[u8], &[u8])> {
     let length = rest.try_get_u32().ok()?;
     let (value, rest) = rest.split_at_checked(length as usize)?;
     Some((name, value, rest))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_services_are_parsed_or_refused() {
+        assert_eq!(parse_service("00112233445566778899aabbccddeeff"), Some(0x0011_2233_4455_6677_8899_aabb_ccdd_eeff));
+        for wrong in ["", "abc", &"g".repeat(32), &"A".repeat(32), &"a".repeat(33), "../../../../../../../../etc/pass"]
+        {
+            assert_eq!(parse_service(wrong), None, "{wrong}");
+        }
+    }
 }
