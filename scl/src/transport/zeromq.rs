@@ -40,7 +40,6 @@ mod tcp_user;
 mod tests;
 mod timer;
 mod topics;
-mod unread_limit;
 mod waiting_report;
 mod zmtp;
 

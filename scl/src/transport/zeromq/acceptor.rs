@@ -15,7 +15,7 @@ use super::shared_memory::Offer;
 use super::stream::{Stream, is_blocked};
 use super::tcp_user::UserChecks;
 use super::timer::Timer;
-use super::zmtp::{Decoder, Item, PeerReady, SclReady, SocketType, hello};
+use super::zmtp::{Decoder, Item, PeerReady, ProtocolError, SclReady, SocketType, hello};
 use crate::runtime_dir::{OwnedPath, Seen, SystemDir};
 use crate::transport::{Endpoint, TransportError};
 use bytes::Bytes;
@@ -24,7 +24,7 @@ use std::collections::VecDeque;
 use std::fs::File;
 use std::io;
 use std::sync::Arc;
-use std::task::{Context, Poll};
+use std::task::{Context, Poll, ready};
 use std::time::Duration;
 use tokio::runtime::Handle;
 use tokio::time::Instant;
@@ -45,7 +45,7 @@ const STRANGERS_PAUSE: Duration = Duration::from_millis(5);
 const RETRY: Duration = Duration::from_secs(1);
 
 pub(super) struct Acceptor {
-    dir: Arc<SystemDir>,
+    pub(super) dir: Arc<SystemDir>,
     kind: TransportKind,
     pub(super) endpoint: Endpoint,
     socket: SocketType,
@@ -98,11 +98,11 @@ impl Acceptor {
             listener,
             guard,
             restored: Seen::default(),
-            retry: Timer::new(),
+            retry: Timer::default(),
             reserve: Some(reserve().map_err(|error| TransportError::refused(&endpoint.name, &error))?),
-            pause: Timer::new(),
+            pause: Timer::default(),
             handshakes: VecDeque::new(),
-            limit: Timer::new(),
+            limit: Timer::default(),
             refusals: Refusals::default(),
             crowd: Refusals::default(),
         })
@@ -117,10 +117,6 @@ impl Acceptor {
             self.offer = Some(Offer::open(&self.dir, &self.endpoint)?);
         }
         Ok(self)
-    }
-
-    pub(super) fn dir(&self) -> &SystemDir {
-        &self.dir
     }
 
     /// Prepares for calls without a runtime.
@@ -166,11 +162,22 @@ impl Acceptor {
             self.pause.set_at(next.into());
         }
         let mut arrived = Vec::new();
-        let mut may_be_more = true;
+        let mut may_be_more = self.accept_waiting(cx, &mut arrived);
+        if !arrived.is_empty() && self.admit(cx, arrived, open) > 0 {
+            self.pause.set(STRANGERS_PAUSE);
+            // Polled so that it wakes the task.
+            may_be_more = self.pause.poll(cx).is_ready();
+        }
+        if may_be_more {
+            cx.waker().wake_by_ref();
+        }
+    }
+
+    /// Accepts connections. Returns false if none is left; the task is woken for the next one.
+    fn accept_waiting(&mut self, cx: &mut Context<'_>, arrived: &mut Vec<Accepted>) -> bool {
         for _ in 0..ACCEPTS {
             if self.pause.poll(cx).is_pending() {
-                may_be_more = false;
-                break;
+                return false;
             }
             match self.poll_accept(cx) {
                 Poll::Ready(Ok(accepted)) => arrived.push(accepted),
@@ -180,24 +187,13 @@ impl Acceptor {
                         arrived.clear();
                     }
                     if self.handle_failure(cx, &error) {
-                        may_be_more = false;
-                        break;
+                        return false;
                     }
                 }
-                Poll::Pending => {
-                    may_be_more = false;
-                    break;
-                }
+                Poll::Pending => return false,
             }
         }
-        if !arrived.is_empty() && self.admit(cx, arrived, open) > 0 {
-            self.pause.set(STRANGERS_PAUSE);
-            // Polled so that it wakes the task.
-            may_be_more = self.pause.poll(cx).is_ready();
-        }
-        if may_be_more {
-            cx.waker().wake_by_ref();
-        }
+        true
     }
 
     /// Begins the handshakes of this user's connections, and closes the others. Returns the number of those.
@@ -320,12 +316,10 @@ pub(super) fn poll_handshake(session: &mut Session, cx: &mut Context<'_>) -> Pol
     if !session.is_written() {
         session.flush(cx)?;
     }
-    match session.poll_item(cx) {
-        Poll::Ready(Ok(Item::Ready(peer))) => Poll::Ready(Ok(peer)),
-        Poll::Ready(Ok(_)) => Poll::Ready(Err(super::zmtp::ProtocolError::NotReady.into())),
-        Poll::Ready(Err(error)) => Poll::Ready(Err(error)),
-        Poll::Pending => Poll::Pending,
-    }
+    Poll::Ready(match ready!(session.poll_item(cx))? {
+        Item::Ready(peer) => Ok(peer),
+        _ => Err(ProtocolError::NotReady.into()),
+    })
 }
 
 /// Whether the process, or the machine, has no free file descriptor.

@@ -13,6 +13,7 @@ const STEPS: u32 = 10;
 /// For how long an answer counts for a caller that does not wait, and looks again.
 const FRESH: Duration = Duration::from_millis(1);
 
+#[derive(Default)]
 pub(super) struct CatchUp {
     /// Whether the sender holds messages until earlier ones are acknowledged.
     behind: bool,
@@ -29,9 +30,10 @@ pub(super) struct CatchUp {
 }
 
 /// What a sender has said about messages that are newer than those read.
-#[derive(PartialEq)]
+#[derive(PartialEq, Default)]
 enum Answer {
     /// Nothing that counts for the present call.
+    #[default]
     Forgotten,
     /// Nothing yet since the call began.
     Awaited,
@@ -41,19 +43,6 @@ enum Answer {
 }
 
 impl CatchUp {
-    pub(super) fn new() -> Self {
-        Self {
-            behind: false,
-            gave_up: false,
-            silent_steps: 0,
-            question: 0,
-            answered: 0,
-            answered_at: None,
-            answer: Answer::Forgotten,
-            timer: Timer::new(),
-        }
-    }
-
     /// The sender holds newer messages.
     pub(super) fn note_behind(&mut self) {
         (self.behind, self.gave_up) = (true, false);

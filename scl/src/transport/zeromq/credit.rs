@@ -128,15 +128,15 @@ impl ReceiveCredit {
         self.deferred.is_some()
     }
 
-    /// Notes that the caller will not see the message counted last. Returns the number to acknowledge, if any.
-    pub(super) fn skip_last(&mut self) -> Option<u64> {
+    /// Notes that the caller will not see the message counted last. Returns the numbers to acknowledge, if any.
+    pub(super) fn skip_last(&mut self) -> Option<(u64, u64)> {
         let deferred = self.deferred.as_mut()?;
         deferred.skipped.push_back(self.taken);
         deferred.advance(0)
     }
 
-    /// Acknowledges the oldest messages that the caller has seen. Returns the number to acknowledge, if any.
-    pub(super) fn acknowledge_deferred(&mut self, count: u64) -> Option<u64> {
+    /// Acknowledges the oldest messages that the caller has seen. Returns the numbers to acknowledge, if any.
+    pub(super) fn acknowledge_deferred(&mut self, count: u64) -> Option<(u64, u64)> {
         self.deferred.as_mut()?.advance(count)
     }
 
@@ -171,7 +171,8 @@ impl ReceiveCredit {
 }
 
 impl Deferred {
-    fn advance(&mut self, count: u64) -> Option<u64> {
+    /// What a caller acknowledges that passes messages on, a program has received.
+    fn advance(&mut self, count: u64) -> Option<(u64, u64)> {
         let before = self.acknowledged;
         self.pass_skipped();
         for _ in 0..count {
@@ -182,7 +183,7 @@ impl Deferred {
             self.skipped.front().is_none_or(|&number| number > self.acknowledged),
             "acknowledged out of order"
         );
-        (self.acknowledged > before).then_some(self.acknowledged)
+        (self.acknowledged > before).then_some((self.acknowledged, self.acknowledged))
     }
 
     fn pass_skipped(&mut self) {

@@ -13,11 +13,11 @@ use crate::runtime_dir::{self, Address, Seen, SystemDir};
 use crate::transport::Endpoint;
 use bytes::Bytes;
 use rustix::io::Errno;
+use rustix::net::addr::SocketAddrArg;
 use rustix::net::{AddressFamily, SocketAddrUnix, SocketFlags, SocketType as Kind, socket_with};
 use std::io;
 use std::net::SocketAddr;
 use std::os::fd::OwnedFd;
-use std::path::Path;
 use std::sync::Arc;
 use std::task::{Context, Poll, ready};
 use std::time::Duration;
@@ -35,8 +35,8 @@ const QUICK_ATTEMPTS: u32 = ATTEMPTS_PER_CHECK;
 const SLOW_RETRY: Duration = Duration::from_millis(500);
 
 pub(super) struct Dialler {
-    dir: Arc<SystemDir>,
-    endpoint: Endpoint,
+    pub(super) dir: Arc<SystemDir>,
+    pub(super) endpoint: Endpoint,
     socket: SocketType,
     hello: Bytes,
     runtime: Option<Handle>,
@@ -65,9 +65,9 @@ impl Dialler {
             socket,
             hello: hello(socket, scl).into(),
             runtime: Handle::try_current().ok(),
-            pause: Timer::new(),
+            pause: Timer::default(),
             handshake: None,
-            limit: Timer::new(),
+            limit: Timer::default(),
             attempts: 0,
             attempts_since_arrival: 0,
             arrived: Seen::default(),
@@ -84,14 +84,6 @@ impl Dialler {
         if let Some(session) = &mut self.handshake {
             session.detach();
         }
-    }
-
-    pub(super) fn dir(&self) -> &SystemDir {
-        &self.dir
-    }
-
-    pub(super) fn endpoint(&self) -> &Endpoint {
-        &self.endpoint
     }
 
     pub(super) fn refusal(&self) -> Option<String> {
@@ -129,10 +121,7 @@ impl Dialler {
             Poll::Ready(ready) => {
                 // A timer that goes on would wake a task that has nothing to do.
                 self.limit.clear();
-                Poll::Ready(ready.map(|peer| {
-                    let service = peer.scl.and_then(|scl| scl.shm).and_then(|shm| shm.service);
-                    (session, PeerReady { service, ..peer })
-                }))
+                Poll::Ready(ready.map(|peer| (session, peer)))
             }
             Poll::Pending => {
                 if self.limit.poll(cx).is_ready() {
@@ -171,15 +160,16 @@ impl Dialler {
         }
         let stream = match address.ok_or(io::ErrorKind::NotFound)? {
             Address::Ipc(path) => {
-                self.adopt(connect_unix(&path)?, |socket| UnixStream::from_std(socket.into()).map(Socket::Unix))?
+                let socket = connect(AddressFamily::UNIX, &SocketAddrUnix::new(&*path)?)?;
+                self.adopt(socket, |socket| UnixStream::from_std(socket.into()).map(Socket::Unix))?
             }
             Address::Tcp(address) => {
-                let stream = connect_to_own_user(address).inspect_err(|error| {
+                let socket = connect_to_own_user(address).inspect_err(|error| {
                     if error.kind() == io::ErrorKind::PermissionDenied {
                         self.warn_once(&error.to_string());
                     }
                 })?;
-                self.adopt(stream, |socket| TcpStream::from_std(socket.into()).map(Socket::Tcp))?
+                self.adopt(socket, |socket| TcpStream::from_std(socket.into()).map(Socket::Tcp))?
             }
         };
         let decoder = Decoder::new(self.socket, self.endpoint.max_size);
@@ -215,17 +205,12 @@ impl Dialler {
     }
 }
 
-fn connect_unix(path: &Path) -> io::Result<OwnedFd> {
-    let socket = socket_with(AddressFamily::UNIX, Kind::STREAM, flags(), None)?;
-    rustix::net::connect(&socket, &SocketAddrUnix::new(path)?)?;
-    Ok(socket)
-}
-
 /// Connects if the program that listens belongs to this program's user.
 fn connect_to_own_user(address: SocketAddr) -> io::Result<OwnedFd> {
     let mut checks = UserChecks::default();
     let listener = checks.check_listener(address)?;
-    let stream = connect_tcp(address)?;
+    let family = if address.is_ipv4() { AddressFamily::INET } else { AddressFamily::INET6 };
+    let stream = connect(family, &address)?;
     // The port may have been released and bound by another user in between.
     if !checks.is_same_listener(address, listener)? {
         return Err(io::ErrorKind::ConnectionRefused.into());
@@ -234,18 +219,15 @@ fn connect_to_own_user(address: SocketAddr) -> io::Result<OwnedFd> {
 }
 
 /// Starts connecting; reading and writing report how that ends.
-fn connect_tcp(address: SocketAddr) -> io::Result<OwnedFd> {
-    let family = if address.is_ipv4() { AddressFamily::INET } else { AddressFamily::INET6 };
-    let socket = socket_with(family, Kind::STREAM, flags(), None)?;
-    rustix::net::sockopt::set_tcp_nodelay(&socket, true)?;
-    match rustix::net::connect(&socket, &address) {
+fn connect(family: AddressFamily, address: &impl SocketAddrArg) -> io::Result<OwnedFd> {
+    let socket = socket_with(family, Kind::STREAM, SocketFlags::CLOEXEC | SocketFlags::NONBLOCK, None)?;
+    if family != AddressFamily::UNIX {
+        rustix::net::sockopt::set_tcp_nodelay(&socket, true)?;
+    }
+    match rustix::net::connect(&socket, address) {
         Ok(()) | Err(Errno::INPROGRESS) => Ok(socket),
         Err(error) => Err(error.into()),
     }
-}
-
-fn flags() -> SocketFlags {
-    SocketFlags::CLOEXEC | SocketFlags::NONBLOCK
 }
 
 /// A number from 0 to 1 that differs between endpoints and attempts.

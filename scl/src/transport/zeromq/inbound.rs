@@ -68,7 +68,7 @@ impl Inbound {
             finishing: false,
             finished: false,
             emptied: false,
-            catch_up: CatchUp::new(),
+            catch_up: CatchUp::default(),
         }
     }
 
@@ -101,18 +101,14 @@ impl Inbound {
             return Poll::Ready(Ok(message));
         }
         loop {
-            match self.next_buffered() {
-                Ok(Some(message)) => return Poll::Ready(Ok(message)),
-                Ok(None) => {}
-                Err(closed) => return Poll::Ready(Err(closed)),
+            if let Some(message) = self.next_buffered()? {
+                return Poll::Ready(Ok(message));
             }
             if let Some(closed) = self.closed.take() {
                 return Poll::Ready(Err(closed));
             }
-            match self.session.poll_fill(cx) {
-                Poll::Ready(Ok(())) => {}
-                Poll::Ready(Err(closed)) => return Poll::Ready(Err(closed)),
-                Poll::Pending => break,
+            if self.session.poll_fill(cx)?.is_pending() {
+                break;
             }
         }
         if !self.session.is_written() {
@@ -134,8 +130,8 @@ impl Inbound {
                         return Ok(Some(body));
                     }
                     self.malformed += 1;
-                    let number = self.credit.as_mut().and_then(ReceiveCredit::skip_last);
-                    self.write_acknowledgement(number.map(settled));
+                    let numbers = self.credit.as_mut().and_then(ReceiveCredit::skip_last);
+                    self.write_acknowledgement(numbers);
                 }
                 Item::Command(Command::Sample { sequence, length }) => {
                     return self.take_sample(sequence, length).map(Some);
@@ -211,8 +207,8 @@ impl Inbound {
 
     /// Acknowledges the oldest messages that were returned, if the caller does that.
     pub(super) fn acknowledge_deferred(&mut self, count: u64) {
-        let number = self.credit.as_mut().and_then(|credit| credit.acknowledge_deferred(count));
-        self.write_acknowledgement(number.map(settled));
+        let numbers = self.credit.as_mut().and_then(|credit| credit.acknowledge_deferred(count));
+        self.write_acknowledgement(numbers);
     }
 
     /// Asks the sender to send nothing more.
@@ -326,7 +322,7 @@ impl Inbound {
     fn may_be_behind(&self) -> bool {
         // A peer without credit cannot be asked; one that ignores the window is not worth waiting for.
         let can_catch_up = self.credit.is_some() && self.closed.is_none() && self.ahead.len() < MOST_AHEAD;
-        can_catch_up && self.catch_up.may_be_behind(self.session.buffered() > 0)
+        can_catch_up && self.catch_up.may_be_behind(self.session.decoder.buffered() > 0)
     }
 
     fn acknowledge_all(&mut self) {
@@ -337,10 +333,10 @@ impl Inbound {
 
     /// Reads without the runtime. Returns true if something had arrived.
     fn fill_raw(&mut self) -> bool {
-        let before = self.session.buffered();
+        let before = self.session.decoder.buffered();
         while self.closed.is_none()
             && self.ahead.len() < MOST_AHEAD
-            && (self.session.buffered() < READ_AHEAD || self.session.is_in_frame())
+            && (self.session.decoder.buffered() < READ_AHEAD || self.session.decoder.is_in_frame())
         {
             match self.session.fill_raw() {
                 Ok(true) => {}
@@ -348,7 +344,7 @@ impl Inbound {
                 Err(closed) => self.closed = Some(closed),
             }
         }
-        self.session.buffered() > before
+        self.session.decoder.buffered() > before
     }
 
     /// Decodes what has been read, so that what the sender says about newer messages is known.
@@ -361,9 +357,4 @@ impl Inbound {
             }
         }
     }
-}
-
-/// What a caller acknowledges that passes messages on, a program has received.
-fn settled(number: u64) -> (u64, u64) {
-    (number, number)
 }

@@ -20,9 +20,7 @@ impl Publisher {
     pub(super) fn open(dir: &Arc<SystemDir>, kind: TransportKind, endpoint: &Endpoint) -> Result<Self, TransportError> {
         let Endpoint { lossless, latched, .. } = *endpoint;
         let scl = zmtp::SclReady { lossless, latched, ..zmtp::SclReady::default() };
-        // What subscribers send is short, whatever the limit for messages is.
-        let endpoint = Endpoint { max_size: zmtp::COMMAND_LIMIT, ..endpoint.clone() };
-        let acceptor = Acceptor::open(dir, kind, &endpoint, SocketType::XPub, scl)?.offering_memory()?;
+        let acceptor = Acceptor::open(dir, kind, endpoint, SocketType::XPub, scl)?.offering_memory()?;
         Ok(Self { subscribers: Subscribers::new(acceptor), links: Arc::default() })
     }
 }
@@ -31,7 +29,7 @@ impl Sender for Publisher {
     fn poll_peer(&mut self, cx: &mut Context<'_>) -> Poll<Peer> {
         let subscriber = ready!(self.subscribers.poll_next(cx, self.links.count()));
         let Subscriber { session, ready, resumed, topics } = subscriber;
-        let link = SendLink::new(self.subscribers.dir(), session, &ready, self.links.new_link());
+        let link = SendLink::new(&self.subscribers.acceptor.dir, session, &ready, self.links.new_link());
         Poll::Ready(Peer { kind: ready.kind(), link: Box::new(link.subscribed(topics, resumed)) })
     }
 

@@ -32,7 +32,7 @@ impl Puller {
 
     fn accept(&mut self, cx: &mut Context<'_>) {
         while let Poll::Ready((session, ready)) = self.acceptor.poll_session(cx, self.pushers.len()) {
-            let mut inbound = Inbound::new(session, &ready, &self.acceptor.endpoint, self.acceptor.dir());
+            let mut inbound = Inbound::new(session, &ready, &self.acceptor.endpoint, &self.acceptor.dir);
             if self.finishing {
                 inbound.finish();
             }

@@ -16,10 +16,8 @@ pub(super) struct Pusher {
 
 impl Pusher {
     pub(super) fn open(dir: &Arc<SystemDir>, endpoint: &Endpoint) -> Self {
-        // A puller sends commands only.
-        let endpoint = Endpoint { max_size: zmtp::COMMAND_LIMIT, ..endpoint.clone() };
         let scl = zmtp::SclReady { lossless: endpoint.lossless, ..zmtp::SclReady::default() };
-        let dialler = Dialler::new(dir, &endpoint, SocketType::Push, scl);
+        let dialler = Dialler::new(dir, endpoint, SocketType::Push, scl);
         Self { dialler, links: Arc::default() }
     }
 }
@@ -31,7 +29,7 @@ impl Sender for Pusher {
             return Poll::Pending;
         }
         let (session, ready) = ready!(self.dialler.poll_connected(cx));
-        let link = SendLink::new(self.dialler.dir(), session, &ready, self.links.new_link());
+        let link = SendLink::new(&self.dialler.dir, session, &ready, self.links.new_link());
         Poll::Ready(Peer { kind: ready.kind(), link: Box::new(link) })
     }
 

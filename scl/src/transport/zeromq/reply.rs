@@ -6,7 +6,6 @@
 use super::TransportKind;
 use super::acceptor::Acceptor;
 use super::session::{Closed, Session};
-use super::unread_limit::UnreadLimit;
 use super::zmtp::{Header, Item, Message, ProtocolError, SclReady, SocketType, bodies, refused};
 use crate::runtime_dir::SystemDir;
 use crate::sync::{keep_waker, lock};
@@ -18,19 +17,18 @@ use std::task::{Context, Poll, Waker, ready};
 
 pub(super) struct ReplyingEnd {
     acceptor: Acceptor,
-    requesters: RoundRobin<Arc<Client>>,
+    requesters: RoundRobin<Arc<Mutex<Exchange>>>,
     malformed: u64,
 }
 
-/// A requester.
-struct Client(Mutex<Exchange>);
-
+/// What is exchanged with one requester.
 struct Exchange {
     /// Gone once it broke, or the replying end was dropped.
     session: Option<Session>,
     /// Whether the requester understands SCL's commands.
     is_scl: bool,
-    unread: UnreadLimit,
+    /// How many requests the requester may have sent without a reply, if more than one.
+    in_flight: usize,
     /// A request that was read while looking for commands, which are handled also while the program takes no requests.
     ahead: Option<Message>,
     /// The task of the replying end, to be woken for what a reply could not write.
@@ -45,10 +43,10 @@ impl ReplyingEnd {
 
     fn accept(&mut self, cx: &mut Context<'_>) {
         while let Poll::Ready((session, ready)) = self.acceptor.poll_session(cx, self.requesters.connections.len()) {
-            let unread = UnreadLimit::of(ready.scl.and_then(|scl| scl.in_flight));
+            let in_flight = ready.scl.and_then(|scl| scl.in_flight).unwrap_or(0);
             let is_scl = ready.scl.is_some();
-            let exchange = Exchange { session: Some(session), is_scl, unread, ahead: None, task: None };
-            self.requesters.connections.push(Arc::new(Client(Mutex::new(exchange))));
+            let exchange = Exchange { session: Some(session), is_scl, in_flight, ahead: None, task: None };
+            self.requesters.connections.push(Arc::new(Mutex::new(exchange)));
         }
     }
 }
@@ -58,15 +56,10 @@ impl Replier for ReplyingEnd {
         loop {
             let malformed = &mut self.malformed;
             let polled = self.requesters.poll(|client| {
-                let mut exchange = lock(&client.0);
-                exchange.poll_request(cx, malformed).map(|request| match request {
-                    Ok((envelope, body)) => {
-                        Some(IncomingRequest { body, envelope, path: Arc::clone(client) as Arc<dyn ReplyPath> })
-                    }
-                    Err(error) => {
-                        exchange.lose(&error);
-                        None
-                    }
+                let mut exchange = lock(client);
+                exchange.poll_request(cx, malformed).map(|request| {
+                    let (envelope, body) = request.inspect_err(|error| exchange.lose(error)).ok()?;
+                    Some(IncomingRequest { body, envelope, path: Arc::clone(client) as Arc<dyn ReplyPath> })
                 })
             });
             if polled.is_ready() {
@@ -85,15 +78,10 @@ impl Replier for ReplyingEnd {
         self.accept(cx);
         let mut is_written = true;
         self.requesters.connections.retain(|client| {
-            let mut exchange = lock(&client.0);
-            match exchange.drive(cx) {
-                Ok(written) => is_written &= written,
-                Err(error) => {
-                    exchange.lose(&error);
-                    return false;
-                }
-            }
-            true
+            let mut exchange = lock(client);
+            let driven = exchange.drive(cx);
+            is_written &= *driven.as_ref().unwrap_or(&true);
+            driven.inspect_err(|error| exchange.lose(error)).is_ok()
         });
         is_written
     }
@@ -109,7 +97,7 @@ impl Replier for ReplyingEnd {
     fn detach(&mut self) {
         self.acceptor.detach();
         for client in &self.requesters.connections {
-            if let Some(session) = &mut lock(&client.0).session {
+            if let Some(session) = &mut lock(client).session {
                 session.detach();
             }
         }
@@ -120,7 +108,7 @@ impl Drop for ReplyingEnd {
     fn drop(&mut self) {
         // Requests that are not answered yet must not keep connections open.
         for client in &self.requesters.connections {
-            lock(&client.0).session = None;
+            lock(client).session = None;
         }
     }
 }
@@ -142,13 +130,9 @@ impl Exchange {
 
     fn poll_request(&mut self, cx: &mut Context<'_>, malformed: &mut u64) -> Poll<Result<(Bytes, Bytes), Closed>> {
         loop {
-            match self.poll_message(cx) {
-                Poll::Ready(Ok(message)) => match split(message) {
-                    Some(request) => return Poll::Ready(Ok(request)),
-                    None => *malformed += 1,
-                },
-                Poll::Ready(Err(error)) => return Poll::Ready(Err(error)),
-                Poll::Pending => return Poll::Pending,
+            match split(ready!(self.poll_message(cx))?) {
+                Some(request) => return Poll::Ready(Ok(request)),
+                None => *malformed += 1,
             }
         }
     }
@@ -180,7 +164,7 @@ impl Exchange {
 
     fn reply(&mut self, envelope: &[u8], body: &Bytes) -> Result<(), Closed> {
         let session = self.session.as_mut().ok_or(Closed::Eof)?;
-        if self.unread.is_reached(session) {
+        if session.is_unread(self.in_flight) {
             return Err(ProtocolError::NotReading.into());
         }
         session.write_message(envelope, Header::new(0, body.len()).as_bytes(), body)?;
@@ -192,7 +176,7 @@ impl Exchange {
     fn refuse(&mut self, envelope: &[u8]) {
         let number = bodies(envelope).next().and_then(|frame| <[u8; 8]>::try_from(frame).ok());
         if let (Some(session), Some(number), true) = (&mut self.session, number, self.is_scl)
-            && !self.unread.is_reached(session)
+            && !session.is_unread(self.in_flight)
         {
             // A connection that broke is noticed when it is polled.
             let _written = session.write(&refused(u64::from_be_bytes(number)));
@@ -209,13 +193,13 @@ impl Exchange {
     }
 }
 
-impl ReplyPath for Client {
+impl ReplyPath for Mutex<Exchange> {
     fn refuse(&self, envelope: &Bytes) {
-        lock(&self.0).refuse(envelope);
+        lock(self).refuse(envelope);
     }
 
     fn reply(&self, envelope: &Bytes, body: Bytes) -> Result<(), RequesterGone> {
-        let mut exchange = lock(&self.0);
+        let mut exchange = lock(self);
         exchange.reply(envelope, &body).map_err(|error| {
             tracing::debug!(%error, "a requester left before it was answered");
             exchange.session = None;

@@ -5,7 +5,6 @@
 
 use super::dialler::Dialler;
 use super::session::{Closed, Session};
-use super::unread_limit::UnreadLimit;
 use super::zmtp::{Command, Header, Item, MORE, Message, SclReady, SocketType, bodies};
 use crate::runtime_dir::SystemDir;
 use crate::transport::{Answer, Endpoint, Requester};
@@ -17,7 +16,8 @@ use std::time::Duration;
 pub(super) struct Caller {
     dialler: Dialler,
     replier: Option<Session>,
-    unread: UnreadLimit,
+    /// How many requests may be without a reply, if more than one.
+    in_flight: usize,
 }
 
 impl Caller {
@@ -25,7 +25,7 @@ impl Caller {
         let in_flight = Some(endpoint.in_flight).filter(|&requests| requests > 1);
         let ready = SclReady { in_flight, ..SclReady::default() };
         let dialler = Dialler::new(dir, endpoint, SocketType::Dealer, ready);
-        Self { dialler, replier: None, unread: UnreadLimit::of(in_flight) }
+        Self { dialler, replier: None, in_flight: in_flight.unwrap_or(0) }
     }
 
     /// Returns the next reply or refusal over the current connection.
@@ -46,18 +46,18 @@ impl Caller {
     }
 
     fn lose(&mut self, error: &Closed) {
-        tracing::debug!(endpoint = %self.dialler.endpoint().name, %error, "lost the replier");
+        tracing::debug!(endpoint = %self.dialler.endpoint.name, %error, "lost the replier");
         self.replier = None;
     }
 
     fn try_request(
         replier: &mut Session,
-        unread: UnreadLimit,
+        in_flight: usize,
         cx: &mut Context<'_>,
         id: u64,
         body: &Bytes,
     ) -> Result<(), Closed> {
-        if unread.is_reached(replier) {
+        if replier.is_unread(in_flight) {
             return Err(super::zmtp::ProtocolError::NotReading.into());
         }
         replier.write_message(&envelope(id), Header::new(0, body.len()).as_bytes(), body)?;
@@ -83,13 +83,10 @@ impl Requester for Caller {
 
     fn request(&mut self, cx: &mut Context<'_>, id: u64, body: Bytes) -> Result<(), Bytes> {
         let Some(replier) = &mut self.replier else { return Err(body) };
-        match Self::try_request(replier, self.unread, cx, id, &body) {
-            Ok(()) => Ok(()),
-            Err(error) => {
-                self.lose(&error);
-                Err(body)
-            }
-        }
+        Self::try_request(replier, self.in_flight, cx, id, &body).map_err(|error| {
+            self.lose(&error);
+            body
+        })
     }
 
     fn is_connected(&self) -> bool {
@@ -98,13 +95,10 @@ impl Requester for Caller {
 
     fn poll_answer(&mut self, cx: &mut Context<'_>) -> Poll<Answer> {
         let Some(replier) = &mut self.replier else { return Poll::Ready(Answer::Lost) };
-        match ready!(Self::poll_reply(replier, cx)) {
-            Ok(answer) => Poll::Ready(answer),
-            Err(error) => {
-                self.lose(&error);
-                Poll::Ready(Answer::Lost)
-            }
-        }
+        Poll::Ready(ready!(Self::poll_reply(replier, cx)).unwrap_or_else(|error| {
+            self.lose(&error);
+            Answer::Lost
+        }))
     }
 
     fn wait(&mut self, within: Duration) -> bool {

@@ -13,6 +13,10 @@ use std::time::Duration;
 const COPIED: usize = 128;
 /// How many pieces may wait for a peer that does not read: a batch of messages, and answers to its heartbeats.
 const PIECES: usize = 64;
+/// The pieces in which a request or a reply waits: its envelope, the header of its last frame, and its body.
+const PIECES_OF_A_MESSAGE: usize = 3;
+/// How many bytes of requests or replies may wait for a peer that does not read.
+const UNREAD_BYTES: usize = 1 << 20;
 
 /// Why a connection is over.
 #[derive(Debug, thiserror::Error)]
@@ -29,7 +33,7 @@ pub(super) enum Closed {
 
 pub(super) struct Session {
     stream: Stream,
-    decoder: Decoder,
+    pub(super) decoder: Decoder,
     /// What the operating system has not taken yet; the first piece may be written in part.
     unwritten: VecDeque<Bytes>,
     unwritten_bytes: usize,
@@ -122,27 +126,15 @@ impl Session {
         self.stream.is_immediate()
     }
 
-    /// Returns true if a frame has arrived in part only, and no other before it.
-    pub(super) fn is_in_frame(&self) -> bool {
-        self.decoder.is_in_frame()
-    }
-
-    /// Number of received bytes that have not been decoded.
-    pub(super) fn buffered(&self) -> usize {
-        self.decoder.buffered()
-    }
-
     pub(super) fn is_written(&self) -> bool {
         self.unwritten.is_empty()
     }
 
-    pub(super) fn unwritten_bytes(&self) -> usize {
-        self.unwritten_bytes
-    }
-
-    /// Number of pieces that wait to be written.
-    pub(super) fn unwritten_pieces(&self) -> usize {
-        self.unwritten.len()
+    /// Returns true if too much waits for a requester or replier that does not read: then it is disconnected. There is
+    /// room for this number of messages however long they are.
+    pub(super) fn is_unread(&self, messages: usize) -> bool {
+        let has_room = self.unwritten.len() < messages.saturating_mul(PIECES_OF_A_MESSAGE);
+        !has_room && (self.unwritten.len() >= PIECES || self.unwritten_bytes >= UNREAD_BYTES)
     }
 
     /// Writes encoded frames, or keeps what the operating system does not take.

@@ -113,11 +113,7 @@ impl Drop for Stream {
         let mut scratch = [MaybeUninit::uninit(); 4096];
         let mut read =
             || is_tcp && matches!(rustix::net::recv(self.as_fd(), &mut scratch[..], RecvFlags::DONTWAIT), Ok((_, 1..)));
-        for _ in 0..64 {
-            if !read() {
-                break;
-            }
-        }
+        let _is_more_left = (0..64).all(|_| read());
     }
 }
 

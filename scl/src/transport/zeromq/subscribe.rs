@@ -39,7 +39,7 @@ impl Subscriber {
             let _reported_by_reading = session.write(&resume(self.resumed));
         }
         let _reported_by_reading = session.write(SUBSCRIBE_ALL);
-        let mut inbound = Inbound::new(session, &ready, self.dialler.endpoint(), self.dialler.dir());
+        let mut inbound = Inbound::new(session, &ready, &self.dialler.endpoint, &self.dialler.dir);
         if self.finishing {
             inbound.finish();
         }
@@ -58,11 +58,11 @@ impl Receiver for Subscriber {
             self.malformed += publisher.take_malformed();
             match next {
                 Poll::Ready(Ok(message)) => {
-                    self.untold += u64::from(self.dialler.endpoint().deferred.is_some());
+                    self.untold += u64::from(self.dialler.endpoint.deferred.is_some());
                     return Poll::Ready(message);
                 }
                 Poll::Ready(Err(error)) => {
-                    tracing::debug!(endpoint = %self.dialler.endpoint().name, %error, "lost the publisher");
+                    tracing::debug!(endpoint = %self.dialler.endpoint.name, %error, "lost the publisher");
                     self.resumed.taken += self.publisher.take().map_or(0, |lost| lost.taken());
                     self.stale += std::mem::take(&mut self.untold);
                 }

@@ -4,12 +4,11 @@ use super::acceptor::Acceptor;
 use super::session::{Closed, Session};
 use super::topics::Topics;
 use super::zmtp::{Command, Item, PeerReady};
-use crate::runtime_dir::SystemDir;
 use crate::transport::Resumed;
 use std::task::{Context, Poll, ready};
 
 pub(super) struct Subscribers {
-    acceptor: Acceptor,
+    pub(super) acceptor: Acceptor,
     /// Connections that have not subscribed to anything yet.
     unsubscribed: Vec<Subscriber>,
 }
@@ -25,10 +24,6 @@ pub(super) struct Subscriber {
 impl Subscribers {
     pub(super) fn new(acceptor: Acceptor) -> Self {
         Self { acceptor, unsubscribed: Vec::new() }
-    }
-
-    pub(super) fn dir(&self) -> &SystemDir {
-        self.acceptor.dir()
     }
 
     pub(super) fn detach(&mut self) {

@@ -5,7 +5,7 @@ use super::acceptor::Acceptor;
 use super::session::{Closed, Session};
 use super::subscribers::{Subscriber, Subscribers};
 use super::topics::Topics;
-use super::zmtp::{COMMAND_LIMIT, Header, MORE, SclReady, SocketType};
+use super::zmtp::{Header, MORE, SclReady, SocketType};
 use crate::runtime_dir::SystemDir;
 use crate::transport::{self, Endpoint, TransportError};
 use bytes::{BufMut, Bytes, BytesMut};
@@ -37,8 +37,7 @@ struct Observer {
 
 impl Tap {
     pub(super) fn open(dir: &Arc<SystemDir>, kind: TransportKind, endpoint: &Endpoint) -> Result<Self, TransportError> {
-        let endpoint = Endpoint { max_size: COMMAND_LIMIT, ..endpoint.clone() };
-        let acceptor = Acceptor::open(dir, kind, &endpoint, SocketType::XPub, SclReady::default())?;
+        let acceptor = Acceptor::open(dir, kind, endpoint, SocketType::XPub, SclReady::default())?;
         let (subscribers, observers, encoded) = (Subscribers::new(acceptor), Vec::new(), BytesMut::new());
         Ok(Self { subscribers, observers, latched: None, encoded, dropped: 0 })
     }

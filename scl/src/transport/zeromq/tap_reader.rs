@@ -29,12 +29,6 @@ struct Subscribed {
     first: Option<Observation>,
 }
 
-/// What a tap says.
-enum TapItem {
-    Pong,
-    Observed(Observation),
-}
-
 impl TapReader {
     /// Called inside a runtime.
     pub(crate) fn open(dir: &Arc<SystemDir>, endpoint: String) -> Self {
@@ -43,7 +37,7 @@ impl TapReader {
     }
 
     pub(crate) fn endpoint(&self) -> &str {
-        &self.dialler.endpoint().name
+        &self.dialler.endpoint.name
     }
 
     pub(crate) fn rejected(&self) -> u64 {
@@ -60,7 +54,7 @@ impl TapReader {
             match ready!(tap.poll_event(&mut self.rejected, cx)) {
                 Ok(event) => return Poll::Ready(event),
                 Err(error) => {
-                    tracing::debug!(endpoint = %self.dialler.endpoint().name, %error, "lost the tap");
+                    tracing::debug!(endpoint = %self.dialler.endpoint.name, %error, "lost the tap");
                     if self.tap.take().is_some_and(|tap| tap.is_confirmed) {
                         return Poll::Ready(TapEvent::Disconnected);
                     }
@@ -84,26 +78,27 @@ impl Subscribed {
         loop {
             let said = ready!(self.poll_said(rejected, cx))?;
             let was_confirmed = std::mem::replace(&mut self.is_confirmed, true);
-            match said {
-                TapItem::Observed(observed) if was_confirmed => return Poll::Ready(Ok(TapEvent::Observed(observed))),
-                TapItem::Observed(observed) => self.first = Some(observed),
-                TapItem::Pong if was_confirmed => continue,
-                TapItem::Pong => {}
+            if !was_confirmed {
+                self.first = said;
+                return Poll::Ready(Ok(TapEvent::Connected));
             }
-            return Poll::Ready(Ok(TapEvent::Connected));
+            if let Some(observed) = said {
+                return Poll::Ready(Ok(TapEvent::Observed(observed)));
+            }
         }
     }
 
-    fn poll_said(&mut self, rejected: &mut u64, cx: &mut Context<'_>) -> Poll<Result<TapItem, Closed>> {
+    /// Returns the next message, or `None` for the answer to the heartbeat.
+    fn poll_said(&mut self, rejected: &mut u64, cx: &mut Context<'_>) -> Poll<Result<Option<Observation>, Closed>> {
         loop {
             if !self.session.is_written() {
                 self.session.flush(cx)?;
             }
             match ready!(self.session.poll_item(cx))? {
-                Item::Command(Command::Pong) => return Poll::Ready(Ok(TapItem::Pong)),
+                Item::Command(Command::Pong) => return Poll::Ready(Ok(None)),
                 Item::Message(message) => match decode(&message) {
-                    Some(observed) => return Poll::Ready(Ok(TapItem::Observed(observed))),
                     None => *rejected += 1,
+                    observed => return Poll::Ready(Ok(observed)),
                 },
                 Item::Command(_) | Item::Ready(_) => {}
             }

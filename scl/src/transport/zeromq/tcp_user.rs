@@ -8,7 +8,7 @@ mod table;
 
 use sock_diag::SockDiag;
 use std::io;
-use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
+use std::net::{Ipv6Addr, SocketAddr};
 use std::time::Instant;
 use table::Tables;
 
@@ -29,16 +29,13 @@ impl Socket {
     }
 
     fn listening(address: SocketAddr) -> Self {
-        let local = canonical(address);
-        let any = if local.is_ipv4() { IpAddr::V4(Ipv4Addr::UNSPECIFIED) } else { IpAddr::V6(Ipv6Addr::UNSPECIFIED) };
-        Self { local, remote: SocketAddr::new(any, 0), listens: true }
+        // The kernel wants zeros for both families.
+        Self { local: canonical(address), remote: (Ipv6Addr::UNSPECIFIED, 0).into(), listens: true }
     }
 
-    /// Whether this socket, found in a state, is the one that was asked for.
-    fn is(self, asked: Self, state: u8) -> bool {
-        self.local == asked.local
-            && (state == LISTENING) == asked.listens
-            && (asked.listens || self.remote == asked.remote)
+    /// Whether this socket, which was found, is the one that was asked for.
+    fn is(self, asked: Self) -> bool {
+        self == asked || self.listens && asked.listens && self.local == asked.local
     }
 }
 
@@ -47,16 +44,13 @@ fn canonical(address: SocketAddr) -> SocketAddr {
     SocketAddr::new(address.ip().to_canonical(), address.port())
 }
 
+/// Whose a socket is, and which one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Owner {
+pub(super) struct Owner {
     user: u32,
     /// 0 if no process has the socket any more; the kernel then names root as its user.
     inode: u32,
 }
-
-/// A socket that listens, to tell whether it is still the same one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Identity(u32);
 
 /// Checks of users, made together.
 #[derive(Default)]
@@ -87,8 +81,8 @@ impl UserChecks {
     ///
     /// # Errors
     /// As those of [`check_peer`](Self::check_peer).
-    pub(super) fn check_listener(&mut self, address: SocketAddr) -> io::Result<Identity> {
-        self.check(Socket::listening(address)).map(|owner| Identity(owner.inode))
+    pub(super) fn check_listener(&mut self, address: SocketAddr) -> io::Result<Owner> {
+        self.check(Socket::listening(address))
     }
 
     /// Returns true if the socket at an address is still the one that was checked. Without the kernel's help this takes
@@ -96,7 +90,7 @@ impl UserChecks {
     ///
     /// # Errors
     /// As those of [`check_peer`](Self::check_peer).
-    pub(super) fn is_same_listener(&mut self, address: SocketAddr, checked: Identity) -> io::Result<bool> {
+    pub(super) fn is_same_listener(&mut self, address: SocketAddr, checked: Owner) -> io::Result<bool> {
         Ok(self.tables.is_some() || self.check_listener(address)? == checked)
     }
 

@@ -1,7 +1,7 @@
 //! A point in time to wait for, with a runtime or without.
 
 use std::pin::Pin;
-use std::task::{Context, Poll};
+use std::task::{Context, Poll, ready};
 use std::time::Duration;
 use tokio::runtime::Handle;
 use tokio::time::{Instant, Sleep};
@@ -13,12 +13,14 @@ pub(super) struct Timer {
     sleep: Option<Pin<Box<Sleep>>>,
 }
 
-impl Timer {
-    /// Called inside the runtime; without one, time passes, but nothing is woken.
-    pub(super) fn new() -> Self {
+/// Made inside the runtime; without one, time passes, but nothing is woken.
+impl Default for Timer {
+    fn default() -> Self {
         Self { runtime: Handle::try_current().ok(), deadline: None, sleep: None }
     }
+}
 
+impl Timer {
     pub(super) fn detach(&mut self) {
         self.runtime = None;
         self.sleep = None;
@@ -54,19 +56,15 @@ impl Timer {
     /// Ready when the time has come, or if none was set. The timer is not set any more then.
     pub(super) fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         let Some(deadline) = self.deadline else { return Poll::Ready(()) };
-        if Instant::now() < deadline && self.poll_sleep(deadline, cx).is_pending() {
-            return Poll::Pending;
+        if Instant::now() < deadline {
+            let Some(runtime) = &self.runtime else { return Poll::Pending };
+            let sleep = self.sleep.get_or_insert_with(|| {
+                let _inside = runtime.enter();
+                Box::pin(tokio::time::sleep_until(deadline))
+            });
+            ready!(sleep.as_mut().poll(cx));
         }
         self.clear();
         Poll::Ready(())
-    }
-
-    fn poll_sleep(&mut self, deadline: Instant, cx: &mut Context<'_>) -> Poll<()> {
-        let Some(runtime) = &self.runtime else { return Poll::Pending };
-        let sleep = self.sleep.get_or_insert_with(|| {
-            let _inside = runtime.enter();
-            Box::pin(tokio::time::sleep_until(deadline))
-        });
-        sleep.as_mut().poll(cx)
     }
 }

@@ -19,7 +19,7 @@ pub(super) use command::{
     BEHIND, Command, FINISH, FINISHED, FLUSH, SHM_OPEN, SUBSCRIBE_ALL, SUBSCRIBE_ALL_AND_PING, Subscription,
     acknowledgement, catch_up, caught_up, latched, pong, refused, resume,
 };
-pub(super) use decoder::{COMMAND_LIMIT, Decoder, Item, Message};
+pub(super) use decoder::{Decoder, Item, Message};
 pub(super) use error::ProtocolError;
 pub(super) use frame::{Header, MORE, bodies};
 pub(super) use ready::{PeerReady, SclReady, ShmReady, hello};

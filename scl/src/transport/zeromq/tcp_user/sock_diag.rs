@@ -2,8 +2,8 @@
 //!
 //! A lookup by both addresses costs some microseconds, however many sockets the machine has.
 
-use super::{Owner, Socket};
-use bytes::BufMut;
+use super::{LISTENING, Owner, Socket};
+use bytes::{Buf, BufMut};
 use rustix::io::Errno;
 use rustix::net::netlink::{SOCK_DIAG, SocketAddrNetlink};
 use rustix::net::{AddressFamily, RecvFlags, SendFlags, SocketFlags, SocketType, recv, sendto, socket_with};
@@ -109,31 +109,34 @@ fn octets(ip: IpAddr) -> [u8; 16] {
 
 fn answer(bytes: &[u8], asked: Socket) -> io::Result<Option<Owner>> {
     let malformed = || io::Error::from(io::ErrorKind::InvalidData);
-    let kind = bytes.get(4..6).and_then(|kind| kind.try_into().ok()).map(u16::from_ne_bytes);
+    let kind = bytes.get(4..6).map(|mut kind| kind.get_u16_ne());
     if kind == Some(NLMSG_ERROR) {
-        let number = bytes.get(HEADER..HEADER + 4).and_then(|bytes| bytes.try_into().ok()).map(i32::from_ne_bytes);
+        let number = bytes.get(HEADER..HEADER + 4).map(|mut number| number.get_i32_ne());
         return match number.map(|number| Errno::from_raw_os_error(number.wrapping_neg())) {
             Some(Errno::NOENT) => Ok(None),
             Some(error) => Err(error.into()),
             None => Err(malformed()),
         };
     }
-    let (Some(BY_FAMILY), Some(message)) = (kind, bytes.get(HEADER..ANSWER)) else { return Err(malformed()) };
-    let [family, state, ..] = *message else { return Err(malformed()) };
-    let u32_at = |at: usize| u32::from_ne_bytes([message[at], message[at + 1], message[at + 2], message[at + 3]]);
-    let address = |port: usize, ip: usize| {
-        let ip = match family {
-            family if u16::from(family) == AddressFamily::INET.as_raw() => {
-                IpAddr::from([message[ip], message[ip + 1], message[ip + 2], message[ip + 3]])
-            }
-            _ => <[u8; 16]>::try_from(&message[ip..ip + 16]).map(IpAddr::from).ok()?,
-        };
-        Some(SocketAddr::new(ip.to_canonical(), u16::from_be_bytes([message[port], message[port + 1]])))
+    let (Some(BY_FAMILY), Some(mut message)) = (kind, bytes.get(HEADER..ANSWER)) else { return Err(malformed()) };
+    let (is_ipv4, state) = (u16::from(message.get_u8()) == AddressFamily::INET.as_raw(), message.get_u8());
+    // What timers it has.
+    message.advance(2);
+    let [local_port, remote_port] = [message.get_u16(), message.get_u16()];
+    let [local, remote] = [message.get_u128(), message.get_u128()].map(|ip| match is_ipv4 {
+        true => IpAddr::from(((ip >> 96) as u32).to_be_bytes()),
+        false => IpAddr::from(ip.to_be_bytes()).to_canonical(),
+    });
+    let found = Socket {
+        local: SocketAddr::new(local, local_port),
+        remote: SocketAddr::new(remote, remote_port),
+        listens: state == LISTENING,
     };
+    // Interface, cookie, expiry and queues.
+    message.advance(24);
+    let owner = Owner { user: message.get_u32_ne(), inode: message.get_u32_ne() };
     // The kernel falls back to the socket that listens at the port, at any address.
-    let (local, remote) = (address(4, 8).ok_or_else(malformed)?, address(6, 24).ok_or_else(malformed)?);
-    let owner = Owner { user: u32_at(64), inode: u32_at(68) };
-    Ok(Socket { local, remote, ..asked }.is(asked, state).then_some(owner))
+    Ok(found.is(asked).then_some(owner))
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! The kernel writes a row for every socket of the machine, which takes milliseconds. So reading may take up a
 //! twentieth of a processor at most, and connections that arrive together share one read.
 
-use super::{Owner, Socket};
+use super::{LISTENING, Owner, Socket};
 use crate::sync::lock;
 use std::fs;
 use std::io;
@@ -44,9 +44,9 @@ impl Tables {
 
     /// Returns the owner of a socket with exactly these addresses, if there is one.
     pub(super) fn find(&self, socket: Socket) -> Option<Owner> {
-        let mut rows = self.0.iter().flat_map(|table| rows(table));
-        let is_asked = |row: &Row| Socket { local: row.local, remote: row.remote, ..socket }.is(socket, row.state);
-        rows.find(is_asked).map(|row| row.owner)
+        // The first line names the columns.
+        let mut rows = self.0.iter().flat_map(|table| table.lines().skip(1).filter_map(row));
+        rows.find(|(found, _)| found.is(socket)).map(|(_, owner)| owner)
     }
 }
 
@@ -57,27 +57,14 @@ fn processor_time() -> Duration {
     Duration::new(time.tv_sec.unsigned_abs(), time.tv_nsec.unsigned_abs() as u32)
 }
 
-#[derive(Debug, PartialEq, Eq)]
-struct Row {
-    local: SocketAddr,
-    remote: SocketAddr,
-    state: u8,
-    owner: Owner,
-}
-
-fn rows(table: &str) -> impl Iterator<Item = Row> {
-    // The first line names the columns.
-    table.lines().skip(1).filter_map(row)
-}
-
 /// Reads `sl local rem st tx:rx tr:when retrnsmt uid timeout inode ...`.
-fn row(line: &str) -> Option<Row> {
+fn row(line: &str) -> Option<(Socket, Owner)> {
     let mut columns = line.split_ascii_whitespace().skip(1);
     let (local, remote) = (address(columns.next()?)?, address(columns.next()?)?);
-    let state = u8::from_str_radix(columns.next()?, 16).ok()?;
+    let listens = u8::from_str_radix(columns.next()?, 16).ok()? == LISTENING;
     let user = columns.nth(3)?.parse().ok()?;
     let inode = columns.nth(1)?.parse().ok()?;
-    Some(Row { local, remote, state, owner: Owner { user, inode } })
+    Some((Socket { local, remote, listens }, Owner { user, inode }))
 }
 
 /// Reads `0100007F:1F90`: the address in words as this machine's memory holds them, then the port.

@@ -1,5 +1,5 @@
 use super::*;
-use std::net::{TcpListener, TcpStream};
+use std::net::{Ipv4Addr, TcpListener, TcpStream};
 
 /// Finds sockets of this machine in both ways.
 fn owners(socket: Socket) -> [Option<Owner>; 2] {

@@ -175,11 +175,11 @@ fn messages_that_the_caller_never_saw_are_acknowledged_in_order() {
     let mut credit = ReceiveCredit::new(&deferred());
     let taken = |credit: &mut ReceiveCredit, count| (0..count).for_each(|_| assert!(!credit.count_taken(1)));
     taken(&mut credit, 1);
-    assert_eq!(credit.skip_last(), Some(1), "nothing is before it");
+    assert_eq!(credit.skip_last(), Some((1, 1)), "nothing is before it");
     taken(&mut credit, 2);
     assert_eq!(credit.skip_last(), None, "message 2 is before it");
     taken(&mut credit, 2);
     assert_eq!(credit.skip_last(), None);
-    assert_eq!(credit.acknowledge_deferred(1), Some(3), "message 2, and the malformed one after it");
-    assert_eq!(credit.acknowledge_deferred(1), Some(5));
+    assert_eq!(credit.acknowledge_deferred(1), Some((3, 3)), "message 2, and the malformed one after it");
+    assert_eq!(credit.acknowledge_deferred(1), Some((5, 5)));
 }

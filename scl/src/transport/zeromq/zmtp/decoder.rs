@@ -9,7 +9,7 @@ use bytes::{Buf, Bytes, BytesMut};
 const FRAMES: usize = 16;
 /// The longest command, and the most that the frames of a message may have beyond the limit of one message: more than
 /// any envelope needs.
-pub(in crate::transport::zeromq) const COMMAND_LIMIT: usize = 64 << 10;
+const COMMAND_LIMIT: usize = 64 << 10;
 
 /// Memory until the handshake is done, and for peers that send only commands.
 const SMALL_CHUNK: usize = 512;
@@ -80,9 +80,11 @@ pub(in crate::transport::zeromq) struct Decoder {
 }
 
 impl Decoder {
-    /// `max_size` is the longest message that is accepted.
+    /// `max_size` is the longest message that is accepted at a socket that receives messages.
     pub(in crate::transport::zeromq) fn new(socket: SocketType, max_size: usize) -> Self {
         let receives = !matches!(socket, SocketType::XPub | SocketType::Push);
+        // What peers send to the others is short, whatever the limit for messages is.
+        let max_size = if receives { max_size } else { COMMAND_LIMIT };
         Self {
             socket,
             max_size: (max_size as u64).min(u64::MAX >> 2),
