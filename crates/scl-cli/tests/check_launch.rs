@@ -164,7 +164,8 @@ fn names_are_those_of_the_topology_that_the_file_names() {
          = help: run `scl check other.yaml`
 
         launch.yaml: 1 warning
-    "#]].assert_eq(&err);
+    "#]]
+    .assert_eq(&err);
     assert_eq!(code, Some(0));
 }
 
