@@ -89,7 +89,8 @@ impl<T> Registry<T> {
         let value = match slot.value.try_lock() {
             Ok(value) => value,
             Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
-            Err(TryLockError::WouldBlock) => return Err(self.busy()),
+            // By a call, or by the thread that has just closed the handle.
+            Err(TryLockError::WouldBlock) => return self.slot(handle).and_then(|_| Err(self.busy())),
         };
         // Again under the lock, because the handle may have been closed meanwhile.
         if slot.generation.load(Ordering::Relaxed) != generation || value.is_none() {
