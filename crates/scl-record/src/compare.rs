@@ -56,11 +56,7 @@ pub fn compare(
     let mut sides = [Side::new(first, &surveys[0], &topics), Side::new(second, &surveys[1], &topics)];
     let mut rules = Rules::new(options);
     let mut alignments: Vec<_> = topics.iter().map(|topic| Alignment::new(topic, options)).collect();
-    // Also topics of which nothing has to be read.
-    for (index, alignment) in alignments.iter_mut().enumerate() {
-        alignment.advance(&mut sides, index, &mut rules);
-    }
-    // The side that has less in memory is read, so that both stay side by side.
+    // Read from the side that has less in memory, so that both advance together.
     let queued = |side: &&mut Side| side.topics.iter().map(|topic| topic.bytes).sum::<usize>();
     while let Some(side) = sides.iter_mut().filter(|side| !side.is_at_end).min_by_key(queued) {
         if let Some(index) = side.read()? {
