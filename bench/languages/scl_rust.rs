@@ -30,7 +30,7 @@ fn measure(client: &mut Client) -> Result<(), Box<dyn std::error::Error>> {
             client.pong.recv_blocking()?;
             Ok(started.elapsed().as_nanos())
         };
-        // The other programs have had their turns since, so the first tenth warms the caches.
+        // Other programs have run since the last batch, so warm the caches first.
         for _ in 0..count / 10 {
             exchange()?;
         }

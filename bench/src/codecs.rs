@@ -129,7 +129,7 @@ fn table(measurements: &[Measurement]) -> Table {
     let title = "encoding and decoding a record of booleans, integers, strings and floating point numbers";
     let mut table = Table::new(title, &columns);
     for Measurement { variant, encoding, decoding, bytes } in measurements {
-        // Recorded as picoseconds, so these are nanoseconds.
+        // `quantile` divides by 1000 and the values were recorded in picoseconds, so these are nanoseconds.
         let [encode, decode] = [encoding.quantile(0.5), decoding.quantile(0.5)];
         table.rows.push(Row::new(variant.name, vec![encode, decode, *bytes as f64]).with_baselines(variant.baselines));
     }

@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 /// The cores on which the processes of a benchmark run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub(crate) enum Cores {
-    // The operating system places the processes, and moves them.
+    // The operating system chooses the cores and may move the processes between them.
     #[default]
     Any,
     // All processes share one core.

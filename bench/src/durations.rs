@@ -54,8 +54,8 @@ impl Durations {
         for value in self.0.iter_recorded() {
             let duration = to_microseconds(value.value_iterated_to() as f64);
             let position = (duration.max(1e-3).ln() - min) / (max - min);
-            // Rounding may put a duration just outside, and the position is NaN if all durations are equal; the
-            // conversion saturates in both cases.
+            // Rounding may put a duration just outside the range, and the position is NaN if all durations are equal.
+            // The cast saturates in both cases.
             let bin = ((position * count as f64) as usize).min(count.saturating_sub(1));
             if let Some(count) = counts.get_mut(bin) {
                 *count += value.count_at_value();

@@ -79,7 +79,7 @@ impl Sender {
             (Self::Xpub(socket), Frame::Zeromq(message)) => socket.send(message).await?,
             (Self::Xpub(socket), frame) => socket.send(frame.bytes()?.clone().into()).await?,
             (Self::Zeromq(socket), frame) => socket.send(frame.bytes()?.clone().into()).await?,
-            // Blocks this thread, which has nothing else to do: libzmq has threads of its own.
+            // May block this thread, which has nothing else to do: libzmq has its own I/O threads.
             #[cfg(feature = "libzmq")]
             (Self::Libzmq(socket), Frame::Libzmq(message)) => socket.send(message, 0)?,
             #[cfg(feature = "libzmq")]

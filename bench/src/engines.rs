@@ -15,9 +15,9 @@ pub(crate) const FAR: &str = "far";
 pub(crate) fn options(id: &str, folder: &str, host: &str) -> scl::OpenOptions {
     let options = scl::OpenOptions::new();
     match id.split('-').next() {
-        // The transport of the environment.
+        // The environment chooses the transport.
         Some("scl") => options.runtime_dir(folder).system(id),
-        // All variants but this one share a runtime folder, so each is a system of its own.
+        // Each host has its own runtime folder here; the other variants share one, so each is a separate system.
         Some("gateway") => options.runtime_dir(Path::new(folder).join("gateway").join(host)),
         Some("shm") => options.runtime_dir(folder).system(id).transport_kind(TransportKind::Shm),
         Some("tcp") => options.runtime_dir(folder).system(id).transport_kind(TransportKind::Tcp),

@@ -30,7 +30,7 @@ pub(crate) fn start_gateways(folder: &Path, topology: &str, hosts: &[Host<'_>]) 
         let mut command = Command::new(&program);
         command.args(["run", "--topology", "topology.yaml", "--launch", "launch.yaml", "--host", host.name]);
         command.current_dir(folder).env("SCL_RUNTIME_DIR", &runtime_dir).env_remove("SCL_SYSTEM");
-        // Gateways end one after the other, which the rest would warn of.
+        // The gateways are ended one after another; hide the warnings of those that are still running.
         command.env("SCL_LOG", "error");
         gateways.push(Worker::spawn(command)?);
     }
@@ -61,7 +61,7 @@ fn launch_file(hosts: &[Host<'_>]) -> scl::Result<String> {
         let (port, components) = (free_port()?, components.join(", "));
         writeln!(text, "  {name}: {{address: 127.0.0.1, port: {port}, components: [{components}]}}")?;
     }
-    // Every host has a port of its own, but the key is required. Without certificates, because all are on loopback.
+    // The key `gateway` is required although each host sets its own port. Loopback needs no certificates.
     text.push_str("gateway: {}\ncomponents:\n");
     for component in hosts.iter().flat_map(|host| &host.components) {
         writeln!(text, "  {component}: {{command: ['true']}}")?;

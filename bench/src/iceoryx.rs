@@ -48,7 +48,7 @@ pub(crate) struct Receiving {
 
 impl Participant {
     pub(crate) fn join() -> scl::Result<Rc<Self>> {
-        // Without files of settings, and cleaning up at the end only: two workers that start at once would both do it.
+        // Ignore configuration files, and clean up only at the end: two workers starting at once would both clean up.
         let mut config = Config::default();
         config.global.node.cleanup_dead_nodes_on_creation = false;
         config.global.service.cleanup_dead_nodes_on_open = false;
@@ -77,7 +77,7 @@ impl Participant {
     ) -> scl::Result<iceoryx2::service::port_factory::publish_subscribe::PortFactory<ipc::Service, Payload, u64>> {
         let name = format!("{channel}/messages").as_str().try_into()?;
         let service = self.0.service_builder(&name).publish_subscribe::<Payload>().user_header::<u64>();
-        // Without overflow the sender waits, so that no message is lost.
+        // With overflow disabled, the sender waits instead of losing messages.
         let service = service.max_publishers(1).max_subscribers(1).enable_safe_overflow(false).history_size(0);
         Ok(service.subscriber_max_buffer_size(BUFFER).open_or_create()?)
     }
@@ -101,7 +101,7 @@ impl Sending {
         let mut sample = match (&self.copied, received) {
             (Some(_), Some(received)) => loan(received.len())?.write_from_slice(received),
             (Some(own), None) => loan(own.len())?.write_from_slice(own),
-            // Writes nothing, so an optimised build contains no loop.
+            // `uninit` writes nothing, so an optimised build contains no loop.
             (None, _) => loan(bytes)?.write_from_fn(|_| MaybeUninit::uninit()),
         };
         *sample.user_header_mut() = time;

@@ -41,7 +41,7 @@ impl SocketPaths {
     pub(crate) fn connect_conflated(&self, socket: &str) -> scl::Result<Socket> {
         let connected = new_socket(SUB, HighWaterMark::Default)?;
         connected.set_rcvtimeo(-1)?;
-        // Takes effect only before the socket connects.
+        // Takes effect only if it is set before the socket connects.
         connected.set_conflate(true)?;
         connected.set_subscribe(b"")?;
         connected.connect(&self.endpoint(socket))?;

@@ -134,7 +134,7 @@ impl Far {
         }
         #[cfg(feature = "libzmq")]
         if let Receiver::Libzmq(socket) = &receiver {
-            // Other variants have their turn between two batches.
+            // Wait without a timeout from now on: other variants take their turns between two batches.
             socket.set_rcvtimeo(-1)?;
         }
         Ok(Self { receiver, sender })

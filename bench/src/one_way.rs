@@ -93,8 +93,8 @@ pub(crate) fn run_receiver(arguments: &[&str]) -> scl::Result<()> {
     run(&start_runtime()?, id, async {
         let mut far = Far::open(Setup { id, folder, bytes, is_round_trip: false, batch }).await?;
         loop {
-            // When the first message was sent, rather than received: a sender that queues everything before it writes
-            // is not faster than one that writes at once.
+            // Measure from when the first message was sent, not received. Otherwise a sender that queues the whole
+            // batch before it writes would look faster than one that writes at once.
             let mut first_sent = None;
             let mut delays = Vec::with_capacity(if times_each { batch } else { 0 });
             for _ in 0..batch {

@@ -98,7 +98,7 @@ fn measure_size(runtime: &Runtime, messages: usize, transport: Transport, bytes:
 impl Batches {
     fn new(messages: usize, bytes: usize) -> Self {
         let messages = messages.min(MAX_BYTES / bytes);
-        // A rate takes at least two messages.
+        // Measuring a rate takes at least two messages.
         let size = (messages / MIN_BATCHES).min(MAX_BATCH_BYTES / bytes).max(2);
         Self { size, count: (messages / size).max(MIN_BATCHES) }
     }
@@ -109,7 +109,7 @@ impl Measurement {
         self.channel.send_batch(runtime)?;
         let report = runtime.block_on(self.channel.batch_report())?;
         if is_recorded {
-            // At least a nanosecond, so that there is a rate even if the clock did not advance.
+            // Count at least one nanosecond: the rate would be infinite if the clock did not advance.
             self.rates.push(batch as f64 * 1e9 / report.span.max(1) as f64);
         }
         Ok(())

@@ -40,7 +40,7 @@ const VARIANTS: &[Variant] = &[
     Variant { id: "libzmq-publisher", name: "libzmq PUB", baselines: &[] },
     #[cfg(feature = "libzmq")]
     Variant { id: "libzmq-subscriber", name: "libzmq SUB", baselines: &[] },
-    // A surviving SUB socket of `zeromq` reconnects only after many seconds, so that restarting its PUB is left out.
+    // A surviving SUB socket of `zeromq` takes many seconds to reconnect, so restarting its PUB is not measured.
     Variant { id: "zeromq-subscriber", name: "zeromq SUB", baselines: &[] },
     Variant { id: "unix", name: UNIX, baselines: &[] },
 ];
@@ -81,7 +81,8 @@ async fn run(folder: &str, restarts: usize) -> scl::Result<Vec<Durations>> {
 impl Measurement {
     /// Starts the restarted side, waits until messages flow, and kills it.
     async fn restart(&mut self, folder: &str, run: u32) -> scl::Result<()> {
-        // One future throughout: a call that starts together with the other side would connect in step with it.
+        // Keep one future across the downtime: a call that starts together with the other side would always connect in
+        // lockstep with it.
         let mut exchange = pin!(self.survivor.exchange(run));
         if let Ok(ended) = timeout(downtime(run), &mut exchange).await {
             ended?;

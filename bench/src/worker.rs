@@ -90,7 +90,7 @@ impl Worker {
     pub(crate) fn stop(&self) -> scl::Result<()> {
         let process = Pid::from_child(&self.child);
         kill_process(process, Signal::STOP)?;
-        // A process that has exited instead is reported by the next line that is expected of it.
+        // If the process has exited instead, the next attempt to read a line reports it.
         waitid(WaitId::Pid(process), WaitIdOptions::STOPPED | WaitIdOptions::EXITED | WaitIdOptions::NOWAIT)?;
         Ok(())
     }

@@ -50,7 +50,7 @@ fn judge(model: &Model, sources: &Sources, mut problems: Diagnostics) {
     let facts = Facts { default_system: "fuzz".to_owned(), messages: None, sockets };
     let topology = check(model, &facts, sources, &mut problems);
     assert!(topology.is_none() || !problems.has_errors(), "a topology in spite of errors");
-    // Where the parser has told a problem, here by the marks in the model, the checker adds none.
+    // Where the parser has reported an error (here: a mark in the model), the checker need not add one.
     assert!(topology.is_some() || problems.has_errors() || is_damaged(model), "no topology and no error");
     for problem in problems.into_sorted().iter().take(50) {
         assert!(render(problem, sources).contains(problem.code()));

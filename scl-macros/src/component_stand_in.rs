@@ -20,7 +20,7 @@ pub(crate) fn expand_stand_in(component: &Type) -> TokenStream {
     let Some(name) = path.path.get_ident() else { return TokenStream::new() };
     let topologies = known_components::of_crate();
     if let Some(broken) = topologies.iter().find(|topology| topology.broken) {
-        // The component may be in the part that could not be read, of which the file's own error speaks.
+        // The component may be declared in the part of the file that could not be read, which has its own error.
         let unknown = Ident::new(&broken.unknown_type, component.span());
         return quote!(#[allow(dead_code)] type #name = #unknown;);
     }
@@ -35,7 +35,7 @@ pub(crate) fn expand_stand_in(component: &Type) -> TokenStream {
         trait __SclComponent { type Type; }
         #[allow(dead_code)]
         type #name = <#not_found as __SclComponent>::Type;
-        // For the erroneous type; the functions of a component come first.
+        // Lets calls on the erroneous type resolve. The inherent functions of a real component take precedence.
         #[allow(dead_code)]
         trait __SclMain {
             fn __scl_main_async<Main>(_: Main) -> ::std::process::ExitCode { ::core::unreachable!() }

@@ -13,7 +13,7 @@ use syn::{FnArg, Ident, ItemFn, PatType, ReturnType, Safety, Type};
 pub(crate) fn expand_main(arguments: TokenStream, item: TokenStream, for_editor: bool) -> TokenStream {
     let function: ItemFn = match syn::parse2(item.clone()) {
         Ok(function) => function,
-        // Half-written, and the editor says so itself.
+        // The code is probably half-written; the editor reports the syntax error itself.
         Err(_) if for_editor => return item,
         Err(_) => {
             let problem = compile_error(item.span(), "`#[scl::main]` goes on a function");
@@ -33,7 +33,7 @@ pub(crate) fn expand_main(arguments: TokenStream, item: TokenStream, for_editor:
 fn expand_function(function: &ItemFn, component: &Type) -> TokenStream {
     let name = Ident::new("main", component.span());
     let ItemFn { attrs, vis, sig, block, .. } = function;
-    // Errors about the component have one place and one text, so that rustc reports them once.
+    // Give all errors about the component the same span and text, so rustc reports them only once.
     let opened = Ident::new("component", component.span());
     let await_it = sig.asyncness.map(|_| quote!(.await));
     let call = quote_spanned!(component.span() => let returned = #name(#opened)#await_it;);
@@ -49,7 +49,7 @@ fn expand_function(function: &ItemFn, component: &Type) -> TokenStream {
         #vis fn main() -> ::std::process::ExitCode {
             #stand_in
             {
-                // Names of the module hide the stand-in.
+                // Names from the module shadow the stand-in.
                 #[allow(unused_imports, clippy::all, clippy::pedantic)]
                 use self::*;
                 #(#attrs)*

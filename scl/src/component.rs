@@ -87,7 +87,7 @@ pub(crate) async fn wait_for_peers(
         let changed = async {
             match deadline {
                 Some(deadline) => tokio::time::timeout_at(deadline, changed).await.is_ok(),
-                // A timeout so long that it never ends.
+                // The deadline overflows, so wait without one.
                 None => {
                     changed.await;
                     true

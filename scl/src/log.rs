@@ -11,7 +11,7 @@ use tracing::level_filters::LevelFilter;
 /// [`OpenError::Environment`] if the value is not a level.
 pub(crate) fn level(variables: Variables<'_>) -> Result<LevelFilter, OpenError> {
     let expected = "`error`, `warn`, `info`, `debug`, `trace` or `off`";
-    // Not the numbers and other spellings that it parses as well.
+    // Rejects numbers and other spellings, which `LevelFilter` would parse as well.
     let parse = |word: &str| word.parse().ok().filter(|level: &LevelFilter| level.to_string() == word);
     Ok(environment::read(variables, "SCL_LOG", expected, parse)?.unwrap_or(LevelFilter::WARN))
 }

@@ -55,7 +55,7 @@ impl Registration {
     ) -> Result<Self, RuntimeDirError> {
         let lock = ComponentLock::take(&dir, spec.name)?;
         lock.clear_leftovers()?;
-        // Readers of the announcement must find the messages.
+        // Publish the messages before the announcement, whose readers look for them.
         publish_messages(&dir, spec)?;
         let initial_stats =
             stats_period.map(|period| ComponentStats::initial(spec, announcement.pid, announcement.started, period));
@@ -193,10 +193,10 @@ fn publish_messages(dir: &SystemDir, spec: &ComponentSpec) -> Result<(), Runtime
 async fn keep(files: Weak<Files>) {
     loop {
         let Some(current) = files.upgrade() else { return };
-        // Watching starts before looking, so that no removal in between is missed.
+        // Start watching before checking, so that no removal is missed.
         let watch = current.watch();
         let in_place = current.are_in_place();
-        // The component may be closed while this task waits.
+        // Hold no reference while waiting, so that the component can be closed.
         drop(current);
         match watch {
             Ok(watch) if in_place => match watch.removal().await {

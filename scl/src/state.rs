@@ -170,7 +170,8 @@ impl ComponentState {
     /// Keeps a connection moving, whether its gate is used or not.
     pub(crate) fn drive<E: SendingEnd + 'static>(&self, end: E) -> Arc<Mutex<E>> {
         let end = Arc::new(Mutex::new(end));
-        // Weak, so that the end is gone with its gate, and not only when the runtime drops the task.
+        // The task holds the end weakly, so that the end is dropped with its gate, and not only when the runtime drops
+        // the task.
         let task = AbortOnDrop::drive(&self.handle, &end, |end, cx| lock(end).drive(cx));
         lock(&self.ends).push(Registered { end: Arc::clone(&end) as _, _task: Some(task) });
         end
@@ -195,17 +196,17 @@ impl ComponentState {
 
     /// A gate was dropped. Its end is dropped too, as soon as its peer has taken everything, or after [`LINGER`].
     pub(crate) fn release(self: &Arc<Self>, end: Arc<Mutex<dyn SendingEnd>>) {
-        // Ends enter the runtime, which a thread that is ending cannot.
+        // Ends enter the runtime, which is impossible on a thread that is ending.
         on_living_thread(|| self.release_here(&end));
     }
 
     fn release_here(self: &Arc<Self>, end: &Arc<Mutex<dyn SendingEnd>>) {
         if self.runtime_ended.load(Ordering::Acquire) {
-            // Handed over when the component is dropped.
+            // Dropping the component hands over what is left.
             return;
         }
         if self.is_done(end) {
-            // What waits for a peer that is not running is reported when the component is closed.
+            // Messages for a peer that is not running are reported when the component is closed.
             let waiting = lock(end).waits_for_absent_peer();
             lock(&self.given_up).extend(waiting);
             return self.remove(end);
@@ -279,9 +280,10 @@ impl ComponentState {
     /// [`flush`](Self::flush) from a plain thread. Also after a stop request.
     pub(crate) fn flush_blocking(&self, flush: Flush, timeout: Duration) -> Result<(), NotFlushed> {
         match runtime::refuse_to_wait() {
-            // Not elsewhere without need: a destructor that `dlclose` runs holds a lock that new threads wait for.
+            // Do not use another thread unless necessary: while `dlclose` runs a destructor, it holds a lock that new
+            // threads wait for.
             Ok(()) => self.flush_here(flush, timeout),
-            // In the destructor of a thread-local value, or in a function of `atexit`.
+            // Called in the destructor of a thread-local value, or in an `atexit` handler.
             Err(BlockingError::ThreadEnding) => on_another_thread(|| self.flush_here(flush, timeout)),
             Err(_) => Ok(()),
         }
@@ -349,8 +351,8 @@ impl Drop for ComponentState {
         let ends = std::mem::take(&mut *lock(&self.ends));
         let ends: Vec<_> = ends.into_iter().map(|one| one.end).collect();
         on_living_thread(|| self.hand_over(&ends));
-        // Their tasks have been aborted, but one may be in the middle of a poll. Sockets must be gone before the lock
-        // is.
+        // The tasks of the ends have been aborted, but one may be in the middle of a poll. The sockets must be closed
+        // before the component's lock is released.
         ends.iter().for_each(owner::await_other_users);
     }
 }

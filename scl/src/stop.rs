@@ -125,7 +125,7 @@ pub fn end_grace_period() {
 /// Returns true if no gate can be used any more: a stop was requested and the program does not handle it itself, or its
 /// grace period is over.
 pub fn gates_stopped() -> bool {
-    // Every call to a gate asks this.
+    // Must be cheap: every call to a gate checks this.
     STOP.gates_stopped()
 }
 
@@ -147,7 +147,7 @@ async fn until<F: Future>(stop: &StopState, future: F) -> Result<F::Output, Bloc
     let mut future = pin!(future);
     let mut stopped = pin!(stop.until_gates_stopped());
     poll_fn(|cx| {
-        // Checked first, because the future may be ready whenever it is polled.
+        // Check first: if the future is ready on every poll, `stopped` is never polled.
         if stop.gates_stopped() {
             return Poll::Ready(Err(BlockingError::Stopped));
         }
@@ -193,7 +193,7 @@ fn handle_stop() {
     }
     STOP.handle();
     let grace_period = grace_period(&environment::of_process).unwrap_or_else(|error| {
-        // Only without `#[scl::main]`, which refuses such a value.
+        // Happens only without `#[scl::main]`, which rejects such a value.
         tracing::warn!("{error}; using {GRACE_PERIOD:?}");
         GRACE_PERIOD
     });

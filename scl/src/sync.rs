@@ -40,7 +40,7 @@ pub(crate) fn on_another_thread<T: Send>(call: impl Fn() -> T + Sync) -> T {
         match spawned.map(ScopedJoinHandle::join) {
             Ok(Ok(result)) => result,
             Ok(Err(panic)) => resume_unwind(panic),
-            // Without a thread, this one may do.
+            // If no thread can be started, try on this one.
             Err(_) => call(),
         }
     })

@@ -229,7 +229,7 @@ impl Component {
     /// [`BlockingError`](crate::BlockingError).
     pub fn ready_blocking(&self, timeout: Duration) -> crate::Result<()> {
         let ready = self.handle.0.block_on(self.ready(timeout))?;
-        // A wait that was ended early is no news about the peers.
+        // If the wait was ended early, report that instead of missing peers.
         self.handle.0.check()?;
         Ok(ready?)
     }
@@ -315,7 +315,7 @@ impl Component {
         unwrap: impl FnOnce(Gate) -> Option<G>,
     ) -> Result<G, GateError> {
         let index = self.index(name)?;
-        // Told before whether it was taken: the kind is what the program has to correct.
+        // Report a wrong kind before a taken gate: the kind is what the program has to fix.
         let (gate, found) = (self.name(index), self.spec.gates[index].kind);
         if found != expected {
             return Err(GateError::Kind { gate, found, expected });

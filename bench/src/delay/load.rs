@@ -26,7 +26,7 @@ impl Load {
             })?;
         }
         let (mut file, block) = (tempfile::tempfile()?, vec![7; FILE_SIZE]);
-        // A full disk only removes the load on the disk; the other threads go on.
+        // If the disk is full, only this thread ends; the others keep the processor busy.
         load.repeat(move || {
             file.rewind().and_then(|()| file.write_all(&block)).and_then(|()| file.sync_data()).is_ok()
         })?;
@@ -46,7 +46,7 @@ impl Drop for Load {
     fn drop(&mut self) {
         self.is_ended.store(true, Ordering::Relaxed);
         for thread in self.threads.drain(..) {
-            // A thread that panicked has ended as well.
+            // Ignore the result: a thread that panicked has ended too.
             let _ended = thread.join();
         }
     }

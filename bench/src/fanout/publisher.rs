@@ -106,7 +106,7 @@ impl Publisher {
                 if sent > MAX_UNRECEIVED {
                     return Err(scl::Error::message("a subscriber received nothing for 10 s"));
                 }
-                // A batch of one message, which each subscriber reports at once.
+                // A batch of one message, so each subscriber reports it at once.
                 self.socket.send(Frame::Bytes(Message::new(self.batch, 0).encode())).await?;
             }
         }
@@ -118,7 +118,7 @@ impl Publisher {
 async fn delays_of(subscriber: &mut Worker, batch: u32) -> scl::Result<Vec<u64>> {
     loop {
         let report = BatchReport::parse(&subscriber.next_line().await?)?;
-        // A subscriber reports the number of the batch instead of its span.
+        // In this benchmark, a subscriber reports the number of the batch in place of its span.
         if report.span >= batch.into() {
             return Ok(report.delays);
         }

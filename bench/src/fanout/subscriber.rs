@@ -18,7 +18,7 @@ use scl::bytes::Bytes;
 /// scratch folder and the number of the subscriber.
 pub(crate) fn run_subscriber(arguments: &[&str]) -> scl::Result<()> {
     let [id, folder, number] = arguments else { return Err(unknown_arguments(arguments)) };
-    // A stopped process does not notice that its standard input is closed.
+    // While it is stopped by SIGSTOP, this process cannot notice that its standard input was closed.
     set_parent_process_death_signal(Some(Signal::KILL))?;
     start_runtime()?.block_on(async {
         let mut socket = open(id, folder, number).await?;

@@ -42,7 +42,7 @@ pub(crate) fn run_subscriber(arguments: &[&str]) -> scl::Result<()> {
             let (received, call) = (now(), started.elapsed());
             print_line(&format!("{} {}", received.saturating_sub(sent), call.as_nanos()))?;
         }
-        // The publishers go on until all subscribers are done.
+        // Keep receiving: the publishers continue until all subscribers are done.
         loop {
             receiver.receive().await?;
         }

@@ -39,7 +39,7 @@ pub(crate) fn run_restarted(arguments: &[&str]) -> scl::Result<()> {
             Side::Receives(receiver) => drop(receiver.receive().await?),
             Side::Calls(gate) => drop(gate.call(&message).await?),
         }
-        // The connection stays until this process is killed.
+        // Keep the connection open until this process is killed.
         print_line(&now().to_string())?;
         pending().await
     })

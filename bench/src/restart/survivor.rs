@@ -35,7 +35,7 @@ impl Survivor {
                 interval.tick().await?;
                 sender.send(Frame::Bytes(Bytes::new())).await?;
             },
-            // A call that blocks could not be dropped.
+            // A blocking receive could not be cancelled by dropping this future.
             #[cfg(feature = "libzmq")]
             Self::Side(Side::Receives(Receiver::Libzmq(socket))) => loop {
                 match socket.recv_bytes(zmq2::DONTWAIT) {

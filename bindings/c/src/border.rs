@@ -24,7 +24,7 @@ pub(crate) fn value<T>(call: impl FnOnce() -> Result<T, Failure>) -> Result<T, s
 }
 
 fn caught<T>(call: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
-    // What a panic leaves behind is only used through locks, and gates keep their own state consistent.
+    // Unwind safe: after a panic, shared state is only reached through locks, and gates keep their state consistent.
     catch_unwind(AssertUnwindSafe(call)).unwrap_or_else(|payload| Err(panicked(&*payload)))
 }
 
@@ -72,7 +72,7 @@ pub(crate) unsafe fn text<'a>(text: *const c_char, name: &str) -> Result<&'a str
     if text.is_null() {
         return Err(null(name));
     }
-    // SAFETY: not NULL, and the caller promises the rest.
+    // SAFETY: not NULL; the caller guarantees the rest.
     let text = unsafe { CStr::from_ptr(text) };
     text.to_str().map_err(|_| Failure::argument(format!("`{name}` is not UTF-8: {text:?}")))
 }
@@ -85,7 +85,7 @@ pub(crate) unsafe fn lossy_text(text: *const c_char, name: &str) -> Result<Strin
     if text.is_null() {
         return Err(null(name));
     }
-    // SAFETY: not NULL, and the caller promises the rest.
+    // SAFETY: not NULL; the caller guarantees the rest.
     Ok(unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned())
 }
 
@@ -102,7 +102,7 @@ pub(crate) unsafe fn bytes<'a>(data: *const c_void, len: usize, name: &str) -> R
         };
     }
     check_length(len, name)?;
-    // SAFETY: not NULL, no longer than an object can be, and the caller promises the rest.
+    // SAFETY: not NULL, and not longer than an object can be; the caller guarantees the rest.
     Ok(unsafe { std::slice::from_raw_parts(data.cast(), len) })
 }
 
@@ -119,7 +119,7 @@ fn check_length(len: usize, name: &str) -> Result<(), Failure> {
 /// # Safety
 /// `result` is NULL or points to memory for a `T` that nothing else uses for `'a`.
 pub(crate) unsafe fn result<'a, T>(result: *mut T, name: &str) -> Result<&'a mut T, Failure> {
-    // SAFETY: the caller promises it.
+    // SAFETY: guaranteed by the caller.
     unsafe { result.as_mut() }.ok_or_else(|| null(name))
 }
 
@@ -132,7 +132,7 @@ pub(crate) unsafe fn give<T>(
     name: &str,
     make: impl FnOnce() -> Result<*mut T, Failure>,
 ) -> Result<(), Failure> {
-    // SAFETY: the caller's duty.
+    // SAFETY: guaranteed by the caller.
     let result = unsafe { self::result(result, name) }?;
     *result = std::ptr::null_mut();
     *result = make()?;
@@ -159,8 +159,8 @@ pub(crate) unsafe fn store(bytes: &[u8], buffer: *mut c_void, capacity: usize) -
         return Err(Failure::new(SCL_BUFFER, text));
     }
     if needed > 0 {
-        // SAFETY: the capacity suffices and is not 0, so the caller promises the memory; it cannot overlap with bytes
-        // of this library.
+        // SAFETY: `capacity` suffices and is not 0, so the caller guarantees that the buffer is writable. It cannot
+        // overlap memory of this library.
         unsafe { std::ptr::copy_nonoverlapping(bytes.as_ptr(), buffer.cast(), needed) };
     }
     Ok(())
@@ -172,7 +172,7 @@ pub(crate) fn room(buffer: &mut Vec<u8>, len: usize) -> Result<*mut c_void, Fail
     let missing = len.saturating_sub(buffer.len());
     let no_memory = |_| Failure::new(SCL_SYSTEM, format!("there is no memory for {len} bytes"));
     buffer.try_reserve_exact(missing).map_err(no_memory)?;
-    // Zeroed, so that a program that writes less never sends what was in the memory before.
+    // Zero new memory, so a program that writes fewer bytes never sends uninitialized memory.
     buffer.resize(len, 0);
     Ok(buffer.as_mut_ptr().cast())
 }

@@ -27,7 +27,7 @@ pub unsafe extern "C" fn scl_call(
 ) -> scl_status {
     let call = || {
         let mut open = gate::lock(gate)?;
-        // SAFETY: the caller's duty.
+        // SAFETY: guaranteed by the caller.
         let request = unsafe { open.outgoing(data, len) }?;
         let reply = match (&mut open.gate, Wait::of(timeout_ns)) {
             (Gate::Req(gate), Wait::Forever) => gate.call_blocking(&request)?,
@@ -36,6 +36,6 @@ pub unsafe extern "C" fn scl_call(
         };
         Ok(message::hand_over(reply))
     };
-    // SAFETY: the caller's duty; NULL is refused.
+    // SAFETY: guaranteed by the caller; NULL is refused.
     border::status(|| unsafe { border::give(reply, "message", call) })
 }

@@ -61,18 +61,18 @@ pub unsafe extern "C" fn scl_open(
     opened: *mut *mut scl_component,
 ) -> scl_status {
     let open = || {
-        // SAFETY: the caller's duty; NULL is refused.
+        // SAFETY: guaranteed by the caller; NULL is refused.
         let (plan, name) = unsafe {
             (border::bytes(plan_json.cast::<c_void>(), plan_len, "plan_json")?, border::text(component, "component")?)
         };
         let options = match options_json.is_null() {
             true => Options::default(),
-            // SAFETY: as before.
+            // SAFETY: guaranteed by the caller.
             false => Options::read(unsafe { border::text(options_json, "options_json") }?)?,
         };
         Ok(open(plan, name, &options)? as *mut scl_component)
     };
-    // SAFETY: as before.
+    // SAFETY: guaranteed by the caller; NULL is refused.
     border::status(|| unsafe { border::give(opened, "opened", open) })
 }
 
@@ -96,10 +96,10 @@ pub unsafe extern "C" fn scl_open_test(
         if std::ptr::eq(opened, peer) && !opened.is_null() {
             return Err(Failure::argument("`opened` and `peer` are the same pointer"));
         }
-        // SAFETY: the caller's duty; NULL is refused, and they are different.
+        // SAFETY: guaranteed by the caller; NULL is refused, and the pointers differ.
         let (opened, peer) = unsafe { (border::result(opened, "opened")?, border::result(peer, "peer")?) };
         (*opened, *peer) = (std::ptr::null_mut(), std::ptr::null_mut());
-        // SAFETY: as before.
+        // SAFETY: guaranteed by the caller; NULL is refused.
         let (plan, name) = unsafe {
             (border::bytes(plan_json.cast::<c_void>(), plan_len, "plan_json")?, border::text(component, "component")?)
         };
@@ -141,7 +141,7 @@ pub unsafe extern "C" fn scl_close(component: *mut scl_component, timeout_ns: i6
 pub unsafe extern "C" fn scl_gate_by_name(component: *mut scl_component, name: *const c_char) -> *mut scl_gate {
     let gate = border::value(|| {
         let opened = find(component)?;
-        // SAFETY: the caller's duty; NULL is refused.
+        // SAFETY: guaranteed by the caller; NULL is refused.
         let name = unsafe { border::text(name, "name") }?;
         match opened.gates.iter().find(|(known, _)| *known == name) {
             Some((_, gate)) => Ok(*gate as *mut scl_gate),
@@ -210,7 +210,7 @@ fn set_up(options: &Options) -> Result<(), Failure> {
 fn close(handle: usize, wait: Wait) -> Result<(), Failure> {
     let opened = COMPONENTS.remove(handle)?;
     opened.closer.end_calls();
-    // Dropped before the flush, which waits for what they have sent.
+    // Drop the gates before `close_blocking` flushes what they have sent.
     remove(&opened.gates);
     let component = opened.component.write().unwrap_or_else(PoisonError::into_inner).take();
     match component {
@@ -221,7 +221,7 @@ fn close(handle: usize, wait: Wait) -> Result<(), Failure> {
 
 /// Invalidates the handles of a component's gates.
 fn remove(gates: &[(&str, usize)]) {
-    // Only its own gates, each once.
+    // Ignore the results: these are the component's own gates, and each is removed only once.
     gates.iter().for_each(|(_, gate)| drop(GATES.remove(*gate)));
 }
 

@@ -30,7 +30,7 @@ pub extern "C" fn scl_error() -> *const c_char {
 impl Failure {
     pub(crate) fn new(status: scl_status, text: impl Into<String>) -> Self {
         let mut bytes = text.into().into_bytes();
-        // Only a name given by the program could contain one.
+        // Remove NUL bytes, which only a name given by the program could contain.
         bytes.retain(|byte| *byte != 0);
         Self { status, text: CString::new(bytes).map_or(Cow::Borrowed(c""), Cow::Owned) }
     }

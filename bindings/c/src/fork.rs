@@ -27,9 +27,9 @@ unsafe extern "C" fn count_fork() {
 /// Starts to count. Called before the first handle is given out.
 pub(crate) fn watch() {
     static WATCHED: OnceLock<c_int> = OnceLock::new();
-    // SAFETY: the handler is a function of this library, which is never unloaded (it has thread-local values), and it
-    // only adds to an atomic number, which is allowed in a forked child. A failure, for want of memory, leaves the
-    // check to the crate `scl`, which has one of its own.
+    // SAFETY: the handler is a function of this library, which is never unloaded because it has thread-local values. It
+    // only increments an atomic counter, which is allowed in a forked child. If registering it fails because memory is
+    // exhausted, the crate `scl` still detects forks by itself.
     WATCHED.get_or_init(|| unsafe { libc::pthread_atfork(None, None, Some(count_fork)) });
 }
 

@@ -67,7 +67,7 @@ pub unsafe extern "C" fn scl_buffer(gate: *mut scl_gate, len: usize, buffer: *mu
         }
         border::room(&mut open.buffer, len)
     };
-    // SAFETY: the caller's duty; NULL is refused.
+    // SAFETY: guaranteed by the caller; NULL is refused.
     border::status(|| unsafe { border::give(buffer, "buffer", make) })
 }
 
@@ -91,7 +91,7 @@ impl OpenGate {
         if own && len > KEPT_CAPACITY {
             return Ok(Bytes::from(std::mem::take(&mut self.buffer)));
         }
-        // SAFETY: the caller's duty; NULL and impossible lengths are refused.
+        // SAFETY: guaranteed by the caller; NULL with a length and impossible lengths are refused.
         Ok(Bytes::copy_from_slice(unsafe { border::bytes(data, len, "data") }?))
     }
 

@@ -12,7 +12,7 @@ use std::ffi::c_char;
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_fail(status: scl_status, text: *const c_char) -> scl_status {
     border::status(|| {
-        // SAFETY: the caller's duty; NULL is refused.
+        // SAFETY: guaranteed by the caller; NULL is refused.
         let text = unsafe { border::text(text, "text") }?;
         Err(Failure::new(status, text))
     })
@@ -34,9 +34,9 @@ pub unsafe extern "C" fn scl_undecodable(
     reason: *const c_char,
 ) -> scl_status {
     border::status(|| {
-        // SAFETY: the caller's duty; NULL is refused.
+        // SAFETY: guaranteed by the caller; NULL is refused.
         let reason = unsafe { border::lossy_text(reason, "reason") }?;
-        // SAFETY: the caller promises a live request or NULL.
+        // SAFETY: not NULL, so the caller guarantees that the request is live.
         let request = (!request.is_null()).then(|| unsafe { request::remove(request) }).transpose()?;
         let mut open = gate::lock(gate)?;
         let reported = match (&open.gate, request) {

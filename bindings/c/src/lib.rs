@@ -5,7 +5,7 @@
 //! and calls the crate `scl`. Panics end at the border.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
-// In the order of the header.
+// The header lists the functions in the order of these modules.
 mod version;
 
 mod status;
@@ -34,7 +34,7 @@ mod stats;
 mod generated;
 mod stop;
 
-// What the calls are made of.
+// Internal modules, which export no functions.
 mod border;
 mod fork;
 mod options;

@@ -42,7 +42,7 @@ impl<K: Kind> Marked<K> {
         if !object.is_aligned() {
             return Err(wrong());
         }
-        // SAFETY: aligned, and the caller promises the memory.
+        // SAFETY: aligned, and the caller guarantees that the 8 bytes of the mark are readable.
         if unsafe { (&raw const (*object).mark).read() } != K::MARK {
             return Err(wrong());
         }
@@ -55,11 +55,12 @@ impl<K: Kind> Marked<K> {
     /// # Safety
     /// That of [`live`](Self::live).
     pub(crate) unsafe fn take_back(object: *mut Self) -> Result<K, Failure> {
-        // SAFETY: the caller's duty.
+        // SAFETY: guaranteed by the caller.
         unsafe { Self::live(object) }?;
-        // SAFETY: made by `Box::into_raw` and, being live, was not freed before.
+        // SAFETY: `hand_over` made it with `Box::into_raw`; it is live, so it was not freed.
         let mut object = unsafe { Box::from_raw(object) };
-        // So that a second free is more likely to be noticed than to free again.
+        // Clear the mark, so a double free is likely to be detected. `black_box` keeps the compiler from removing the
+        // store.
         object.mark = 0;
         std::hint::black_box(&object.mark);
         Ok(object.inner)
@@ -73,7 +74,7 @@ impl<K: Kind> Marked<K> {
         if object.is_null() {
             return;
         }
-        // SAFETY: the caller's duty.
+        // SAFETY: guaranteed by the caller.
         let _reported = border::value(|| unsafe { Self::take_back(object) }.map(drop));
     }
 
@@ -83,13 +84,13 @@ impl<K: Kind> Marked<K> {
     /// That of [`live`](Self::live), and `len` is NULL or points to a `size_t`.
     pub(crate) unsafe fn data(object: *const Self, len: *mut usize) -> *const c_void {
         let data = match object.is_null() {
-            // Not an error: the call that returned no object has set the text.
+            // NULL is not an error here: the call that returned it has already set the error text.
             true => None,
-            // SAFETY: the caller's duty.
+            // SAFETY: guaranteed by the caller.
             false => border::value(|| Ok(unsafe { Self::live(object) }?.inner.bytes())).ok(),
         };
         let (start, length) = data.map_or((std::ptr::null(), 0), |data| (data.as_ptr(), data.len()));
-        // SAFETY: the caller's duty.
+        // SAFETY: guaranteed by the caller.
         if let Some(len) = unsafe { len.as_mut() } {
             *len = length;
         }

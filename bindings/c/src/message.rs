@@ -30,14 +30,14 @@ impl Kind for Message {
 /// be detected.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_message_data(message: *const scl_message, len: *mut usize) -> *const c_void {
-    // SAFETY: the caller promises a live message or NULL, and a `size_t` or NULL.
+    // SAFETY: the caller guarantees that the message is live or NULL, and that `len` is NULL or points to a `size_t`.
     unsafe { Marked::<Message>::data(message.cast(), len) }
 }
 
 /// Frees a message. NULL is allowed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_message_free(message: *mut scl_message) {
-    // SAFETY: the caller promises a live message or NULL.
+    // SAFETY: the caller guarantees that the message is live or NULL.
     unsafe { Marked::<Message>::free(message.cast()) };
 }
 

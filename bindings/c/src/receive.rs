@@ -34,7 +34,7 @@ pub(crate) use receive_from;
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_recv(gate: *mut scl_gate, timeout_ns: i64, message: *mut *mut scl_message) -> scl_status {
     let receive = || Ok(message::hand_over(receive(&mut *gate::lock(gate)?, timeout_ns)?));
-    // SAFETY: the caller's duty; NULL is refused.
+    // SAFETY: guaranteed by the caller; NULL is refused.
     border::status(|| unsafe { border::give(message, "message", receive) })
 }
 
@@ -53,14 +53,14 @@ pub unsafe extern "C" fn scl_recv_into(
     timeout_ns: i64,
 ) -> scl_status {
     border::status(|| {
-        // SAFETY: the caller's duty; NULL is refused.
+        // SAFETY: guaranteed by the caller; NULL is refused.
         let len = unsafe { border::result(len, "len") }?;
         *len = 0;
         border::check_buffer(buffer, capacity)?;
         let mut open = gate::lock(gate)?;
         let message = receive(&mut open, timeout_ns)?;
         *len = message.len();
-        // SAFETY: the caller promises `capacity` bytes, or NULL with a capacity of 0.
+        // SAFETY: the caller guarantees that `capacity` bytes are writable; NULL is refused unless `capacity` is 0.
         let stored = unsafe { border::store(&message, buffer, capacity) };
         if stored.is_err() {
             open.kept = Some(message);
@@ -77,7 +77,7 @@ pub unsafe extern "C" fn scl_recv_into(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_latest(gate: *mut scl_gate, message: *mut *mut scl_message) -> scl_status {
     let newest = || Ok(message::hand_over(newest(&mut *gate::lock(gate)?)?));
-    // SAFETY: the caller's duty; NULL is refused.
+    // SAFETY: guaranteed by the caller; NULL is refused.
     border::status(|| unsafe { border::give(message, "message", newest) })
 }
 
@@ -99,7 +99,7 @@ fn newest(open: &mut OpenGate) -> Result<Bytes, Failure> {
         Gate::Pull(gate) => gate.latest()?,
         _ => return Err(open.wrong_kind("scl_latest")),
     };
-    // What was kept is older than anything that the gate has.
+    // A kept message is older than all messages in the gate's queue.
     let kept = open.kept.take();
     newest.or(kept).ok_or(NOTHING)
 }

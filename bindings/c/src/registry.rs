@@ -89,10 +89,10 @@ impl<T> Registry<T> {
         let value = match slot.value.try_lock() {
             Ok(value) => value,
             Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
-            // By a call, or by the thread that has just closed the handle.
+            // The lock is held by a call in progress, or by a thread that is closing the handle: then `slot` fails.
             Err(TryLockError::WouldBlock) => return self.slot(handle).and_then(|_| Err(self.busy())),
         };
-        // Again under the lock, because the handle may have been closed meanwhile.
+        // Check again under the lock: the handle may have been closed in the meantime.
         if slot.generation.load(Ordering::Relaxed) != generation || value.is_none() {
             return Err(self.unknown(handle));
         }
@@ -117,7 +117,7 @@ impl<T> Registry<T> {
     {
         let (slot, generation) = self.slot(handle)?;
         let value = lock(&slot.value).clone();
-        // The slot may have got another value since it was looked up.
+        // The slot may have been reused for another value since it was looked up.
         value.filter(|_| slot.generation.load(Ordering::Acquire) == generation).ok_or_else(|| self.unknown(handle))
     }
 

@@ -49,7 +49,7 @@ pub unsafe extern "C" fn scl_take_request(
         let request = take(&mut *gate::lock(gate)?, timeout_ns)?;
         Ok(Marked::hand_over(Taken { request, buffer: Vec::new() }).cast())
     };
-    // SAFETY: the caller's duty; NULL is refused.
+    // SAFETY: guaranteed by the caller; NULL is refused.
     border::status(|| unsafe { border::give(request, "request", take) })
 }
 
@@ -60,7 +60,7 @@ pub unsafe extern "C" fn scl_take_request(
 /// which cannot be detected.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_request_data(request: *const scl_request, len: *mut usize) -> *const c_void {
-    // SAFETY: the caller promises a live request or NULL, and a `size_t` or NULL.
+    // SAFETY: the caller guarantees that the request is live or NULL, and that `len` is NULL or points to a `size_t`.
     unsafe { Marked::<Taken>::data(request.cast(), len) }
 }
 
@@ -71,13 +71,13 @@ pub unsafe extern "C" fn scl_request_data(request: *const scl_request, len: *mut
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_reply(request: *mut scl_request, data: *const c_void, len: usize) -> scl_status {
     border::status(|| {
-        // SAFETY: the caller promises a live request or NULL.
+        // SAFETY: the caller guarantees that the request is live or NULL.
         unsafe { Marked::<Taken>::live(request.cast()) }?;
-        // SAFETY: the bytes are the caller's duty.
+        // SAFETY: guaranteed by the caller.
         let data = unsafe { border::bytes(data, len, "data") }?;
-        // Before the request is freed, which the bytes may belong to.
+        // Copy before the request is freed: the bytes may belong to it.
         let reply = Bytes::copy_from_slice(data);
-        // SAFETY: as before.
+        // SAFETY: the check above has found the request to be live.
         Ok(unsafe { remove(request) }?.reply(&reply)?)
     })
 }
@@ -93,19 +93,19 @@ pub unsafe extern "C" fn scl_reply_buffer(
     buffer: *mut *mut c_void,
 ) -> scl_status {
     let make = || {
-        // SAFETY: the caller promises a live request or NULL.
+        // SAFETY: the caller guarantees that the request is live or NULL.
         unsafe { Marked::<Taken>::live(request.cast()) }?;
-        // SAFETY: just found to be live; nothing else refers to this field.
+        // SAFETY: the check above has found the request to be live; nothing else refers to this field.
         border::room(unsafe { &mut (*request.cast::<Marked<Taken>>()).inner.buffer }, len)
     };
-    // SAFETY: the caller's duty; NULL is refused.
+    // SAFETY: guaranteed by the caller; NULL is refused.
     border::status(|| unsafe { border::give(buffer, "buffer", make) })
 }
 
 /// Frees a request that is not to be answered; its sender waits until its timeout. NULL is allowed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_request_free(request: *mut scl_request) {
-    // SAFETY: the caller promises a live request or NULL.
+    // SAFETY: the caller guarantees that the request is live or NULL.
     unsafe { Marked::<Taken>::free(request.cast()) };
 }
 
@@ -122,6 +122,6 @@ fn take(open: &mut OpenGate, timeout_ns: i64) -> Result<Request<Bytes, Bytes>, F
 /// # Safety
 /// `request` is NULL, or points to at least 8 readable bytes.
 pub(crate) unsafe fn remove(request: *mut scl_request) -> Result<Request<Bytes, Bytes>, Failure> {
-    // SAFETY: the caller's duty.
+    // SAFETY: guaranteed by the caller.
     Ok(unsafe { Marked::<Taken>::take_back(request.cast()) }?.request)
 }

@@ -19,7 +19,7 @@ use std::ffi::c_void;
 pub unsafe extern "C" fn scl_send(gate: *mut scl_gate, data: *const c_void, len: usize, timeout_ns: i64) -> scl_status {
     border::status(|| {
         let mut open = gate::lock(gate)?;
-        // SAFETY: the caller's duty.
+        // SAFETY: guaranteed by the caller.
         let message = unsafe { open.outgoing(data, len) }?;
         send(&mut open, &message, Wait::of(timeout_ns))
     })

@@ -29,7 +29,7 @@ pub unsafe extern "C" fn scl_stats(
     len: *mut usize,
 ) -> scl_status {
     border::status(|| {
-        // SAFETY: the caller's duty; NULL is refused.
+        // SAFETY: guaranteed by the caller; NULL is refused.
         let len = unsafe { border::result(len, "len") }?;
         *len = 0;
         let buffer = buffer.cast::<c_void>();
@@ -37,7 +37,7 @@ pub unsafe extern "C" fn scl_stats(
         let mut text = counts(&*gate::lock(gate)?).to_string();
         *len = text.len();
         text.push('\0');
-        // SAFETY: the caller promises `capacity` bytes, or NULL with a capacity of 0.
+        // SAFETY: the caller guarantees that `capacity` bytes are writable; NULL is refused unless `capacity` is 0.
         unsafe { border::store(text.as_bytes(), buffer, capacity) }
     })
 }

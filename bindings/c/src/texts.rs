@@ -15,7 +15,7 @@ const KEPT: usize = 16;
 const SMALLEST: usize = 256;
 
 thread_local! {
-    // Without a destructor, so that it works as long as the thread makes calls.
+    // No destructor, so it can be used for as long as the thread makes calls.
     static LAST: Cell<*const c_char> = const { Cell::new(c"".as_ptr()) };
     static TEXTS: RefCell<Texts> = const { RefCell::new(Texts::new()) };
 }
@@ -64,8 +64,8 @@ impl Texts {
         if buffer.capacity < bytes.len() {
             mem::replace(buffer, Buffer::of(bytes.len())).spare();
         }
-        // SAFETY: the buffer has room for the bytes and belongs to these texts alone. Only C code reads it meanwhile:
-        // this thread makes this call, and other threads may not use its texts once it goes on.
+        // SAFETY: the buffer has room for the bytes and belongs to these texts alone. C code cannot read it at the same
+        // time: this thread is inside this call, and other threads must not use its texts once it makes further calls.
         unsafe { buffer.start.copy_from_nonoverlapping(bytes.as_ptr(), bytes.len()) };
         buffer.start.cast()
     }
@@ -83,7 +83,7 @@ struct Buffer {
     capacity: usize,
 }
 
-// SAFETY: it is memory that only its owner writes to.
+// SAFETY: only the owner of a buffer writes to its memory.
 unsafe impl Send for Buffer {}
 
 impl Buffer {

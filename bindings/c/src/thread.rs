@@ -21,7 +21,7 @@ enum Life {
 }
 
 thread_local! {
-    // Without a destructor, so it can be read until the thread is gone.
+    // No destructor, so it can be read until the thread is gone.
     static LIFE: Cell<Life> = const { Cell::new(Life::Unknown) };
     static END: End = const { End };
 }
@@ -42,7 +42,7 @@ pub(crate) fn is_ending() -> bool {
         Life::Ending => true,
         Life::Unknown => {
             LIFE.set(Life::Running);
-            // In this order: what is made last is destroyed first.
+            // The order matters: `END` is created last and so destroyed first, and marks the thread as ending.
             host::prepare_thread();
             texts::prepare_thread();
             END.with(|_| ());
@@ -67,8 +67,8 @@ pub(crate) fn call_elsewhere<T>(call: impl FnOnce() -> Result<T, Failure>) -> Re
 /// Something of a thread that waits until another one has used it.
 struct Lent<T>(T);
 
-// SAFETY: only one of the two threads runs at a time, and nothing that a call takes or gives is tied to a thread:
-// pointers of the program, failures, and what the registry finds. Locks are released by the thread that has taken them.
+// SAFETY: the two threads never run at the same time, and nothing that a call captures or returns is tied to a thread:
+// pointers from the program, failures, and values from the registry. Each lock is released by the thread that took it.
 unsafe impl<T> Send for Lent<T> {}
 
 impl<T> Lent<T> {

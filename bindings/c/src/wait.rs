@@ -33,10 +33,10 @@ pub unsafe extern "C" fn scl_wait(
     ready: *mut u64,
 ) -> scl_status {
     border::status(|| {
-        // SAFETY: the caller's duty; NULL is refused.
+        // SAFETY: guaranteed by the caller; NULL is refused.
         let ready = unsafe { border::result(ready, "ready") }?;
         *ready = 0;
-        // SAFETY: the caller's duty; NULL and too many are refused.
+        // SAFETY: guaranteed by the caller; NULL and invalid counts are refused.
         let gates = unsafe { list(gates, count) }?;
         let opened = component::find(component)?;
         let mut locked = gates.iter().map(|gate| gate::lock(*gate)).collect::<Result<Vec<_>, _>>()?;
@@ -71,7 +71,7 @@ unsafe fn list<'a>(gates: *const *mut scl_gate, count: usize) -> Result<&'a [*mu
     if gates.is_null() {
         return Err(border::null("gates"));
     }
-    // SAFETY: not NULL, not too many, and the caller promises the rest.
+    // SAFETY: not NULL, and at most `MOST` handles; the caller guarantees the rest.
     Ok(unsafe { std::slice::from_raw_parts(gates, count) })
 }
 

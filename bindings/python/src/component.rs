@@ -147,7 +147,7 @@ impl Component {
             self.component.lock().unwrap_or_else(PoisonError::into_inner).take()
         })?;
         let Some(component) = component else { return Ok(()) };
-        // On a thread of its own, so that Ctrl-C ends the wait; the thread then goes on handing over.
+        // Close on a separate thread, so Ctrl-C can interrupt the wait; the thread then continues the flush.
         let (done, is_done) = sync_channel(1);
         let is_done = Mutex::new(is_done);
         let within = limit.left(Duration::MAX);

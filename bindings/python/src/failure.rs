@@ -30,7 +30,7 @@ impl Failure {
         let class = match ErrorKind::of(error) {
             ErrorKind::Blocking(BlockingError::Stopped) => "Stopped",
             ErrorKind::Blocking(BlockingError::Forked) => "Forked",
-            // The component may have been closed after the request and during the call.
+            // A stop request takes precedence: it may be why the program closed the component during this call.
             ErrorKind::Blocking(_) if host::gates_stopped() => "Stopped",
             ErrorKind::Blocking(_) => "Closed",
             ErrorKind::Open(OpenError::Plan { .. }) => "PlanError",
@@ -52,7 +52,7 @@ impl Failure {
 
     fn raised(&self, py: Python<'_>) -> PyResult<PyErr> {
         if self.is("Stopped") {
-            // Its class depends on who is to receive it.
+            // Its class depends on where it is raised: in the main thread, in another thread or in an asyncio task.
             let stopped = py.import("scl._stopping")?.getattr("stopped")?.call1((&self.text,))?;
             return Ok(PyErr::from_value(stopped));
         }
@@ -73,10 +73,10 @@ pub(crate) fn no_panic<T>(call: impl FnOnce() -> Result<T, Failure>) -> Result<T
 impl From<Failure> for PyErr {
     fn from(failure: Failure) -> Self {
         Python::attach(|py| {
-            // The components are being closed, so that the failure says nothing to the program.
+            // Another thread is ending the interpreter and closing the components; this failure is only a consequence.
             let Some(_inside) = Inside::enter() else { return thread_exit() };
             failure.raised(py).unwrap_or_else(|_| {
-                // Only without the Python part of the package.
+                // Happens only if the Python part of the package is missing.
                 PyRuntimeError::new_err(failure.text)
             })
         })

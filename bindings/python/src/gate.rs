@@ -215,7 +215,7 @@ impl Gate {
         })?;
         match sent {
             Some(()) => Ok(()),
-            // One last time, which also names the peer.
+            // Try one last time; if the queue is still full, the error names the peer.
             None => Ok(self.at_once(|gate| self.try_send(gate, &message))?),
         }
     }
@@ -315,7 +315,7 @@ impl Gate {
         let timeout = timeout.map(|limit| limit.left(Duration::MAX));
         let request = Bytes::copy_from_slice(request.as_bytes());
         self.shared.check()?;
-        // Not claimed: several calls may be in progress.
+        // Do not claim the gate: several calls may be in progress.
         let requester = self.visit(|gate| match gate {
             AnyGate::Req(requester) => Ok(requester.clone()),
             _ => self.has_no("call"),

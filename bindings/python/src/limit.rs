@@ -22,7 +22,7 @@ impl Limit {
                 let text = format!("timeout={seconds}; expected seconds, 0 to not wait, or None for no limit");
                 return Err(PyValueError::new_err(text));
             }
-            // What is too long for a `Duration` never ends.
+            // A timeout that is too long for a `Duration` means no limit.
             Some(seconds) => Duration::try_from_secs_f64(seconds).ok(),
         };
         Ok(Self { began: Instant::now(), length, before: Duration::ZERO })

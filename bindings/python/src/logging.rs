@@ -51,7 +51,7 @@ type Record = (u8, &'static str, String);
 #[pyfunction]
 pub(crate) fn log_start() {
     QUEUE.lock().ended = false;
-    // A forked child inherits it.
+    // Fails in a forked child, which has inherited the subscriber.
     let _already_set = tracing::subscriber::set_global_default(tracing_subscriber::registry().with(ToQueue));
 }
 
@@ -132,7 +132,7 @@ impl<S: Subscriber> Layer<S> for ToQueue {
     }
 
     fn register_callsite(&self, _: &'static Metadata<'static>) -> Interest {
-        // The level changes with Python's.
+        // Do not cache the result: the level follows Python's, which may change.
         Interest::sometimes()
     }
 

@@ -73,7 +73,7 @@ impl Plan {
     #[getter]
     fn schemas<'py>(&self, py: Python<'py>) -> Vec<Bound<'py, PyBytes>> {
         let schemas = self.plan.components.iter().filter_map(|plan| plan.schema.as_ref());
-        // Ordered, and each once.
+        // The map sorts the schemas and removes duplicates.
         let schemas: BTreeMap<&str, &[u8]> = schemas.map(|it| (&*it.hash, &*it.descriptors)).collect();
         schemas.values().map(|descriptors| PyBytes::new(py, descriptors)).collect()
     }
@@ -97,7 +97,7 @@ fn check(path: PathBuf) -> Result<(SystemPlan, Vec<String>), Failure> {
     };
     match loaded.system_plan() {
         Some(plan) => Ok((plan, texts(Severity::Warning))),
-        // It begins with a line of its own, so that Python does not shift the first line of the excerpt.
+        // Start on a new line: Python prints the class name first, which would shift the first line of the excerpt.
         None => Err(Failure::new("TopologyError", format!("\n{}", texts(Severity::Error).join("\n\n")))),
     }
 }

@@ -43,7 +43,8 @@ pub(crate) struct Inside(());
 impl Inside {
     /// Returns `None` if another thread is ending the interpreter.
     pub(crate) fn enter() -> Option<Self> {
-        // Counted first: the thread that ends the interpreter either sees it, or is seen.
+        // Increment before checking: either the thread that ends the interpreter sees this count, or this thread sees
+        // that the interpreter is ending.
         INSIDE.fetch_add(1, Ordering::SeqCst);
         let inside = Self(());
         (!is_ended_by_another()).then_some(inside)

@@ -36,7 +36,7 @@ impl Request {
     }
 
     fn reply(&self, message: &Bound<'_, PyBytes>) -> PyResult<()> {
-        // Also after a stop request: who asked is waiting.
+        // Do not check for a stop request: the requester is still waiting for the reply.
         if self.shared.is_inherited() {
             self.shared.check_open()?;
         }

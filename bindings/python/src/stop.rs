@@ -36,10 +36,11 @@ pub(crate) fn stop_request(number: i32, watched: Vec<i32>) -> PyResult<()> {
     let grace_period = host::grace_period().map_err(Failure::from)?;
     let another_ends = Arc::new(AtomicBool::new(false));
     for number in watched {
-        // Python runs its handlers between two of its steps only, which may not come.
+        // Python runs its signal handlers only between bytecode instructions, which a hanging program may never reach.
         signal_hook::flag::register_conditional_default(number, Arc::clone(&another_ends))?;
     }
-    // No thread of Python: a handler of signals may run while Python starts one, under the same lock.
+    // Not a Python thread: this signal handler may have interrupted Python while it was starting a thread and held the
+    // lock that starting another one needs.
     let watching = std::thread::Builder::new().name("scl-stop".to_owned()).spawn(move || {
         let one_request = ONE_REQUEST.min(grace_period);
         std::thread::sleep(one_request);
@@ -58,7 +59,7 @@ fn end_overdue_program(signal: Signal, grace_period: Duration) {
     if HANDLED.load(Ordering::Acquire) {
         std::thread::sleep(LAST_FLUSH);
     }
-    // Not `exit`, which runs destructors beside a running interpreter.
+    // Not `exit`, which would run destructors while the interpreter is still running.
     let _ended = kill_process(getpid(), signal);
 }
 

@@ -28,7 +28,7 @@ pub fn simplify(frame: &[u8]) -> Option<Vec<u8>> {
     let mut simple = Vec::new();
     let mut copied = 0;
     let mut at = 0;
-    // What is inside an array or a map follows its head, so all heads are found without nesting.
+    // The items of an array or a map follow its head, so a flat loop finds every head.
     while let Some(&first) = frame.get(at) {
         let (major, low) = (first >> 5, first & 0x1f);
         let (argument, head) = argument(&frame[at..])?;
@@ -64,7 +64,7 @@ fn argument(item: &[u8]) -> Option<(u64, usize)> {
         25 => 2,
         26 => 4,
         27 => 8,
-        // Of any length, until a break.
+        // Indefinite length: ends with a break.
         31 => 0,
         _ => return None,
     };

@@ -118,7 +118,7 @@ impl Role {
 
 impl Drop for Role {
     fn drop(&mut self) {
-        // It may have ended.
+        // The process may have exited already.
         let _ = self.process.kill();
         let _ = self.process.wait();
     }
@@ -223,7 +223,7 @@ fn processor_time(process: u32) -> Result<Duration> {
     let (_, fields) = stat.rsplit_once(')').ok_or("no name")?;
     let ticks = |index: usize| fields.split_whitespace().nth(index).and_then(|field| field.parse::<u64>().ok());
     let (user, system) = (ticks(11).ok_or("no time")?, ticks(12).ok_or("no time")?);
-    // Linux counts in hundredths of a second here on all processors that Rust supports but Alpha.
+    // In clock ticks. Linux has 100 per second (`USER_HZ`) on every architecture that Rust supports, except Alpha.
     Ok(Duration::from_millis(10 * (user + system)))
 }
 

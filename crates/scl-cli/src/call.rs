@@ -83,7 +83,7 @@ async fn run(arguments: &CallArguments) -> Result<ExitCode, Problem> {
         () = stop.received() => return Ok(ExitCode::FAILURE),
     };
     drop(asks);
-    // The reply is there; what becomes of the component's other gates does not matter.
+    // The call is complete, so a failure to close the component's other gates does not matter.
     let _ = component.close(CLOSE).await;
     match reply {
         Ok(bytes) => {

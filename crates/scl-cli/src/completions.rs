@@ -25,7 +25,7 @@ pub(crate) struct CompletionsArguments {
 
 /// The body of `scl completions`, for this command line.
 pub(crate) fn print_completions(arguments: &CompletionsArguments, command_line: &Command) -> ExitCode {
-    // Hidden commands are for ourselves; the generator for bash would offer them.
+    // Leave out hidden commands: they are internal, but the bash generator would offer them.
     let visible = command_line.get_subcommands().filter(|command| !command.is_hide_set()).cloned();
     let mut command_line = Command::new("scl").version(env!("CARGO_PKG_VERSION")).subcommands(visible);
     let mut script = Vec::new();

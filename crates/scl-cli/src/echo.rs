@@ -93,7 +93,7 @@ async fn run(arguments: &EchoArguments) -> Result<ExitCode, Problem> {
         let selection = selection.clone();
         move |gate| selection.includes(gate)
     });
-    // These are reported as started, too.
+    // `taps` reports these gates as started, too; skip those events.
     let mut known = taps.gates().len();
     let mut watched: Vec<Watched> = taps.gates().iter().cloned().map(Watched::new).collect();
     let mut output = Output::new(arguments.format, &arguments.fields, !selection.is_one_gate());

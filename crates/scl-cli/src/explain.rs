@@ -66,7 +66,7 @@ fn unknown_word(written: &str, word: &str) -> String {
     let mut text =
         format!("error: `{written}` is neither a code of the checker nor a word of the topology or the launch file\n");
     let (entries, keys) = (grammar::entries(), launch_keys());
-    // A name that other tools use for a key.
+    // Keys that other tools call by this word.
     let known = keys.iter().filter(|(_, also)| also.contains(&word)).map(|(key, _)| key.word);
     let entries: Vec<&Entry> = entries.iter().chain(keys.iter().map(|(key, _)| key)).collect();
     let words = entries.iter().map(|entry| entry.word);

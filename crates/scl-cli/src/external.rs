@@ -17,7 +17,7 @@ pub(crate) fn run_external(words: &[OsString], command_line: &CommandLine) -> Ex
     let problem = match find(name) {
         Found::Program(program) => {
             let mut command = Command::new(&program);
-            // So that it can call the `scl` by which it was called.
+            // `SCL` lets the program call the same `scl` that started it.
             command.args(arguments).envs(env::current_exe().ok().map(|scl| ("SCL", scl)));
             cannot_run(&program, &command.exec())
         }
@@ -45,11 +45,11 @@ enum Found {
 fn find(name: &OsStr) -> Found {
     let mut file = OsString::from("scl-");
     file.push(name);
-    // A slash would lead out of the folders of PATH.
+    // Reject names with a slash: they would escape the folders in PATH.
     if Path::new(&file).components().count() != 1 {
         return Found::Nothing;
     }
-    // Programs of the same version lie beside this one.
+    // Search next to this executable first, where programs of the same version are installed.
     let own = env::current_exe().ok().and_then(|scl| Some(scl.parent()?.to_owned()));
     let path = env::var_os("PATH").unwrap_or_default();
     let folders = env::split_paths(&path).filter(|folder| !folder.as_os_str().is_empty());

@@ -48,7 +48,8 @@ pub(crate) fn request(path: &Path, max_size: MaxSize) -> Request {
     if path.as_os_str() != STDIN {
         return Request { max_size, ..Request::new(path) };
     }
-    // Schemas are looked for in the working folder, and the system is called like that of `topology.yaml`.
+    // As if the text were `topology.yaml` in the working folder, which determines where schemas are searched for and
+    // the system's default name.
     Request { shown_as: STDIN_NAME.to_owned(), max_size, ..Request::new(TOPOLOGY) }
 }
 
@@ -72,7 +73,7 @@ pub(crate) fn load_file(path: &Path, max_size: MaxSize) -> Loaded {
 #[cfg(feature = "run")]
 pub(crate) fn system_of_folder() -> Option<String> {
     let path = Path::new(TOPOLOGY);
-    // Mistakes elsewhere in the file do not matter.
+    // Errors elsewhere in the file do not matter.
     let loaded = path.is_file().then(|| load_file(path, MaxSize::default()))?;
     let checked = loaded.topology.as_ref().map(|topology| topology.system().to_owned());
     checked.or_else(|| Some(loaded.model.system?.value))

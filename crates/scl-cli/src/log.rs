@@ -79,7 +79,7 @@ pub(crate) fn log(arguments: &LogArguments) -> Result<ExitCode, Problem> {
     let mut reader = LogReader::new(&folder, &arguments.component);
     let mut printer = Printer::new(arguments);
     print_existing(arguments, &mut reader, &mut printer).map_err(unreadable)?;
-    // Until a signal, or until nobody reads any more.
+    // Follow until a signal ends the process or the reader closes the output.
     while arguments.follow && !output_is_closed() {
         match reader.next_entry().map_err(unreadable)? {
             Some(entry) => printer.print(&entry),
@@ -142,7 +142,7 @@ impl Printer {
 
     fn text(&mut self, entry: &LogEntry) -> String {
         if self.is_json {
-            // Strings and numbers always become JSON.
+            // Serializing strings and numbers cannot fail.
             return format!("{}\n", escape_json(&serde_json::to_string(entry).unwrap_or_default()));
         }
         let is_other = self.run.replace(entry.run).is_some_and(|run| run != entry.run);

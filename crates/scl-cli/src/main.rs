@@ -181,7 +181,7 @@ fn print_completions(arguments: &completions::CompletionsArguments) -> ExitCode 
 fn main() -> ExitCode {
     finish_output(match CommandLine::try_parse() {
         Ok(command_line) => run_command(command_line.command),
-        // `--help` and `--version` are output, too.
+        // `clap` also returns the output of `--help` and `--version` as an error.
         Err(error) => {
             let printed = error.print();
             if !error.use_stderr() {

@@ -49,7 +49,8 @@ impl Plans {
             let problem = Problem::new(format!("the topology `{}` cannot be used", escape(&shown)));
             return Err(problem.help("correct the errors above, or choose another file with `--topology FILE`"));
         };
-        // The file in the working folder may be that of another system. `SCL_SYSTEM` gives this one another name.
+        // The file in the working folder may describe a different system than the one meant. Without `--system`,
+        // however, `SCL_SYSTEM` only renames the file's system.
         let variables = |name: &str| std::env::var_os(name);
         let name = arguments.system.name();
         if arguments.topology.is_none() && (name.is_some() || named_system(name, &variables)?.is_none()) {

@@ -61,7 +61,7 @@ pub(crate) struct PubArguments {
 
 fn parse_rate(text: &str) -> Result<f64, String> {
     let rate: Option<f64> = text.trim_end_matches("Hz").trim().parse().ok();
-    // The timer counts nanoseconds.
+    // The timer counts whole nanoseconds, which is too coarse for much higher rates.
     let usable = rate.filter(|rate| (1e-6..=1e6).contains(rate));
     usable.ok_or_else(|| "expected messages per second, from 0.000001 to 1000000".to_owned())
 }
@@ -125,7 +125,7 @@ async fn send_all(
         };
         let Some(message) = message else { break };
         tokio::select! {
-            // With `when_full: wait`, a peer may make it wait.
+            // With `when_full: wait`, a slow peer may block the send.
             result = sender.send(&message) => result?,
             () = stop.received() => break,
         }

@@ -156,7 +156,7 @@ fn attached_files(arguments: &RecordArguments, system: &System) -> Result<Vec<At
                     .map_err(|error| Problem::new(format!("cannot read `{}`: {error}", path.display())))?;
                 attached.push(AttachedFile { name, data });
             }
-            // A launch file may well be missing.
+            // The launch file is optional.
             None if is_ours => attached.extend(fs::read(name).ok().map(|data| AttachedFile { name, data })),
             None => {}
         }

@@ -99,10 +99,10 @@ pub(crate) fn replay(arguments: &ReplayArguments) -> Result<ExitCode, Problem> {
         plan,
     };
     let recording = Recording::open(&find_files(&arguments.files)?)?;
-    // `scl run` and systemd may have started it in place of the component's own program.
+    // `scl run` or systemd may have started this process in place of the component's own program.
     scl::host::notify_service_manager();
     let survey = recording.survey()?;
-    // Without messages, the error tells what there is instead.
+    // If there are no messages, `play` fails, and its error contains the notes.
     let notes = recording.notes().into_iter().chain(survey.first_ns.map(|_| survey.notes()).into_iter().flatten());
     notes.for_each(|note| print_err(&format!("note: {note}\n")));
     if !survey.gaps.is_empty() && options.max_gap.is_none() && options.rate != Rate::Max {

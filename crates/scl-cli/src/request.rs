@@ -92,7 +92,7 @@ fn request(
 fn line(report: &ComponentReport) -> String {
     let ComponentReport { component, state, pid, detail, .. } = report;
     let process = pid.map(|pid| format!(" as process {pid}")).unwrap_or_default();
-    // It tells of the process before.
+    // The detail describes the previous process.
     let detail = detail.as_deref().filter(|_| pid.is_none()).map(|detail| format!(": {}", escape(detail)));
     format!("{component}  {state}{process}{}\n", detail.unwrap_or_default())
 }

@@ -41,7 +41,7 @@ impl ProcessMark {
     /// message.
     pub fn is_own(&self) -> bool {
         match &self.0 {
-            // The guard reports a fork once, so it is a copy that is asked.
+            // A guard reports a fork only once, so ask a copy.
             Mark::Forks(forks) => !forks.clone().detected_fork(),
             Mark::Process(process) => *process == std::process::id(),
         }

@@ -9,6 +9,6 @@ pub mod route;
 mod slot;
 pub mod wire;
 
-// For the certificates that tests of both kinds use.
+// Unit tests include `tests/wire/certificates.rs`, which names this crate `scl_gateway`.
 #[cfg(test)]
 extern crate self as scl_gateway;

@@ -21,7 +21,7 @@ pub(crate) fn start() -> Result<(), Problem> {
         })?,
         _ => LevelFilter::WARN,
     };
-    // The network library warns of every attempt to reach a host that is off. What matters, the gateway says itself.
+    // The network library warns about every attempt to reach a host that is off. The gateway itself logs what matters.
     let library = if level >= LevelFilter::DEBUG { level } else { LevelFilter::OFF };
     let filter = Targets::new().with_default(level).with_targets([("zenoh", library), ("rustls", library)]);
     let use_colour = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();

@@ -21,7 +21,7 @@ pub(crate) fn ensure() -> Result<(), Problem> {
     if std::env::var_os(VARIABLE).is_some_and(|value| value == VALUE) {
         return Ok(());
     }
-    // Not a path: the file may have been replaced by a newer one meanwhile.
+    // Not the file's path: a newer version may have replaced it in the meantime.
     let mut command = Command::new("/proc/self/exe");
     command.args(std::env::args_os().skip(1)).env(VARIABLE, VALUE);
     if let Some(name) = std::env::args_os().next() {

@@ -75,7 +75,8 @@ pub fn routes(system: &SystemPlan, deployment: &Deployment, host: &str) -> Vec<R
 /// Adds a route, or what is new of it where another component of the same host has it already.
 fn add(routes: &mut Vec<Route>, route: Route) {
     match routes.iter_mut().find(|known| known.key == route.key) {
-        // All else is the receiving gate's; also `lossless`, because all senders must allow a gate to make them wait.
+        // The rest depends only on the receiving gate, even `lossless`: a gate may make its senders wait only if all of
+        // them allow it.
         Some(known) => known.max_size = known.max_size.max(route.max_size),
         None => routes.push(route),
     }
@@ -95,7 +96,7 @@ fn route(
     let is_alone = pattern == Pattern::Messages { listens_at_sender: true };
     let sender = match is_alone {
         true => format!("{}/{}", plan.component, gate.name),
-        // A colon is in no component's name, so this is not the name of another sender.
+        // Component names contain no colon, so this cannot be the name of another sender.
         false => format!("host:{from_host}/{}", gate.kind.word()),
     };
     let replies = if pattern == Pattern::Requests { gate.options.max_size } else { 0 };

@@ -79,7 +79,7 @@ pub(crate) fn find(declarations: &[Declaration]) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for declaration in declarations {
         let other = *first.entry((&declaration.scope, &declaration.name)).or_insert(declaration);
-        // Many names may come from one component; one of them tells enough.
+        // The same two origins may clash in many generated names; report only the first.
         let pair = (&other.origin, &declaration.origin);
         if other.origin != declaration.origin && told.insert(pair) {
             found.push(report(declaration, &other.origin, &declaration.origin));
@@ -95,7 +95,7 @@ fn report(declaration: &Declaration, first: &Origin, second: &Origin) -> Diagnos
         _ => &NAME_CLASH,
     };
     let headline = format!("{} and {} would both become `{name}` in {scope}", first.what, second.what);
-    // What is easier to rename: components and gates rather than messages, of which other programs may know.
+    // Suggest the easier rename: components and gates rather than messages, which other programs may use.
     let [other, renamed] = match (first.kind, second.kind) {
         (_, Kind::Component | Kind::Gate) | (Kind::Generated, _) => [first, second],
         _ => [second, first],

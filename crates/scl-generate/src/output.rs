@@ -67,7 +67,7 @@ pub fn write(folder: &Path, file: &File) -> Result<Outcome, OutputError> {
 /// Returns true if the folder has the file with this content.
 pub fn is_current(folder: &Path, file: &File) -> bool {
     let path = folder.join(&file.name);
-    // A look at the length saves reading most files that differ, and keeps away from pipes and devices.
+    // Checking the file type and length first avoids reading pipes, devices and most changed files.
     let is_candidate = fs::metadata(&path).is_ok_and(|it| it.is_file() && it.len() == file.text.len() as u64);
     is_candidate && fs::read(&path).is_ok_and(|bytes| bytes == file.text.as_bytes())
 }
@@ -75,7 +75,7 @@ pub fn is_current(folder: &Path, file: &File) -> bool {
 fn replace(path: &Path, text: &str) -> io::Result<()> {
     let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    // In the same folder, as only within one file system a rename is atomic; readable for all that the umask allows.
+    // In the same folder, because a rename is atomic only within one file system. The umask decides who may read it.
     let mut file = Builder::new().permissions(Permissions::from_mode(0o666)).tempfile_in(folder)?;
     file.write_all(text.as_bytes())?;
     file.persist(path)?;

@@ -74,7 +74,7 @@ pub(crate) fn files(system: &System) -> Vec<File> {
     let quoted = exported.collect::<BTreeSet<_>>().into_iter().map(|name| Doc::text(format!("\"{name}\"")));
     let all = Doc::concat([Doc::text("__all__ = "), Doc::group("[", quoted.collect(), "]")]);
     out.line(Layout::at(0).print(&all));
-    // JSON escapes quotes, and a raw text keeps its backslashes.
+    // JSON escapes quotes, and a raw string keeps the backslashes.
     out.line(format!("\n_PLAN = r\"\"\"\n{}\"\"\"", system.plan_json()));
     let text = out.finish() + &body.finish();
     vec![File { name: format!("{}.py", module_name(system)), text }]

@@ -28,7 +28,7 @@ pub(crate) fn files(system: &System, format: Format) -> Vec<File> {
             ("yaml", text.map_err(drop))
         }
     };
-    // Only maps with keys that are not texts cannot be written.
+    // Cannot fail: only maps with keys other than strings cannot be serialized.
     let text = text.unwrap_or_default();
     vec![File { name: format!("{}.zmq.{ending}", system.snake_name()), text }]
 }
@@ -110,7 +110,7 @@ impl<'a> GateEntry<'a> {
             payload: payload(&plan.payload),
             codec: &plan.codec,
             contract: &plan.contract,
-            // The socket of a plain program in the place of a component.
+            // The socket of a plain ZeroMQ program that takes the component's place.
             zmq_socket_type: plan.kind.word().to_ascii_uppercase(),
             zmq_method: if plan.kind.listens() { "bind" } else { "connect" },
             zmq_endpoints: endpoints.into_iter().map(address).collect(),

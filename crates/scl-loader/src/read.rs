@@ -52,7 +52,7 @@ pub(crate) fn read_text(path: &Path, max_size: u64) -> Result<String, Unreadable
     }
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(Unreadable::Refused)?;
-    // One byte more than allowed, because the file may have grown, or may not tell its length.
+    // Read one byte more than allowed: the file may have grown, or may not report its length.
     file.take(max_size.saturating_add(1)).read_to_end(&mut bytes).map_err(Unreadable::Refused)?;
     decode(bytes, max_size)
 }

@@ -24,7 +24,7 @@ impl Revision {
 
 /// The commit that is checked out in the folder, a repository's top folder.
 pub(crate) fn head(repository: &Path) -> Option<String> {
-    // A folder may lie in the repository of something else.
+    // The folder may be part of an unrelated repository.
     let top = git(repository, &["rev-parse", "--show-toplevel"])?;
     let is_top = Path::new(&top).canonicalize().ok()? == repository.canonicalize().ok()?;
     is_top.then(|| git(repository, &["rev-parse", "HEAD"]))?
@@ -61,7 +61,7 @@ fn with_scheme(url: &str) -> Option<String> {
             _ => url.to_owned(),
         });
     }
-    // `user@host:path`, as ssh writes it.
+    // The scp-like form `user@host:path`.
     let (host, path) = url.split_once(':')?;
     let is_host = host.contains('@') && !host.contains('/') && !path.is_empty();
     is_host.then(|| format!("ssh://{host}/{}", path.trim_start_matches('/')))
@@ -71,7 +71,7 @@ fn with_scheme(url: &str) -> Option<String> {
 fn git(repository: &Path, arguments: &[&str]) -> Option<String> {
     let mut command = Command::new("git");
     command.arg("-C").arg(repository).args(arguments).stdin(Stdio::null()).stderr(Stdio::null());
-    // Set inside hooks, where they name another repository.
+    // Git sets these in hooks, where they name another repository.
     for variable in ["GIT_DIR", "GIT_WORK_TREE", "GIT_INDEX_FILE"] {
         command.env_remove(variable);
     }

@@ -103,7 +103,7 @@ fn with_name(text: &str, name: &str) -> String {
     let with_whole_name = ["name = \"rover\"", "system: rover\n", "# rover\n"]
         .iter()
         .fold(text.to_owned(), |text, words| text.replace(words, &words.replace(NAME, &format!("\0{name}\0"))));
-    // Between zero bytes, names that contain `rover` stay as they are.
+    // The parts between zero bytes are names, which stay as they are even if they contain `rover`.
     let parts = with_whole_name.split('\0').enumerate();
     parts
         .map(|(index, part)| if index % 2 == 0 { part.replace(NAME, &code_name(name)) } else { part.to_owned() })

@@ -29,7 +29,7 @@ pub(crate) fn write_all(parent: &Path, name: &str, files: &[(String, String)]) -
 
 /// Writes the files into a folder that is removed unless it is renamed.
 fn write_draft(parent: &Path, files: &[(String, String)]) -> io::Result<TempDir> {
-    // Readable for all that the umask allows.
+    // The umask decides who may read the project; temporary folders are private by default.
     let draft = Builder::new().permissions(Permissions::from_mode(0o777)).tempdir_in(parent)?;
     for (path, text) in files {
         let path = draft.path().join(path);

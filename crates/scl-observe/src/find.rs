@@ -103,7 +103,7 @@ fn unreadable(runtime_dir: &RuntimeDir, error: &std::io::Error) -> Problem {
 /// The name of the system that the topology file in this folder describes.
 fn system_of_folder(folder: &Path) -> Option<String> {
     let file = folder.join(TOPOLOGY_FILE);
-    // Mistakes elsewhere in the file do not matter here.
+    // Errors elsewhere in the file do not matter here.
     let loaded = file.is_file().then(|| load(&Request::new(file)))?;
     let checked = loaded.topology.as_ref().map(|topology| topology.system().to_owned());
     checked.or_else(|| Some(loaded.model.system?.value))

@@ -75,7 +75,7 @@ impl<M: Meter> Measurement<M> {
                         continue;
                     };
                     match event {
-                        // It was sent before this began.
+                        // A latched message was sent before the measurement began.
                         TapEvent::Observed(seen) if seen.latched => {}
                         TapEvent::Observed(seen) => measured.meter.observe(&seen),
                         TapEvent::Connected | TapEvent::Disconnected => measured.meter.interrupt(),

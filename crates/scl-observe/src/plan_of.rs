@@ -51,7 +51,7 @@ fn opposite_gates(component: &str, peers: &[Component]) -> Vec<GatePlan> {
                     Some(known) if known.contract == opposite.contract => {
                         known.connections.extend(opposite.connections)
                     }
-                    // Peers that were built from different topologies; the first one decides.
+                    // The peers were built from different topologies; the first one wins.
                     Some(_) => {}
                     None => gates.push(opposite),
                 }
@@ -83,7 +83,7 @@ fn opposite_gate(component: &str, peer: &str, gate: &GatePlan, connection: &Conn
             peer_gate: gate.name.clone(),
             endpoint: connection.endpoint.clone(),
             contract: connection.contract.clone(),
-            // It runs.
+            // The peer is running.
             required: true,
             queue: connection.queue,
             when_full: connection.when_full,

@@ -107,7 +107,7 @@ impl Meter for RateMeter {
         self.session = None;
     }
 
-    // Those of the window, if there is one.
+    // Returns the figures of the window, if there is one.
     fn take_interval(&mut self) -> RateFigures {
         if let Some(window) = &self.window {
             return window.figures();

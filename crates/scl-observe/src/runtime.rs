@@ -31,7 +31,7 @@ impl StopSignals {
     /// # Errors
     /// The operating system refuses.
     pub fn watch() -> Result<Self, Problem> {
-        // As `nohup` starts a process, which has not changed that.
+        // `nohup` starts programs with SIGHUP ignored; keep it that way.
         let hangup = SignalKind::hangup();
         let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
         let is_ignored = has_bit(&status, "SigIgn:", hangup.as_raw_value().unsigned_abs() - 1);

@@ -100,14 +100,14 @@ impl Taps {
         if let Some(gate) = self.started.pop_front() {
             return Poll::Ready(TapsEvent::Started(gate));
         }
-        // One turn for each: with its budget used up, a future of tokio wakes itself at once and needs another poll of
-        // the whole task.
+        // Poll each woken observer only once: when tokio's budget is used up, its futures wake themselves at once, but
+        // make progress only when the whole task is polled again.
         for _ in 0..self.woken.len() {
             let Some(index) = self.woken.take() else { break };
             let watched = &mut self.observers[index];
             let Some(observer) = &mut watched.observer else { continue };
             if let Poll::Ready(event) = observer.poll_next(&mut Context::from_waker(&watched.waker)) {
-                // It may have more; the others come first.
+                // This observer may have more events, but poll the others first.
                 self.woken.put_back(index);
                 return Poll::Ready(TapsEvent::Event { gate: watched.gate, event });
             }

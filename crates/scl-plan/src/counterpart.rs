@@ -33,7 +33,7 @@ fn opposite(owner: &str, gate: &GatePlan) -> GatePlan {
         payload: gate.payload.clone(),
         codec: gate.codec.clone(),
         declared_at: gate.declared_at.clone(),
-        // A gate that is connected to nothing has no endpoint to share, but two of them must not share a name either.
+        // An unconnected gate has no endpoint to share; a name of its own keeps it apart from other unconnected gates.
         endpoint: kind
             .shares_endpoint()
             .then(|| endpoint.clone().unwrap_or_else(|| format!("{owner}.{}.unconnected", gate.name))),

@@ -9,7 +9,7 @@ const REDRAWS: u8 = 10;
 /// A bar or a line on standard error; invisible unless that is a terminal.
 pub(crate) fn bar(length: Option<u64>, template: &str) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(length, ProgressDrawTarget::stderr());
-    // The templates are constants.
+    // Cannot fail: the templates are constants.
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }
@@ -26,7 +26,7 @@ impl Progress {
     pub fn new(what: &'static str, length: Duration) -> Self {
         let target = ProgressDrawTarget::stderr_with_hz(REDRAWS);
         let bar = ProgressBar::with_draw_target(Some(milliseconds(length)), target).with_message(what);
-        // The template is a constant, which the tests read.
+        // Cannot fail: the template is a constant, and a test parses it.
         if let Ok(style) = ProgressStyle::with_template(TEMPLATE) {
             bar.set_style(style.with_key("at", |state: &indicatif::ProgressState, out: &mut dyn std::fmt::Write| {
                 let seconds = |milliseconds: u64| milliseconds as f64 / 1e3;

@@ -57,7 +57,7 @@ pub fn record(system: &System, options: &Options) -> Result<Report, Problem> {
 }
 
 async fn record_async(system: &System, options: &Options) -> Result<Report, Problem> {
-    // First, so that an early signal ends a recording and not the process.
+    // Watch for signals first, so that an early one ends the recording instead of killing the process.
     let signals = (StopSignals::watch()?, watch_signal(SignalKind::user_defined1())?);
     let notes = Notes::new();
     let selection = Selection::new(system, &options.gates, &options.exclude, &options.topology)?;

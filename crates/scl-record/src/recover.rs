@@ -56,7 +56,7 @@ pub fn recover(input: &Path, output: Option<&Path>) -> Result<Recovered, Problem
     if rustix::fs::flock(&file, rustix::fs::FlockOperation::NonBlockingLockShared).is_err() {
         return Err(Problem::new(format!("`{}` is being recorded", input.display())).help("stop the recorder first"));
     }
-    // Through symbolic links, so that the file is replaced and not the link.
+    // Resolve symbolic links, so that the file is replaced and not the link.
     let real = fs::canonicalize(input).map_err(|error| unreadable(&error))?;
     let target = output.unwrap_or(&real);
     if let Some(output) = output.filter(|output| output.exists()) {

@@ -80,7 +80,7 @@ pub async fn replay(
     options: &ReplayOptions,
     progress: &dyn Fn(Duration),
 ) -> Result<ReplayReport, Problem> {
-    // From now on a signal ends the replay in order.
+    // Install the signal handlers: from now on a signal ends the replay cleanly.
     drop(scl::stop_requested());
     let plan = match &options.plan {
         Some(plan) => plan.clone(),
@@ -89,7 +89,7 @@ pub async fn replay(
     let cast = Participants::choose(&plan, options)?;
     check_only(&plan, options)?;
     let (origin, span) = span(recording, survey, options)?;
-    // Read before anything is opened, so that a recording that does not fit disturbs nobody.
+    // Read the first batch before opening any gate: an unsuitable recording must not disturb the running system.
     let mut batches = timeline::read(recording, span.clone());
     let first = batches.recv().await.unwrap_or_else(|| Ok(Batch::default()))?;
     let mut stage = Stage { plan: &plan, cast: &cast, options, gates: Vec::new(), report: ReplayReport::default() };
@@ -106,7 +106,7 @@ pub async fn replay(
     report.was_stopped = played.is_none();
     let played = played.unwrap_or(Ok(()));
     let replies = players.replies();
-    // A lossless replay waits for slow peers, unless it is stopped.
+    // A lossless replay waits for slow peers until it is stopped.
     let closed = match report.was_stopped || played.is_err() {
         true => Some(players.close(true).await),
         false => until_stopped(players.close(false)).await,
@@ -187,7 +187,7 @@ impl Run<'_> {
             let gate = &self.stage.gates[message.channel];
             let (sender, reported) = (gate.sender.clone(), gate.reported);
             let Some(sender) = sender else {
-                // As long as the recording, for requesters that ask at other times.
+                // Take as long as the recording, because requesters may ask at other times than they did then.
                 if self.players.answers() {
                     self.pace.wait_for(time).await?;
                 }
@@ -260,7 +260,7 @@ fn answering_gates(cast: &Participants) -> Vec<GateId> {
 
 /// The time at which the recording begins, and the times that are played.
 fn span(recording: &Recording, survey: &Survey, options: &ReplayOptions) -> Result<(u64, Range<u64>), Problem> {
-    // Of almost the first message to be sent; the recorder received it somewhat later.
+    // `first_ns` is the send time of the first message received, which is almost the earliest one.
     let Some(first) = survey.first_ns else {
         let problem = Problem::new(format!("the recording `{}` has no messages", recording.name()));
         return Err(survey.notes().into_iter().fold(problem, Problem::note));

@@ -12,7 +12,7 @@ use scl_terminal::{Problem, quoted_list};
 /// One problem that names the process.
 pub(crate) fn check(plan: &RunPlan) -> Result<(), Problem> {
     let Some(system) = &plan.system else { return Ok(()) };
-    // A folder that cannot be used is reported where it is needed.
+    // An unusable runtime folder is reported later, where it is needed.
     let Ok(Some(dir)) = RuntimeDir::existing(&|name| std::env::var_os(name)) else { return Ok(()) };
     let names: Vec<&str> = plan.programs().map(|component| component.name.as_str()).collect();
     for run in find_runs(dir.path(), Some(system)).iter().filter(|run| run.process != std::process::id()) {

@@ -63,7 +63,7 @@ impl Running {
         let Member { program, label, role, policy, messages, .. } = member;
         let Start { process: number, notify, terminal } = start;
         let mut command = bound_command(&program.command, &program.placement);
-        // What is set for us, by systemd or another `scl run`, is not for our children.
+        // These variables are meant for this process: they were set by systemd or an outer `scl run`.
         for name in ["NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID", COMPONENT] {
             command.env_remove(name);
         }
@@ -88,11 +88,11 @@ impl Running {
         let pressed = move |key| _ = pressed.send(Event::Key { process: number, key });
         let loan = lent.map(|terminal| terminal.lend(group, pressed));
         let loan = loan.transpose().inspect_err(|_| guard.forget(group))?;
-        // Standard output has only what the components print.
+        // Builds print to standard error: standard output carries only what the components print.
         let out_stream = if *role == Role::Build { LogStream::Stderr } else { LogStream::Stdout };
         let (label, shown) = (*label, Arc::clone(output));
         match messages.clone() {
-            // What cannot be read is missed where it is needed.
+            // Ignore read errors: a missing program is reported when it is needed.
             Some(messages) => watch_stream(number, out, events, move |out| _ = messages.read(out)),
             None => watch_stream(number, out, events, move |out| shown.copy_lines(label, out_stream, out)),
         }
@@ -105,7 +105,7 @@ impl Running {
 
     /// Sends a signal to the program's process group.
     pub(crate) fn signal(&self, signal: Signal) {
-        // The group may hold nothing but the ended program, which is not an error.
+        // Ignore errors: the group may contain only the program, which has ended.
         let _ = kill_process_group(self.group, signal);
     }
 
@@ -118,16 +118,16 @@ impl Running {
     /// which would not end: they are continued.
     pub(crate) fn ask_to_end(&self, signal: Signal) -> Vec<Pid> {
         let (group, family) = (self.group, self.family.clone());
-        // Finds those that will have lost their parents.
+        // Remember all processes now: some cannot be found any more once their parents have ended.
         let _remembered = family.as_ref().map(|family| family.look());
         let reached = process_group::programs(group);
         let stopped = process_group::stopped(group);
-        // A second SIGINT would end a program of SCL at once.
+        // A second SIGINT would end an SCL program at once.
         if !(self.is_interrupted && signal == Signal::INT) {
             self.signal(signal);
         }
         if !stopped.is_empty() {
-            // After the signal, which a process takes before anything else when it goes on.
+            // Continue it after the signal: a stopped process handles a pending signal first when it continues.
             self.signal(Signal::CONT);
         }
         thread::spawn(move || {
@@ -179,7 +179,7 @@ fn watch_end(
 ) {
     thread::spawn(move || {
         let report = |event| {
-            // What a program says before it ends, such as that it is the wrong one, comes before its end.
+            // First deliver the program's earlier messages, for example that it is the wrong program.
             let _ = datagrams.as_ref().map(Datagrams::take);
             let _ = events.send(event);
         };
@@ -210,7 +210,7 @@ fn wait_for_end(process: Pid, stopped_by_terminal: impl Fn(Signal)) -> Ending {
             return ending;
         }
         if let Some(signal) = status.stopping_signal().and_then(Signal::from_named_raw) {
-            // Else it would be reported again and again.
+            // Consume the event, or `waitid` would report it again and again.
             let _ = waitid(WaitId::Pid(process), WaitIdOptions::STOPPED | WaitIdOptions::NOHANG);
             if matches!(signal, Signal::TTIN | Signal::TTOU) {
                 stopped_by_terminal(signal);

@@ -33,7 +33,7 @@ fn plain_words(text: &str) -> Option<Vec<String>> {
     }
     let words = shlex::split(text)?;
     let program = words.first()?;
-    // An assignment before the program is syntax, too.
+    // A leading assignment, as in `A=1 ./sensor`, is shell syntax as well.
     let is_program = !program.is_empty() && !program.contains('=') && !SHELL_WORDS.contains(&program.as_str());
     is_program.then_some(words)
 }

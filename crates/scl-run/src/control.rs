@@ -85,7 +85,7 @@ fn accept_clients(listener: &UnixListener, receive: &(impl Fn(Request, Arc<UnixS
     let silent = Arc::new(SilentClients::default());
     loop {
         let Ok((client, _)) = listener.accept() else {
-            // Out of file descriptors, which passes.
+            // Probably out of file descriptors; retry later.
             thread::sleep(Duration::from_millis(100));
             continue;
         };
@@ -98,11 +98,11 @@ fn accept_clients(listener: &UnixListener, receive: &(impl Fn(Request, Arc<UnixS
             match line.map(|line| Request::parse(&line)) {
                 Ok(Ok(request)) => receive(request, own),
                 Ok(Err(error)) => send(&own, &Response::error(error)),
-                // It was disconnected, or has sent no line.
+                // The client disconnected or did not send a whole line.
                 Err(_) => {}
             }
         });
-        // Without a thread for it, the client sees the end of the connection.
+        // If no thread can be started, forget the client, which closes the connection.
         if served.is_err() {
             silent.remove(&client);
         }
@@ -110,7 +110,7 @@ fn accept_clients(listener: &UnixListener, receive: &(impl Fn(Request, Arc<UnixS
 }
 
 fn send(mut client: &UnixStream, response: &Response) {
-    // Strings and numbers can always be written.
+    // Strings and numbers can always be serialized.
     let line = serde_json::to_string(response).unwrap_or_default() + "\n";
     let _ = client.set_nonblocking(true).and_then(|()| client.write_all(line.as_bytes()));
 }

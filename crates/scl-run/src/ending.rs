@@ -49,7 +49,7 @@ impl fmt::Display for Ending {
 
 impl From<ExitStatus> for Ending {
     fn from(status: ExitStatus) -> Self {
-        // A program that was waited for has a code, or a signal has ended it.
+        // A program that has ended has either an exit code or the signal that killed it.
         status.code().map_or(Ending::Killed(status.signal().unwrap_or_default()), Ending::Exited)
     }
 }

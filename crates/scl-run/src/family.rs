@@ -69,7 +69,8 @@ impl Family {
 
     /// Whether every process has ended.
     pub(crate) fn is_empty(&self) -> bool {
-        // A process may start another one behind the first look and end before that look comes to it.
+        // Look again: a process may have started another one where the first look had already passed, and have ended
+        // before that look reached it.
         self.look().is_empty() && self.look().is_empty()
     }
 
@@ -86,9 +87,9 @@ impl Family {
         look_while(|| {
             for (process, stat) in self.look() {
                 if asked.insert((process, stat.started)) {
-                    // It may end at this moment.
+                    // Ignore errors: the process may have just ended.
                     let _ = kill_process(process, Signal::TERM);
-                    // A stopped one would not.
+                    // A stopped process handles SIGTERM only when it continues.
                     let _ = kill_process(process, Signal::CONT);
                 }
             }
@@ -98,7 +99,7 @@ impl Family {
 
     /// Kills all.
     pub(crate) fn kill(&self) {
-        // The group may hold nothing but the ended program, which is not an error.
+        // Ignore errors: the group may contain only the program, which has ended.
         let _ = kill_process_group(self.group, Signal::KILL);
         kill_all(|| self.look());
     }
@@ -106,12 +107,12 @@ impl Family {
 
 fn wait_for_end(process: Pid, started: u64) {
     match pidfd_open(process, PidfdFlags::empty()) {
-        // Another process may have got the number meanwhile.
+        // Compare the start times: the process id may have been reused.
         Ok(process_fd) if ProcessStat::of(process).is_some_and(|stat| stat.started == started) => {
             let _ = poll(&mut [PollFd::new(&process_fd, PollFlags::IN)], None);
         }
         Ok(_) | Err(rustix::io::Errno::SRCH) => {}
-        // Out of file descriptors, which passes.
+        // Probably out of file descriptors; the caller looks again.
         Err(_) => thread::sleep(PAUSE),
     }
 }
@@ -119,7 +120,7 @@ fn wait_for_end(process: Pid, started: u64) {
 /// Kills the processes of these groups, those with a mark of this run, and what they have started.
 pub(crate) fn kill_run(groups: &HashSet<Pid>, run_mark: &str) {
     for group in groups {
-        // It has usually ended already.
+        // Ignore errors: the group has usually ended already.
         let _ = kill_process_group(*group, Signal::KILL);
     }
     kill_all(|| {
@@ -171,7 +172,8 @@ fn has_mark(process: Pid, mark: &str) -> bool {
     let marks = environment
         .split(|byte| *byte == 0)
         .find_map(|variable| variable.strip_prefix(MARK.as_bytes())?.strip_prefix(b"="));
-    // A number does not end within another one.
+    // The mark of a run ends with a dot and is a prefix. The mark of a program must match as a whole, so that program 1
+    // does not match program 12.
     let is_meant =
         |found: &[u8]| if mark.ends_with('.') { found.starts_with(mark.as_bytes()) } else { found == mark.as_bytes() };
     marks.is_some_and(|marks| marks.split(|byte| *byte == b',').any(is_meant))

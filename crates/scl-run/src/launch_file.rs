@@ -112,7 +112,7 @@ impl Reader<'_> {
     fn read_components(&mut self, top: &Keys<'_, '_>, root: Span) -> Vec<LaunchComponent> {
         let help = "write `components: {sensor: {command: ./sensor}}`";
         let Some(field) = top.get("components") else {
-            // The gateway of a host needs no more than `hosts`; the components may be started by something else.
+            // `hosts` alone is enough for the gateway of a host; something else may start the components.
             if !top.may_have("components") && !top.may_have("hosts") {
                 let place = top.fields.list.first().map_or(root, |first| first.key_span);
                 self.report(MISSING.at("`components` is missing", place, "").help(help));

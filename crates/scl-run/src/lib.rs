@@ -149,7 +149,7 @@ fn run_plan(plan: &mut RunPlan, options: &Options, surroundings: Surroundings<'_
         let built =
             run_builds(&plan.builds, options.grace, &mut supervisor, output).map_err(|problem| vec![problem])?;
         plan.take_built(&built)?;
-        // Another `scl run` may have started them during the build.
+        // Check again: another `scl run` may have started these components during the build.
         already_running::check(plan).map_err(|problem| vec![problem])?;
     }
     let problems: Vec<Problem> = plan.programs().filter_map(|component| component.check().err()).collect();
@@ -214,7 +214,7 @@ fn failed_build(build: &Build, ending: Option<Ending>) -> Problem {
     let problem = Problem::new(format!("the build of {} failed, so nothing was started", build.owner()));
     let Some(ending) = ending else { return problem };
     let problem = problem.note(format!("`{}` {ending}", build.shown_command()));
-    // As shells report it.
+    // Shells report a missing command as exit code 127.
     if ending == Ending::Exited(127) { problem.help("install the command that was not found") } else { problem }
 }
 
@@ -223,8 +223,8 @@ fn failed_build(build: &Build, ending: Option<Ending>) -> Problem {
 /// Programs inherit which signals are ignored, but not which are handled. A shell that starts `scl run` in the
 /// background ignores SIGINT, and without a handler the programs could not be stopped by it.
 fn listen_for_signals(events: Sender<Event>) -> io::Result<()> {
-    // A program that waits for signals, and started this one, may have blocked them. All threads inherit this one's
-    // mask.
+    // A parent that waits for signals may have blocked them, and this process has inherited its mask. All threads
+    // started from here on inherit the mask of this one.
     SigSet::empty().thread_set_mask()?;
     let mut signals = Signals::new(STOP_SIGNALS)?;
     thread::Builder::new().spawn(move || {

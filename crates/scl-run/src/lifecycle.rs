@@ -115,7 +115,7 @@ impl Lifecycle {
                 Vec::new()
             }
             (Input::Time, _) => self.take_time(now),
-            // Late, from a process that has been replaced.
+            // A late event of a process that has been replaced.
             _ => Vec::new(),
         }
     }
@@ -169,8 +169,8 @@ impl Lifecycle {
                 vec![Action::Signal(reason.signal())]
             }
             State::Stopping { reason: earlier, kill_at } => {
-                // A process that was told to end needs no other signal. One that hangs had one that it may have
-                // ignored.
+                // Send no second signal to a process that was asked to end. One that hangs may have ignored its first
+                // signal, so it gets another.
                 let reason = if matches!(earlier, StopReason::Everything(_)) { earlier } else { reason };
                 self.state = State::Stopping { reason, kill_at };
                 if earlier.is_asked() { Vec::new() } else { vec![Action::Signal(reason.signal())] }
@@ -221,7 +221,7 @@ impl Lifecycle {
             }
             State::Running | State::Ready => {
                 let limit = self.policy.alive_within.unwrap_or_default();
-                // As systemd does: a core dump shows where the program hangs.
+                // SIGABRT, as systemd does: a core dump shows where the program hangs.
                 self.fail_running(now, format!("no sign of life for {limit:?}"), Signal::ABORT)
             }
             State::Stopping { reason, .. } => {

@@ -66,7 +66,7 @@ impl LogFile {
         };
         let (file, length) = open().map_err(|error| format!("cannot write `{}`: {error}", path.display()))?;
         let runs = [last_run(folder, component); 2].map(AtomicU64::new);
-        // A line that a killed process left without its end is not continued.
+        // Begin with a new line: a killed process may have left an incomplete one.
         let state = State { file: Some(file), length, is_torn: length > 0, has_failed: false };
         Ok(Self { component: component.to_owned(), path, runs, state: Mutex::new(state) })
     }
@@ -82,7 +82,7 @@ impl LogFile {
     /// The first failure, as a text for the user. Later ones are silent, and the next line is tried again: a full disk
     /// may have room later.
     pub(crate) fn write(&self, stream: LogStream, run: u64, text: &[u8]) -> Result<(), String> {
-        // Strings and numbers always become JSON.
+        // Strings and numbers can always be serialized.
         let line = serde_json::to_string(&LogEntry::new(&self.component, stream, run, text)).unwrap_or_default() + "\n";
         let mut state = lock(&self.state);
         let written = state.write(&self.path, line.as_bytes());
@@ -100,7 +100,7 @@ impl LogFile {
 impl State {
     fn write(&mut self, path: &Path, line: &[u8]) -> io::Result<()> {
         if self.length > 0 && self.length + line.len() as u64 > LONGEST_FILE {
-            // Closed first: what could not be renamed is continued.
+            // Close the file first: if the rotation fails, the next line that fits reopens and continues it.
             self.file = None;
             rotate(path)?;
         }

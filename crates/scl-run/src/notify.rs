@@ -100,14 +100,14 @@ impl Datagrams {
     ///
     /// If the socket cannot be read, or the supervisor has ended.
     pub(crate) fn take(&self) -> io::Result<()> {
-        // One thread at a time: none returns before the events of datagrams that another thread has read are sent.
+        // Hold the lock: no thread may return before another one has sent the events of the datagrams that it has read.
         lock(&self.sockets).iter().try_for_each(|socket| self.take_from(socket))
     }
 
     fn take_from(&self, socket: &UnixDatagram) -> io::Result<()> {
         let mut datagram = [0; LONGEST_DATAGRAM];
         for _ in 0..MOST_KEPT {
-            // Without room for file descriptors, which the kernel closes then. `systemd-notify` waits for that.
+            // Leave no room for file descriptors, so that the kernel closes them. `systemd-notify` waits for that.
             let mut space = [MaybeUninit::uninit(); cmsg_space!(ScmCredentials(1))];
             let mut control = RecvAncillaryBuffer::new(&mut space);
             let flags = RecvFlags::CMSG_CLOEXEC | RecvFlags::DONTWAIT;

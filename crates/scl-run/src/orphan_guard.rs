@@ -103,7 +103,7 @@ impl OrphanGuard {
 
     /// Takes a process group away that is about to be reaped, so that its number may be used by others afterwards.
     pub(crate) fn forget(&mut self, group: Pid) {
-        // A guard that has ended kills nothing.
+        // Ignore errors: a guard that has ended kills nothing.
         let _ = self.tell(-group.as_raw_pid());
     }
 
@@ -115,7 +115,7 @@ impl OrphanGuard {
 
 impl Drop for OrphanGuard {
     fn drop(&mut self) {
-        // The end of the pipe is what the guard waits for, so it must come before the wait for the guard.
+        // Close the pipe first: the guard runs until it is closed.
         drop(self.pipe.take());
         orphans::wait(&mut self.process);
     }
@@ -124,7 +124,8 @@ impl Drop for OrphanGuard {
 /// The body of `scl __guard`: waits for the end of the pipe, then kills every group that it was told, and every process
 /// with the mark of the run. The negative of a group's number takes that group away.
 pub fn keep_watch(run_mark: &str) -> ExitCode {
-    // Another `scl run`, of which this one is a part, asks all processes to end. This one has to be the last.
+    // Ignore stop signals: if this `scl run` is itself run by another one, that one sends them to all processes, but
+    // the guard has to be the last to end.
     let _ = STOP_SIGNALS.map(|signal| flag::register(signal, Arc::default()));
     let mut groups = HashSet::new();
     for number in io::stdin().lock().lines().map_while(Result::ok).filter_map(|line| line.parse::<i32>().ok()) {

@@ -26,7 +26,7 @@ const PAUSE: Duration = Duration::from_millis(50);
 ///
 /// If no process can be started.
 pub(crate) fn spawn(command: &mut Command) -> io::Result<Child> {
-    // Held, so that a child that ends at once is known before anybody looks.
+    // Hold the lock while spawning, so that `adopted` never takes the child for an orphan, even if it ends at once.
     let mut started = lock(&STARTED);
     let child = command.spawn()?;
     started.push(Pid::from_child(&child));
@@ -73,7 +73,7 @@ pub(crate) fn kill_adopted(before: &[Pid]) {
 
 fn reap() {
     for orphan in adopted() {
-        // One that still runs is reaped later.
+        // Orphans that are still running are reaped later.
         let _ = waitpid(Some(orphan), WaitOptions::NOHANG);
     }
 }

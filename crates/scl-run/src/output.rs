@@ -89,7 +89,7 @@ impl Output {
             if !line.ends_with(b"\n") {
                 line.push(b'\n');
             }
-            // The first failure of each log is reported; the program goes on.
+            // `write` returns only the first failure of each log; the program continues.
             if let Some((log, run)) = log
                 && let Err(report) = log.write(stream, run, &line[prefix.len()..line.len() - 1])
             {
@@ -114,7 +114,7 @@ impl Output {
 
     /// Waits until everything is written, or until no reader has taken anything for as long as this.
     pub(crate) fn finish(&self, patience: Duration) {
-        // Standard error last: the other may have something to report.
+        // Standard error comes last: lines dropped from standard output are reported there.
         self.backlogs.iter().for_each(|backlog| backlog.finish(patience));
     }
 
@@ -145,7 +145,7 @@ impl Output {
 
     fn painted_name(&self, program: usize, stream: LogStream) -> String {
         let name = format!("{:width$}", self.names[program], width = self.width);
-        // A component's build has its name, and so its colour.
+        // The build of a component has the component's name, and therefore its colour.
         let first = self.names.iter().position(|name| *name == self.names[program]).unwrap_or(program);
         if self.colours[stream as usize] { name.color(COLOURS[first % COLOURS.len()]).to_string() } else { name }
     }

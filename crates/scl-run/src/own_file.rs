@@ -41,7 +41,7 @@ impl OwnFile {
     pub(crate) fn bind_again<S>(&self, bind: impl FnOnce(&Path) -> io::Result<S>) -> io::Result<S> {
         let name = self.path.file_name().unwrap_or_default().to_string_lossy();
         let new = self.path.with_file_name(format!(".{name}"));
-        // Of an earlier process with the same id.
+        // Remove what an earlier process with the same id may have left.
         let _ = fs::remove_file(&new);
         let socket = bind(&new)?;
         let ready = fs::set_permissions(&new, fs::Permissions::from_mode(0o600));

@@ -230,7 +230,7 @@ fn plan_builds(folder: &Path, launch: &LaunchFile, components: &[LaunchComponent
         let Some(command) = &component.build else { continue };
         let program = program(command, folder_of(folder, &settings_of(launch, component)));
         match builds.iter_mut().find(|build: &&mut Build| build.program == program) {
-            // The build of the whole system has run already.
+            // The build of the whole system is the same command, so it covers this component.
             Some(build) if build.components.is_empty() => {}
             Some(build) => build.components.push(component.name.clone()),
             None => builds.push(Build { components: vec![component.name.clone()], program, cargo_choices: None }),
@@ -240,7 +240,7 @@ fn plan_builds(folder: &Path, launch: &LaunchFile, components: &[LaunchComponent
 }
 
 fn build_program(launch: &LaunchFile, command: &[String], folder: PathBuf) -> Program {
-    // So that a build can call `scl generate` where `scl` is not installed, or another version is.
+    // Lets a build call `scl generate` even if `scl` is not installed, or another version is.
     let scl = std::env::current_exe().ok().and_then(|path| Some(("SCL".to_owned(), path.to_str()?.to_owned())));
     let environment = scl.iter().chain(&launch.environment).cloned().collect();
     Program { environment, ..Program::new(command.iter().map(OsString::from).collect(), folder) }

@@ -60,7 +60,7 @@ impl Repeats {
                     (is_left && self.terminated.insert(process)).then_some(Signal::TERM)
                 }
             };
-            // It may end at this moment.
+            // Ignore errors: the process may have just ended.
             let _ = repeated.map(|signal| kill_process(process, signal));
         }
         !processes.is_empty()
@@ -82,7 +82,7 @@ pub(crate) fn programs(group: Pid) -> HashSet<Program> {
 
 /// `None` if the process has ended.
 fn program(process: Pid) -> Option<Program> {
-    // Empty if it is another user's.
+    // Empty if the process belongs to another user.
     let executable = fs::read_link(format!("/proc/{process}/exe")).unwrap_or_default();
     Some(Program { process, executable, stack: ProcessStat::of(process)?.stack })
 }
@@ -98,7 +98,8 @@ fn members(group: Pid) -> Vec<Pid> {
     let is_member = |process: &Pid| ProcessStat::of(*process).is_some_and(|stat| stat.group == Some(group));
     let look = || -> Vec<Pid> { all_processes().filter(is_member).collect() };
     let seen = look();
-    // A process may start another one behind the first look and end before that look comes to it.
+    // Look again: a process may have started another one where the first look had already passed, and have ended before
+    // that look reached it.
     if seen.is_empty() { look() } else { seen }
 }
 

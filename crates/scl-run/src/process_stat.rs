@@ -37,9 +37,9 @@ impl ProcessStat {
         let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_ascii_whitespace().collect();
         let [state, parent, group, ..] = fields[..] else { return None };
         let threads: usize = fields.get(17)?.parse().ok()?;
-        // A process whose main thread has ended before the others is shown like one that has ended.
+        // A process whose main thread has ended is shown as a zombie while its other threads are still running.
         let has_ended = matches!(state, "Z" | "X" | "x") && threads <= 1;
-        // 0 outside of this container, -1 while the process is being reaped.
+        // 0 if it is outside of this container, -1 while the process is being reaped.
         let id = |field: &str| field.parse().ok().filter(|id| *id > 0).and_then(Pid::from_raw);
         let (parent, group) = (id(parent), id(group));
         let (started, stack) = (fields.get(19)?.parse().ok()?, (*fields.get(25)?).to_owned());

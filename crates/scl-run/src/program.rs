@@ -101,7 +101,7 @@ impl Program {
         }
         self.check_installed(what, owner)?;
         let Some(name) = self.command.first().filter(|name| is_path(name)) else { return Ok(()) };
-        // Without the `./` that a path in a launch file usually starts with.
+        // Drops the `./` that a path in a launch file usually starts with.
         let path: PathBuf = folder.join(name).components().collect();
         match () {
             () if is_executable(&path) => Ok(()),

@@ -49,7 +49,7 @@ impl Requests {
         let each = |input: Input| targets.iter().map(|target| RunEvent::One(target.index, input.clone())).collect();
         let events = match command {
             Command::List | Command::Builds => Vec::new(),
-            // Twice would be a kill.
+            // A repeated stop event would kill the components.
             Command::Stop if chosen.is_empty() && state.stopping.is_some() => Vec::new(),
             Command::Stop if chosen.is_empty() => vec![RunEvent::Stop(Signal::TERM)],
             Command::Stop => each(Input::Stop),
@@ -85,7 +85,7 @@ fn outcome(command: Command, component: &Lifecycle, starts_before: usize) -> Opt
         (Command::List | Command::Builds, _) | (Command::Stop, State::Ended(_)) => Some(true),
         (Command::Restart, State::Ready) if is_new => Some(true),
         (Command::Restart, State::Running) if is_new && component.policy.ready_within.is_none() => Some(true),
-        // It has failed again, or everything was stopped meanwhile.
+        // The component has failed again, or everything was stopped meanwhile.
         (Command::Restart, State::Waiting { .. }) if is_new => Some(false),
         (Command::Restart, State::Ended(_)) => Some(false),
         _ => None,

@@ -80,7 +80,7 @@ impl RunState {
     /// Takes in what happened, and returns what is to be done for which component.
     pub(crate) fn step(&mut self, now: Time, event: RunEvent) -> Vec<(usize, Action)> {
         let mut actions = match event {
-            // A run that stops starts nothing.
+            // Nothing is restarted while the run is stopping.
             RunEvent::One(_, Input::Restart) if self.stopping.is_some() => Vec::new(),
             RunEvent::One(index, input) => self.take_input(now, index, &input),
             RunEvent::Stop(signal) => self.take_request(now, signal),
@@ -117,7 +117,8 @@ impl RunState {
     }
 
     fn take_input(&mut self, now: Time, index: usize, input: &Input) -> Vec<(usize, Action)> {
-        // While all are stopping it is not started again, although it has not been told to stop yet.
+        // The last component is told to stop only after all others. If it exits before that, tell it now, so that it is
+        // not restarted.
         let ends_early = Some(index) == self.last && matches!(input, Input::Exited(_));
         let told = self.stopping.filter(|_| ends_early);
         let mut actions = told.map_or_else(Vec::new, |signal| self.step_one(now, index, &Input::StopAll(signal)));

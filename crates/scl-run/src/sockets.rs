@@ -73,7 +73,7 @@ impl Sockets {
     pub(crate) fn open_control(&self, events: &Sender<Event>) -> Option<Arc<ControlSocket>> {
         let events = events.clone();
         let receive = move |request| {
-            // After the supervisor has finished, the client sees the end of the connection.
+            // If the supervisor has finished, the request is dropped, which closes the connection.
             let _ = events.send(Event::Requested(request));
         };
         let folder = self.folders.runtime.join(self.folders.system.as_ref()?);

@@ -110,7 +110,7 @@ impl<'a> Supervisor<'a> {
             summary::lines(members, &run.state).iter().for_each(|line| self.surroundings.output.announce(line));
         }
         match (run.state.failed(), run.state.stopping) {
-            // Build tools have codes of their own for being interrupted.
+            // An interrupted build tool exits with a code of its own, which is not a failure here.
             (Some(index), Some(signal)) if members[index].role == Role::Build && run.state.asked => {
                 Outcome::Stopped(signal)
             }
@@ -143,7 +143,7 @@ impl<'a> Supervisor<'a> {
             }
             Event::LeaderEnded { process, ending } => {
                 let Some((index, _)) = self.find(|it| it.number == process) else { return };
-                // The processes that a shell has started are the program: `./one & ./two &`.
+                // After `./one & ./two &`, the shell exits, and the processes that it started are the program.
                 let is_shell_text = shell_text(&run.members[index].program.command).is_some();
                 let goes_on = is_shell_text && ending.is_in_order(None);
                 if !(goes_on && matches!(run.state.components()[index].state, State::Running | State::Ready)) {
@@ -180,7 +180,7 @@ impl<'a> Supervisor<'a> {
             }
             Event::StoppedByTerminal { process, signal } => {
                 let Some((index, process)) = self.find(|it| it.number == process) else { return };
-                // With the terminal, it was stopped before it had it.
+                // A program that is lent the terminal may have been stopped before it got it; `hand_over` continues it.
                 if process.running.terminal.is_none() {
                     let text = stopped_by_terminal(&run.members[index], signal);
                     self.report(index, &run.members[index], text);
@@ -238,7 +238,7 @@ impl<'a> Supervisor<'a> {
                     };
                     actions.extend(run.state.step(run.now(), RunEvent::One(index, input)));
                 }
-                // Stopped before it could be started.
+                // The component was stopped before it could be started.
                 Action::Start => {}
                 Action::Signal(signal) => {
                     let Some(running) = self.processes[index].as_ref().map(|process| &process.running) else {

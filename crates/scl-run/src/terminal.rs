@@ -120,7 +120,7 @@ pub(crate) struct Loan {
 impl Loan {
     /// Takes the terminal back, after the events of all keys so far.
     pub(crate) fn end(mut self) {
-        // It ends at the end of its input.
+        // Close its input, which ends `scl __keys`.
         drop(self.keys.stdin.take());
         orphans::wait(&mut self.keys);
         let _ = self.reader.join();
@@ -131,7 +131,7 @@ impl Loan {
 /// Makes a group the foreground, and continues it if it was stopped because it was not.
 fn hand_over(group: Pid) -> io::Result<()> {
     set_foreground(group)?;
-    // It may have ended.
+    // Ignore errors: the group may have ended.
     let _ = kill_process_group(group, Signal::CONT);
     Ok(())
 }
@@ -141,7 +141,7 @@ fn set_foreground(group: Pid) -> io::Result<()> {
 }
 
 fn set_modes(modes: &Termios) {
-    // A terminal that has gone needs none.
+    // Ignore errors: a terminal that is gone needs no modes.
     let _ = from_background(|| tcsetattr(io::stdin(), OptionalActions::Drain, modes));
 }
 

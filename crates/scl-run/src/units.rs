@@ -66,12 +66,12 @@ struct Units<'u> {
 impl Units<'_> {
     fn component(&self, component: &Component) -> Result<Unit, Problem> {
         let policy = &component.policy;
-        // What it sends while it stops passes through the gateway, which systemd then stops later.
+        // Start after the gateway: systemd stops in reverse order, so a stopping component can still send.
         let gateway = self.plan.gateway.as_ref().map(|gateway| self.service_name(gateway));
         let order = gateway.map_or_else(String::new, |name| format!("Wants={name}\nAfter={name}\n"));
         let limit = match policy.restart {
             Restart::Never => String::new(),
-            // The first start counts, too.
+            // systemd counts the first start, too.
             _ => format!(
                 "StartLimitIntervalSec={}\nStartLimitBurst={}\n",
                 duration(policy.limit.within),
@@ -85,7 +85,7 @@ impl Units<'_> {
 
     fn gateway(&self, gateway: &Component) -> Result<Unit, Problem> {
         let host = self.host.unwrap_or_default();
-        // Nothing else brings the connections back, so there is no limit.
+        // Nothing else restores the connections, so there is no start limit.
         let unit = format!(
             "Description=Gateway of {} on host {host}\nWants=network-online.target\nAfter=network-online.target\nStartLimitIntervalSec=0\n",
             self.system
@@ -155,7 +155,7 @@ fn placement(program: &Program) -> String {
     let mut text = if cpu.is_empty() { String::new() } else { format!("CPUAffinity={}\n", cpu.join(" ")) };
     text.extend(program.placement.descriptors.map(|most| format!("LimitNOFILE={most}\n")));
     let Some(priority) = program.placement.fifo else { return text };
-    // With `SCL_SCHED` a program with SCL also locks its memory, as under `scl run`.
+    // `SCL_SCHED` makes an SCL program lock its memory as well, as under `scl run`.
     format!(
         "{text}CPUSchedulingPolicy=fifo\nCPUSchedulingPriority={priority}\nLimitRTPRIO={priority}\nLimitMEMLOCK=infinity\n\
          Environment=SCL_SCHED=fifo:{priority}\n"
@@ -179,7 +179,7 @@ fn executable(program: &Program, first: &OsString) -> Result<PathBuf, Problem> {
         return found
             .ok_or_else(|| Problem::new(format!("the program `{}` is not in the search path", first.display())));
     }
-    // Without the `./` that a path in a launch file usually starts with.
+    // Drops the `./` that a path in a launch file usually starts with.
     Ok(program.folder.join(Path::new(first)).components().collect())
 }
 

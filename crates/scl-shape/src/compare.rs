@@ -186,7 +186,7 @@ fn compare_fields(
     let by_name: HashMap<&str, (i32, &Field<'_>)> =
         there.iter().map(|(&at, field)| (field.name, (at, field))).collect();
     for (number, ours) in here {
-        // In JSON a field is the one with the same name, if there is one.
+        // In JSON, compare with the field of the same name, if there is one.
         let named = by_name.get(ours.name).filter(|_| encoding == Encoding::Names).map(|(_, field)| *field);
         if let Some(theirs) = named.or_else(|| there.get(number)).filter(|theirs| *theirs != ours) {
             let what = What::Field(*number);
@@ -202,7 +202,7 @@ fn compare_fields(
         return;
     }
     for (number, Field { name, .. }) in here {
-        // A number with another field was told above.
+        // A number that belongs to another field was reported above.
         if let Some((other, _)) = by_name.get(name).filter(|(other, _)| other != number)
             && !there.contains_key(number)
         {

@@ -36,7 +36,8 @@ impl TextCheck {
         let types = declared::reachable(files, name)?;
         let index: HashMap<&str, usize> = types.iter().enumerate().map(|(index, (name, _))| (*name, index)).collect();
         let mut messages: Vec<HashMap<u32, Field>> = vec![HashMap::new(); types.len()];
-        // A message contains texts if one of its fields is one or such a message, so those inside are found first.
+        // A message contains texts if a field is a text or a message that contains texts. Repeat until no more are
+        // found.
         loop {
             let mut found = false;
             for (at, (_, message)) in types.iter().enumerate() {

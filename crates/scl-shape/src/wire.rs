@@ -3,14 +3,14 @@
 /// Levels of nesting after which every decoder gives up.
 pub(crate) const LEVELS: usize = 128;
 
-// The wire types that need more than their length.
+// The wire types that callers treat specially; of the others they need only the length.
 pub(crate) const LENGTH_DELIMITED: u32 = 2;
 pub(crate) const GROUP_START: u32 = 3;
 pub(crate) const GROUP_END: u32 = 4;
 
 /// Reads a key, and moves `at` behind it: the number of the field and its wire type.
 pub(crate) fn key(bytes: &[u8], at: &mut usize) -> Option<(u32, u32)> {
-    // Longer keys are refused, except by protobuf-c, which ignores what is too much.
+    // Decoders reject keys of more than 32 bits, except protobuf-c, which ignores the excess bits.
     let key = varint(bytes, at)? as u32;
     Some((key >> 3, key & 7))
 }

@@ -39,7 +39,7 @@ impl Committed {
     pub(crate) fn reserve(&mut self, address: usize, length: usize) -> Result<(), TooLittle> {
         let is_inside = |segment: &Segment| (segment.start..segment.end).contains(&address);
         if !self.segment.as_ref().is_some_and(is_inside) {
-            // Its samples may have the addresses of those of an older segment.
+            // Samples of a new segment may have the addresses of samples of an older one.
             self.samples.clear();
             self.segment = Segment::find(address);
         }
@@ -85,7 +85,7 @@ impl Segment {
             return match fallocate(&self.file, FallocateFlags::KEEP_SIZE, first as u64, needed) {
                 Err(Errno::INTR) => continue,
                 Err(Errno::NOSPC | Errno::NOMEM | Errno::DQUOT) => Err(TooLittle { needed, available: available() }),
-                // Other kernels may not be able to reserve. What the caller has checked must do then.
+                // Some kernels cannot reserve shared memory. Then the caller's check must suffice.
                 Err(error) => {
                     tracing::debug!(%error, inode = self.inode, "shared memory cannot be reserved");
                     Ok(())

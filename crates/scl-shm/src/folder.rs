@@ -76,7 +76,7 @@ impl Folder {
         config.global.service.cleanup_dead_nodes_on_open = false;
         config.global.node.cleanup_dead_nodes_on_creation = false;
         config.global.node.cleanup_dead_nodes_on_destruction = false;
-        // At least as many as views may be kept, or the engine warns.
+        // The engine warns if this is less than the number of views that may be kept.
         config.defaults.publish_subscribe.subscriber_expired_connection_buffer = 1024;
         Ok(config)
     }
@@ -85,7 +85,7 @@ impl Folder {
     pub(crate) fn check_owners(&self) -> Result<(), ShmError> {
         let user = rustix::process::geteuid().as_raw();
         for path in self.files() {
-            // Another process may have removed it meanwhile.
+            // Another process may have removed the file in the meantime.
             let Ok(found) = fs::symlink_metadata(&path) else { continue };
             if found.uid() != user {
                 return Err(ShmError::Foreign { path, owner: found.uid() });
@@ -98,7 +98,7 @@ impl Folder {
     /// can write to it can truncate it, and so end the next program that reads it.
     pub(crate) fn close_to_others(&self) {
         for path in self.files() {
-            // Another process may have removed it meanwhile.
+            // Another process may have removed the file in the meantime.
             let Ok(found) = fs::symlink_metadata(&path) else { continue };
             if found.mode() & 0o077 != 0 {
                 let _has_gone = fs::set_permissions(&path, Permissions::from_mode(0o600));
@@ -112,15 +112,15 @@ impl Folder {
         let Ok(config) = self.config() else { return };
         let mut used = false;
         let listed = Node::<Engine>::list(&config, |state| {
-            // Under the lock, no program is creating or removing a node. So one whose state the engine cannot tell is
-            // of a program that was killed meanwhile.
+            // While the lock is held, no program creates or removes a node. So a node whose state the engine cannot
+            // determine belongs to a program that was killed.
             used |= matches!(state, NodeState::Alive(_));
             CallbackProgression::Continue
         });
         if used || listed.is_err() {
             return;
         }
-        // What cannot be removed now, the next program tries.
+        // The next program tries again to remove what cannot be removed now.
         for path in self.files() {
             let _stays = fs::remove_file(path);
         }

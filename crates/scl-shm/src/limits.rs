@@ -48,7 +48,7 @@ impl Limits {
 
     /// Number of samples for which there is room.
     pub fn samples(&self) -> usize {
-        // The receiving port holds one more than it keeps, until that is copied.
+        // The receiving port holds one more sample than it keeps, until that one is copied.
         self.in_flight() + self.kept() + 1 + self.loans()
     }
 
@@ -81,7 +81,7 @@ pub struct TooLittle {
 pub fn available() -> u64 {
     match rustix::fs::statvfs(FOLDER) {
         Ok(found) if found.f_blocks > 0 => found.f_bavail.saturating_mul(found.f_frsize),
-        // A file system without a limit says that it has no blocks.
+        // A file system without a limit reports zero blocks.
         _ => u64::MAX,
     }
 }

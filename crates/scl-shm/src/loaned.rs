@@ -18,7 +18,7 @@ pub(crate) type Sample = SampleMut<Engine, [u8], ()>;
 pub(crate) struct Held<S> {
     pub(crate) sample: S,
     _counted: Counted,
-    // Last: the node must outlive the sample.
+    // Dropped last: the node must outlive the sample.
     _memory: Arc<SharedMemory>,
 }
 

@@ -58,11 +58,11 @@ impl SharedMemory {
 
     fn create(system: &Path) -> Result<Self, ShmError> {
         let folder = Folder::create(system)?;
-        // Two cleaners at once can end one of them: https://github.com/eclipse-iceoryx/iceoryx2/issues/1880
+        // Two concurrent cleanups can end one of the processes: https://github.com/eclipse-iceoryx/iceoryx2/issues/1880
         let _locked = folder.lock()?;
         folder.check_owners()?;
         limits::require(0)?;
-        // Damaged files that killed programs left would keep the engine from starting.
+        // Damaged files left by killed programs would keep the engine from starting.
         folder.remove_if_unused();
         let config = folder.config()?;
         let node = unfinished::removing(&folder, || {
@@ -87,7 +87,7 @@ impl SharedMemory {
 
     /// Locks the node.
     pub(crate) fn node(&self) -> MutexGuard<'_, Node<Engine>> {
-        // It is there until this value is dropped.
+        // `Some` until this value is dropped.
         lock(self.node.as_ref().unwrap_or_else(|| unreachable!("the node is taken by `drop` only")))
     }
 }
@@ -99,7 +99,7 @@ impl Drop for SharedMemory {
         }
         let nodes = lock(&NODES);
         let is_open_again = nodes.iter().any(|(system, node)| node.strong_count() > 0 && self.folder.is_of(system));
-        // A program that opens the system meanwhile waits, so no file in use is removed.
+        // Other programs wait for the lock before they open the system, so no file in use is removed.
         let locked = self.folder.lock();
         self.node = None;
         // Without the folder, the files that are left cannot be found.

@@ -20,7 +20,7 @@ pub struct SampleReceiver {
     limits: Limits,
     kept: Arc<AtomicUsize>,
     copied: u64,
-    // Last: the node must outlive the port.
+    // Dropped last: the node must outlive the port.
     memory: Arc<SharedMemory>,
 }
 

@@ -23,7 +23,7 @@ pub struct SampleSender {
     longest: usize,
     committed: Committed,
     loans: Arc<AtomicUsize>,
-    // Last: the node must outlive the port.
+    // Dropped last: the node must outlive the port.
     memory: Arc<SharedMemory>,
 }
 
@@ -42,7 +42,7 @@ impl SharedMemory {
             .initial_max_slice_len(expected.max(1))
             .allocation_strategy(AllocationStrategy::PowerOfTwo)
             .backpressure_strategy(BackpressureStrategy::DiscardData)
-            // Credit keeps the buffer from being full. If a peer breaks that, nothing must be lost unnoticed.
+            // Credits keep the buffer from filling up. If a peer violates them, the loss must not go unnoticed.
             .set_backpressure_handler(|_| BackpressureAction::DiscardDataAndFail)
             .create()
             .map_err(|error| ShmError::engine("create a sending port", error))?;
@@ -85,7 +85,7 @@ impl SampleSender {
 
     fn lend(&mut self, length: usize) -> Result<Uninitialised, LoanError> {
         if length > self.longest {
-            // The engine may need a new segment, in which all samples may become as long.
+            // The engine may allocate a new segment, in which every sample may become this long.
             Limits { longest: length, ..self.limits }.check()?;
             self.committed.grown();
         } else {

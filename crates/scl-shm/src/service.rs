@@ -61,7 +61,8 @@ pub(crate) fn open(node: &Node<Engine>, name: ServiceName) -> Result<(Port, Limi
         use iceoryx2::service::port_factory::PortFactory as _;
         *service.static_config()
     };
-    // What one queue decides, another must not: these numbers decide how much memory the sending end reserves.
+    // All these numbers must follow from the same queue, because they determine how much memory the sending end
+    // reserves.
     let kept = found.subscriber_max_borrowed_samples().saturating_sub(1);
     let limits = Limits::of_kept(kept);
     let wrong = |what| Err(ShmError::Settings { what });

@@ -28,7 +28,7 @@ pub(crate) fn removing<T>(folder: &Folder, work: impl FnOnce() -> Result<T, ShmE
             .name("scl-shm-remove".to_owned())
             .spawn_scoped(scope, remove)
             .map_err(|source| ShmError::Thread { source })?;
-        // Also if the work panics, the thread ends.
+        // Dropped even if `work` panics, so that the thread ends.
         let _working = working;
         work()
     })
@@ -39,7 +39,7 @@ fn remove_those_that_stay(folder: &Folder, were_empty: &[PathBuf]) -> Vec<PathBu
     let is_empty = |path: &PathBuf| fs::symlink_metadata(path).is_ok_and(|found| found.len() == 0);
     let (stay, are_new): (Vec<_>, Vec<_>) = folder.files().filter(is_empty).partition(|path| were_empty.contains(path));
     for path in stay {
-        // One that cannot be removed now is among the new ones of the next time.
+        // A file that cannot be removed now counts as new the next time.
         let _stays = fs::remove_file(path);
     }
     are_new

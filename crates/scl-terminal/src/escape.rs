@@ -35,7 +35,7 @@ pub fn escape_bytes(bytes: &[u8]) -> String {
 /// Escapes what `serde_json` leaves as it is in JSON text and a terminal would obey, with JSON's own escapes, so that
 /// the value stays the same.
 pub fn escape_json(json: &str) -> Cow<'_, str> {
-    // Line breaks between values are no part of a string; inside of one, they are escaped already.
+    // Line breaks between values are not part of a string; inside strings, they are already escaped.
     let is_unsafe = |c: char| c != '\n' && is_unsafe(c);
     if !json.contains(is_unsafe) {
         return Cow::Borrowed(json);
@@ -43,7 +43,7 @@ pub fn escape_json(json: &str) -> Cow<'_, str> {
     let mut shown = String::with_capacity(json.len() + 16);
     for c in json.chars() {
         match is_unsafe(c) {
-            // All of them are in the first plane of Unicode.
+            // All unsafe characters are in Unicode's Basic Multilingual Plane.
             true => shown.push_str(&format!("\\u{:04x}", u32::from(c))),
             false => shown.push(c),
         }

@@ -26,7 +26,7 @@ pub fn print_out_bytes(bytes: &[u8]) {
         return;
     }
     let mut out = io::stdout().lock();
-    // Flushed, because what remains in a buffer at the end of the process fails silently.
+    // Flush, because writes that are left in the buffer until the process exits fail silently.
     note_failure(out.write_all(bytes).and_then(|()| out.flush()));
 }
 
@@ -63,6 +63,6 @@ pub fn finish_output(code: ExitCode) -> ExitCode {
 
 /// Writes to standard error; the text brings its own line ends.
 pub fn print_err(text: &str) {
-    // There is no place left to report a failure to.
+    // There is nowhere left to report a failure.
     let _failed = io::stderr().lock().write_all(text.as_bytes());
 }

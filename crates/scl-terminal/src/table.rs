@@ -125,7 +125,7 @@ impl Table {
 /// The width of the terminal; without limit if standard output is none, so that programs and files get everything.
 pub fn output_width() -> usize {
     let terminal = output_is_terminal().then(|| rustix::termios::tcgetwinsize(stdout()).ok()).flatten();
-    // A terminal that does not know its size says 0.
+    // A terminal that does not know its size reports 0.
     terminal.map(|size| usize::from(size.ws_col)).filter(|&width| width > 0).unwrap_or(usize::MAX)
 }
 

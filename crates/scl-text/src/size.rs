@@ -38,7 +38,7 @@ pub fn parse(text: &str) -> Result<u64, SizeError> {
     if number.starts_with('-') {
         return Err(SizeError::Negative);
     }
-    // Digits alone fail to parse only if they are too many.
+    // Only digits are left, so parsing can fail only by overflow.
     digits.parse::<u64>().ok().and_then(|number| number.checked_mul(*factor)).ok_or(SizeError::TooLarge)
 }
 

@@ -27,7 +27,7 @@ pub fn nearest<'a>(
     count_steps: impl Fn(usize),
 ) -> Vec<&'a str> {
     let lower = word.to_lowercase();
-    // Every other word of one letter is one edit away.
+    // Allow no edits to a word of one letter: any other letter is one edit away.
     let length = word.chars().count();
     let limit = (length / 3).max(1).min(length.saturating_sub(1));
     let mut near: Vec<(usize, &'a str)> = candidates
@@ -37,7 +37,7 @@ pub fn nearest<'a>(
         })
         .collect();
     near.sort_by_key(|(distance, _)| *distance);
-    // Beside one that is nearer, the others are noise.
+    // Keep only the nearest candidates; the others are noise.
     let nearest = near.first().map_or(0, |(distance, _)| *distance);
     near.retain(|(distance, _)| *distance == nearest);
     near.dedup();
@@ -55,7 +55,7 @@ pub fn one_edit_away<'a>(
 
 /// How far two lower-case words are apart, if not more than `limit`.
 fn distance(word: &str, candidate: &str, limit: usize, count_steps: impl Fn(usize)) -> Option<usize> {
-    // An abbreviation, such as `que` for `queue`, is as good as the last typing error that we accept, or better.
+    // An abbreviation, such as `que` for `queue`, counts as at most `limit` edits, however much is missing.
     if word.len() >= ABBREVIATION && candidate.len() > word.len() && candidate.starts_with(word) {
         return Some(limit.min(candidate.chars().count() - word.chars().count()));
     }

@@ -153,7 +153,7 @@ pub struct SchemaMessages {
 /// Gives `None` if `problems` holds an error in the end, be it from here or from the parser. A part that is wrong is
 /// left out of the later checks, so that each mistake is told once. Of a text that is no YAML nothing is checked.
 pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Diagnostics) -> Option<Topology> {
-    // What is left of a text that is not valid YAML proves nothing.
+    // If only a part of the file could be read, what seems to be missing may be in the rest.
     if model.cut_off {
         return None;
     }

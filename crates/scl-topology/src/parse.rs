@@ -62,7 +62,7 @@ pub fn parse(sources: &Sources, file: FileId, problems: &mut Diagnostics) -> Mod
     reader.read_root(&document);
     reader.read_controls(document.root.as_ref());
     let Reader { model, problems: found, .. } = reader;
-    // What is wrong with the shape may be a consequence, so it waits until the text can be read to its end.
+    // Problems with the shape may follow from a syntax error, so report them only if the whole text could be read.
     match document.is_partial {
         true => found.discard(),
         false => problems.append(found),

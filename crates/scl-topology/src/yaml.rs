@@ -158,7 +158,7 @@ fn options() -> granit_parser::Options {
         emit_comments: false,
         emit_anchor_events: true,
         emit_unresolved_aliases: true,
-        // The limit of the specification; a longer key has no meaning here, but a better message of its own.
+        // The limit of the YAML specification; the keys that have a meaning here are far shorter.
         simple_key_max_lookahead: 1024,
     }
 }

@@ -142,7 +142,8 @@ impl MessageType {
             }
             Form::ProtobufJson(message) => {
                 let message = protobuf::from_value(message, value, &mut Unknown::Refuse)?;
-                // Defaults are left out, and -0.0 counts as one; written out, they mean the same.
+                // The serializer would skip -0.0 as a default value and lose its sign. Then write all default values,
+                // which means the same.
                 let options = SerializeOptions::new().skip_default_fields(!scl_shape::loses_sign(&message));
                 let mut json = Vec::new();
                 message

@@ -34,14 +34,14 @@ pub(crate) type Wrong = (String, Option<usize>);
 pub(crate) fn read_json(bytes: &[u8]) -> Result<Value, Wrong> {
     let mut input = serde_json::Deserializer::from_slice(bytes);
     let value = AnyValue::new(&Budget::new()).deserialize(&mut input).and_then(|value| input.end().map(|()| value));
-    // Its texts name line and column.
+    // The error text already names line and column.
     value.map_err(|error| (error.to_string(), None))
 }
 
 /// Reads one CBOR item; tags are left out.
 pub(crate) fn read_cbor(bytes: &[u8]) -> Result<Value, Wrong> {
     match scl_cbor::simplify(bytes) {
-        // Its offsets are not those of the frame.
+        // Offsets in the simplified item are not offsets in the frame.
         Some(simple) => read_simple_cbor(&simple).map_err(|(reason, _)| (reason, None)),
         None => read_simple_cbor(bytes),
     }
@@ -130,7 +130,7 @@ impl<'de> Visitor<'de> for AnyValue<'_> {
         Ok(number.into())
     }
 
-    // Numbers of more than 64 bits, which CBOR and YAML have, are as exact as a float.
+    // CBOR and YAML allow integers of more than 64 bits; they are rounded to floats.
     fn visit_i128<E>(self, number: i128) -> Result<Value, E> {
         Ok(i64::try_from(number).map_or(Value::Float(number as f64), Value::Int))
     }

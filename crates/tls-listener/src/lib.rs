@@ -116,14 +116,14 @@ impl TlsListener {
                 }
             }
             if self.handshakes.len() >= MOST + MOST_ABORTED {
-                // The end of any of them wakes the task.
+                // The task is woken when any handshake ends.
                 return Poll::Pending;
             }
             match self.socket.poll_accept(cx) {
                 Poll::Ready(Ok((stream, address))) => self.begin(stream, address),
                 Poll::Ready(Err(error)) => {
                     if matches!(Errno::from_io_error(&error), Some(Errno::MFILE | Errno::NFILE)) {
-                        // Hosts try again, and strangers have had these descriptors.
+                        // Free the descriptors of unfinished handshakes: strangers may hold them, and real hosts retry.
                         self.handshakes.abort_all();
                     }
                     return Poll::Ready(Err(error));
@@ -158,7 +158,7 @@ impl TlsListener {
         };
         let is_surplus = |handshake: &Unfinished| Some(handshake.source) == surplus;
         let is_silent = |handshake: &Unfinished| !handshake.has_begun.load(Ordering::Relaxed);
-        // The newest has had no time to send anything.
+        // The newest handshake has had no time to send anything.
         let older = self.unfinished.len() - 1;
         let mut silent = self.unfinished.iter().take(older);
         let silent = silent.position(|handshake| is_surplus(handshake) && is_silent(handshake));

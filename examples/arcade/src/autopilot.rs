@@ -105,7 +105,7 @@ impl FlightController {
     pub fn step(&mut self, reading: &Inertial) -> Option<Outputs> {
         let now = reading.time_us;
         if now + LONGEST_GAP_US < self.time_us {
-            // The vehicle's clock has started again.
+            // The vehicle's clock has restarted.
             *self = Self { parameters: self.parameters, ..Self::default() };
         }
         if now <= self.time_us {

@@ -49,7 +49,7 @@ fn place(fix: &Fix) -> String {
 
 /// Degrees with `digits` digits, then minutes with five decimals: 2 cm.
 fn degrees_and_minutes(degrees: f64, digits: usize) -> String {
-    // Rounded as a whole, so that 59.999999 minutes become the next degree.
+    // Round degrees and minutes together, so 59.999999 minutes carry over into the next degree.
     let units = (degrees.abs() * 6_000_000.0).round() as u64; // minutes / 100000
     let (degrees, minutes) = (units / 6_000_000, units % 6_000_000);
     format!("{degrees:0digits$}{:02}.{:05}", minutes / 100_000, minutes % 100_000)

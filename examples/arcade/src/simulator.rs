@@ -50,7 +50,7 @@ pub async fn run(mut gates: Simulator, settings: Settings, serial: Option<Serial
 }
 
 async fn send(gates: &mut Simulator, readings: &Readings) -> scl::Result<()> {
-    // Before the inertial reading, in whose beat the autopilot works.
+    // Send the height before the inertial reading, which triggers the autopilot's next step.
     if let Some(height) = &readings.height {
         gates.height.send(height).await?;
     }

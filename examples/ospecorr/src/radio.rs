@@ -26,7 +26,7 @@ pub async fn run(mut radio: Radio) -> scl::Result<()> {
     loop {
         let before = state;
         tokio::select! {
-            // In this order: what silences the radio comes before the next frame.
+            // Poll in this order: anything that may silence the radio comes before the next frame.
             biased;
             request = radio.control.recv() => {
                 let request = request?;
@@ -46,7 +46,7 @@ pub async fn run(mut radio: Radio) -> scl::Result<()> {
                 tick.skip_missed();
                 radio.state.send(&state).await?;
             }
-            // Waits while the air has not taken the frames before; cancelled by the others, it has sent nothing.
+            // Waits until the air has taken the earlier frames. If another branch completes first, nothing was sent.
             sent = send(&mut radio.bursts, held.as_ref()), if state.transmit && held.is_some() => {
                 sent?;
                 held = None;

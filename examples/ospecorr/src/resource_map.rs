@@ -63,7 +63,7 @@ pub async fn run(mut map: ResourceMap, mut keeper: Keeper) -> scl::Result<Refuse
             refused = &mut keeper.refused => {
                 return Ok(refused.map_err(|_| io::Error::other("the thread of the database has ended"))?);
             }
-            // Takes no block as long as the thread cannot: the queue of the gate is the longer one.
+            // Reserve a place before receiving: while the thread is behind, blocks wait in the gate's longer queue.
             block = async { Ok::<_, scl::Error>((keeper.jobs.reserve().await.ok(), map.occupancy.recv().await?)) } => {
                 if let (Some(place), block) = block? {
                     place.send(Job::Add(block.channels));
@@ -72,7 +72,7 @@ pub async fn run(mut map: ResourceMap, mut keeper: Keeper) -> scl::Result<Refuse
             ticked = tick.tick() => {
                 ticked?;
                 tick.skip_missed();
-                // If there is no place, the next one will do.
+                // If the queue is full, the flush of a later tick will do.
                 let _ = keeper.jobs.try_send(Job::Flush);
             }
             request = map.queries.recv() => {

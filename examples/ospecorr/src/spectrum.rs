@@ -52,7 +52,7 @@ pub async fn run(mut spectrum: Spectrum, options: Options) -> scl::Result<()> {
     let mut radio = RadioState::default();
     let mut radio_age = 0;
     let mut before = Truth::default();
-    // So that time 0 is the same for all; a missing component only delays it.
+    // Wait, so time 0 is the same for all components; a missing one only delays the start.
     if let Err(missing) = spectrum.ready(START_WITHIN).await {
         println!("begins without all components: {missing}");
     }
@@ -71,7 +71,7 @@ pub async fn run(mut spectrum: Spectrum, options: Options) -> scl::Result<()> {
             print_changes(&before, &truth);
             before = truth;
         } else {
-            // Frames that a silent radio has handed over before wait.
+            // Frames that the radio sent before it fell silent stay in the queue.
             let transmits = radio.transmit && radio_age < RADIO_LOST_AFTER;
             let frame = if transmits { spectrum.bursts.try_recv()? } else { None };
             if let Some(received) = air.carry(radio.channel, frame) {

@@ -25,7 +25,7 @@ async fn main(c: Controller) -> scl::Result<()> {
             actuator.send(&rover::Setpoint { throttle }).await?;
         }
     });
-    // Whichever ends first has failed.
+    // Both tasks loop forever, so the first one to end has failed.
     tokio::select! {
         result = commanding => result?,
         result = steering => result?,

@@ -68,7 +68,7 @@ fn expand_opened(
         let kind = side.kind(gate.kind());
         let method = opener_method(kind, context.span);
         match traits.of(gate) {
-            // The message types are inferred from the struct, so a wrong type is reported once, there.
+            // The message types are inferred from the struct, so a wrong type is reported only once, at the struct.
             Some(CodecTrait { name, .. }) => {
                 quote_spanned! { context.span => #field: #name::#method(__opener, #index)? }
             }

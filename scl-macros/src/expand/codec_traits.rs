@@ -65,7 +65,7 @@ impl<'a> CodecTraits<'a> {
         }
         let kinds = &mut self.all[index].kinds;
         if !kinds.contains(&gate.kind()) {
-            // The opposite kind is that of the counterpart in unit tests.
+            // In unit tests, the counterpart has a gate of the opposite kind.
             kinds.extend([gate.kind(), gate.kind().opposite()]);
         }
     }
@@ -171,7 +171,7 @@ fn trait_name(gate: &Gate, number: usize, span: Span) -> Ident {
     let words = format!("{}_supported_by_{codec}", gate.payload().to_string().replace(" -> ", "_and_"));
     let is_alphanumeric = |word: &String| word.chars().all(char::is_alphanumeric);
     let camel: String = words.split(['_', '.']).map(capitalized).filter(is_alphanumeric).collect();
-    // A type may be called `_1`.
+    // A type may be named `_1`, but an identifier must not start with a digit.
     let start = if camel.starts_with(|first: char| first.is_ascii_digit()) { "_" } else { "" };
     Ident::new(&format!("{start}{camel}_{number}"), span)
 }

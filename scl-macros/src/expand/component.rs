@@ -42,7 +42,7 @@ pub(super) fn expand_components(context: &Context<'_>, topology: &Topology) -> T
         expand_implementation(context, topology, component, plan, &codec_traits, &schemas, &requirements)
     });
     let agreements = type_agreement::expand_agreements(context, topology);
-    // With the span of the literal, rustc's own errors about a type point there and not into a macro.
+    // With the span of the literal, rustc's own errors about a type point at the literal and not into a macro.
     quote_spanned! { context.span =>
         #(#structs)*
         #[allow(

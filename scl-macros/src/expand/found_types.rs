@@ -116,7 +116,7 @@ impl Requirements {
                     let Some(&index) = index.get(name.dotted()) else { continue };
                     let (_, gates) = all.traits.entry(index).or_insert_with(|| (name.clone(), Vec::new()));
                     let gate = topology.gate_path(id);
-                    // A gate with this type twice, as request and reply, is named once.
+                    // Name a gate only once, even if it uses this type for both request and reply.
                     if gates.last() != Some(&gate) {
                         gates.push(gate);
                     }
@@ -137,7 +137,8 @@ impl Requirements {
             quote_spanned! { context.span =>
                 #report
                 trait #name {}
-                // Not for the type itself: rustc would suggest a reference to it, which has the trait as well.
+                // Implemented for a tuple: with an impl for the type itself, rustc would suggest a reference to it,
+                // which implements the trait as well.
                 #[diagnostic::do_not_recommend]
                 impl<Type: ::core::marker::Unpin> #name for (Type,) {}
             }

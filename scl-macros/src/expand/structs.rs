@@ -17,7 +17,7 @@ pub(super) struct GateField {
 pub(super) fn expand_struct(context: &Context<'_>, name: &Ident, doc: &str, fields: &[GateField]) -> TokenStream {
     let private = &context.private;
     let fields = fields.iter().map(|GateField { name, doc, gate_type }| quote!(#[doc = #doc] pub #name: #gate_type,));
-    // The last field: fields are dropped in order, and the gates go first.
+    // Keep this field last: fields are dropped in order, and the gates go first.
     let handle = (!context.for_editor).then(|| quote!(__scl: #private::ComponentHandle));
     quote! {
         #[doc = #doc]

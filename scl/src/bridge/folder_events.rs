@@ -23,7 +23,8 @@ pub(super) enum FolderChange {
 impl FolderEvents {
     /// Starts watching. Must be called inside a tokio runtime.
     pub(super) fn start(dir: &SystemDir) -> Result<Self, RuntimeDirError> {
-        // A process that ends, however it does, closes its component's lock, which was opened for writing.
+        // `CLOSE_WRITE` reports the end of a process: the kernel closes its component's lock file, which it opened for
+        // writing.
         let events = WatchFlags::MOVED_TO | WatchFlags::DELETE | WatchFlags::CLOSE_WRITE;
         let gone = WatchFlags::DELETE_SELF | WatchFlags::MOVE_SELF;
         let started = Inotify::new().and_then(|inotify| {

@@ -75,7 +75,8 @@ impl Mirror {
             return Err(MirrorError::WrongPlan { host, expected, found: plan.component });
         }
         let spec = intern(&plan)?;
-        // The process and its start are this one's, which is what a tool can look at. Endpoints are as announced there.
+        // The process, its program and its start are the local ones, which tools can inspect. Endpoints and the rest
+        // are as announced on the other host.
         let own = Announcement::of_this_process(component);
         let announcement = Announcement {
             pid: own.pid,

@@ -63,7 +63,8 @@ impl Presence {
                 continue;
             };
             let happened = match self.removed {
-                // A program that removes the folder must not meet new files in it.
+                // Wait until no more files are removed: a program that is deleting the folder must not find new files
+                // in it.
                 Some(at) => match tokio::time::timeout_at(at + QUIET, events.next()).await {
                     Ok(happened) => happened,
                     Err(_quiet) => {
@@ -94,7 +95,7 @@ impl Presence {
         match self.dir.create_again().and_then(|()| FolderEvents::start(&self.dir)) {
             Ok(events) => {
                 self.events = Some(events);
-                // Only after that, so that no event in between is missed.
+                // Check after starting to watch, so that no event is missed.
                 let all: Vec<_> = self.components.iter().cloned().collect();
                 all.iter().for_each(|name| self.look(name));
                 self.changes.push_back(Change::Removed);
@@ -115,7 +116,7 @@ impl Presence {
         }
         let is_held = ComponentLock::holder(&self.dir, name).is_some();
         let profile = is_held.then(|| Profile::read(&self.dir, name)).flatten();
-        // Not one that only stands in for a component of another host.
+        // Skip mirrors of components that run on other hosts.
         let now = profile.filter(|profile| profile.announcement().host.is_none());
         if self.running.get(name) == now.as_ref() {
             return;

@@ -89,7 +89,7 @@ impl Bounds {
     }
 
     fn allocate(&self, announced: usize) -> usize {
-        // serde allocates up to 1 MiB for each list that is open.
+        // serde preallocates up to 1 MiB for each open list, so only the outer levels may preallocate.
         if LEVELS - self.levels.get() > ALLOCATING_LEVELS {
             return 0;
         }

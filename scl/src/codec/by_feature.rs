@@ -7,7 +7,7 @@ macro_rules! codec {
         pub use crate::__stand_in_codec as $stand_in;
         #[cfg(feature = $feature)]
         pub use crate::codec::$codec;
-        // The codec's own stand-in supports every type.
+        // The stand-in for the codec supports every type, so this macro generates nothing.
         #[cfg(not(feature = $feature))]
         pub use crate::__no_stand_in_codec as $stand_in;
 

@@ -72,7 +72,7 @@ impl<'de, D: Deserializer<'de>> Deserializer<'de> for Checked<'_, D> {
         self.inner.is_human_readable()
     }
 
-    // Canonical JSON is read from formats that describe themselves.
+    // Canonical JSON is only deserialized from self-describing formats, so all of these can use `deserialize_any`.
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit unit_struct
         newtype_struct seq tuple tuple_struct map struct enum identifier
@@ -95,7 +95,7 @@ impl<'de, V: Visitor<'de>> Visitor<'de> for Checked<'_, V> {
     fn visit_str<E: Error>(self, text: &str) -> Result<V::Value, E> {
         match &self.part {
             Part::Enum(values) if values.get_value_by_name(text).is_none() => {
-                // Protobuf's libraries of other languages accept the number of a value as text, too.
+                // Protobuf libraries in other languages also accept the number of an enum value as text.
                 let number = text.parse().ok().filter(|_| !text.starts_with('+'));
                 let number = number.filter(|number| values.get_value(*number).is_some());
                 let unknown =

@@ -50,7 +50,8 @@ impl MessageType {
         let bytes = message.encode_to_vec();
         let described = DynamicMessage::decode(self.descriptor().map_err(S::Error::custom)?, bytes.as_slice());
         let described = described.map_err(S::Error::custom)?;
-        // Defaults are left out, and -0.0 counts as one; written out, they mean the same.
+        // Fields with default values are skipped, and -0.0 would count as a default. If the message contains one, write
+        // out all fields; the meaning is the same.
         let options = SerializeOptions::new().skip_default_fields(!scl_shape::loses_sign(&described));
         described.serialize_with_options(serializer, &options)
     }

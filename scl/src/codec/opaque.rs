@@ -10,8 +10,7 @@ const SHORT: usize = 512;
 ///
 /// Neither encoding nor decoding copies, except for messages of up to 512 bytes, which are copied when they are sent
 /// because sharing their memory would cost more. Decoding never fails.
-// A codec of its own, because in `Raw` an implementation for `Bytes` would overlap with that for all types of fixed
-// layout.
+// Separate from `Raw`, whose implementation for all types of fixed layout would overlap with one for `Bytes`.
 #[derive(Debug)]
 pub struct Opaque;
 

@@ -18,7 +18,7 @@ pub(super) fn check(spec: &'static ComponentSpec, variables: Variables<'_>) -> R
     let expected =
         environment::read(variables, VARIABLE, "components like `rover.sensor`", |text| Some(text.to_owned()))?;
     let Some(expected) = expected.filter(|expected| !is_expected(expected, spec)) else { return Ok(()) };
-    // A name of its own, as `sd_notify(3)` allows.
+    // A custom variable, with the prefix `X_` that `sd_notify(3)` recommends.
     service::tell(variables, &format!("X_SCL_OPENS={}.{}\n", spec.system, spec.name));
     Err(OpenError::Unexpected { component: spec.name, system: spec.system, expected: shown(&expected) })
 }

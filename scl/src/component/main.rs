@@ -53,8 +53,8 @@ fn set_up() -> Result<(), Error> {
     let settings = RealTimeSettings::read(variables)?;
     log::start(level);
     service::start(variables);
-    // Before the real-time settings: a main thread that computes at real-time priority on its one processor would keep
-    // a signal thread with the same settings from running.
+    // Start the signal thread before the real-time settings, which it would inherit: a main thread that computes at
+    // real-time priority would then keep it from running on their shared processor.
     stop::watch_signals(grace_period)?;
     settings.apply();
     Ok(())

@@ -37,7 +37,8 @@ fn needs(gate: &GateSpec) -> Vec<(Guarantee, &'static str)> {
             vec![(Guarantee::Waiting, "when_full: wait")]
         }
         GateKind::Sub | GateKind::Pull if gate.newest_only() => vec![(Guarantee::Freshness, "queue: 1")],
-        // A gate that waits rather than drop must also know, when its program ends, that everything was taken.
+        // A gate that waits instead of dropping must also know, at the end of its program, that its peers have taken
+        // everything.
         GateKind::Pub | GateKind::Push
             if gate.connections.iter().any(|connection| options.waits_for(connection.when_full)) =>
         {

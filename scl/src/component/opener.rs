@@ -52,7 +52,7 @@ impl Opener {
 
     /// Opens the `push` gate at an index of the component's list.
     pub fn pusher<T, C: Codec<T>>(&mut self, index: usize) -> Result<Push<T>, OpenError> {
-        // The puller has the tap.
+        // Only the pull gate at the other end has a tap.
         let no_tap = GateTap::new(None, false);
         self.outgoing::<T, C>(index, no_tap, |transport, endpoint| transport.push(endpoint))
             .map(|outgoing| Push { outgoing })

@@ -82,7 +82,7 @@ fn lock_memory() {
     let locked = if limited && !capable {
         Err("its size is limited".to_owned())
     } else {
-        // On first use, so that reserved but unused memory stays cheap.
+        // Lock pages on first use, so that reserved but unused memory stays cheap.
         let flags = MlockAllFlags::CURRENT | MlockAllFlags::FUTURE | MlockAllFlags::ONFAULT;
         rustix::mm::mlockall(flags).map_err(|error| error.to_string())
     };

@@ -56,7 +56,7 @@ impl Transports {
             Self::Own(transport) => &**transport,
             Self::Files(by) => {
                 let chosen = by.choice.of(by.spec, gate, connections);
-                // An end that only connects finds any transport, so the default's transport will do.
+                // An end that only connects finds listeners of any transport, so the default one will do.
                 let found = by.transports.iter().find(|(kind, _)| *kind == chosen).unwrap_or(&by.transports[0]);
                 &*found.1
             }

@@ -99,7 +99,7 @@ impl Connection {
         self.task.clone_from(cx.waker());
         let driven = self.accept_and_read(cx);
         self.hand_over(driven);
-        // Also what a sending call has noticed since the last time.
+        // Includes disconnects that sending calls have noticed since the last drive.
         let connected = (self.peer.is_some(), self.foreign.len());
         if std::mem::replace(&mut self.reported, connected) != connected {
             self.report_change();
@@ -117,7 +117,7 @@ impl Connection {
             let shared = message.to_bytes();
             self.foreign.iter_mut().for_each(|peer| peer.send(&mut cx, shared.clone()));
         }
-        // Before a message is dropped, everything is tried to hand some over.
+        // Before dropping a message, try to hand some over.
         let driven = if self.queue.is_full() { self.drive_peer() } else { None };
         if !self.queue.is_empty() {
             self.hand_over(driven);
@@ -231,7 +231,7 @@ impl Connection {
         }
         if kind == PeerKind::Foreign && self.kind == GateKind::Pub {
             let policy = self.queue.policy;
-            // The component, when it comes, must find what waited for it; so a program in its place gets a copy.
+            // The queued messages must stay for the component, which may still connect, so a foreign peer gets copies.
             let copy = |frame: &mut Frame| Frame::from(frame.make_bytes().clone());
             let mut waiting = match self.peer {
                 None => self.queue.items_mut().iter_mut().map(copy).collect(),
@@ -270,9 +270,9 @@ impl Connection {
             }
         }
         self.dropping &= !self.queue.is_empty();
-        // A flush looks at acknowledgements as well, which arrive without a change of the queue.
+        // Wake flushes even if the queue has not changed: they also wait for acknowledgements.
         self.waiting_flushes.drain(..).for_each(Waker::wake);
-        // There is room, or the peer that the sender would wait for is an optional one that has gone.
+        // Wake the sender if there is room, or if the peer was optional and has disconnected.
         if self.waiting_sender.is_some() && !self.would_wait() {
             self.waiting_sender.take().into_iter().for_each(Waker::wake);
         }
@@ -281,7 +281,7 @@ impl Connection {
     /// Queues a message for the component at the other end.
     fn keep(&mut self, message: Frame) {
         if self.peer.is_none() && !self.foreign.is_empty() {
-            // A program in the component's place has it; older ones make room, and nothing is lost.
+            // A foreign peer was already given the message, so older ones can make room without a loss.
             let pushed = self.queue.replace(message);
             let handed = u64::from(pushed != Pushed::Stored);
             self.account.handed += handed;

@@ -40,7 +40,7 @@ impl<T> Decoder<T> {
         }
     }
 
-    // Inlined, the frame would be moved in pieces.
+    // If this were inlined, the compiler would move the frame in pieces.
     #[inline(never)]
     pub(super) fn decode(&self, frame: Bytes) -> Result<T, DecodeError> {
         if frame.len() > self.unchecked {
@@ -76,7 +76,7 @@ impl MemoryLimit {
             "json" => Format::Json,
             _ => return None,
         };
-        // An untyped gate passes its frames on, to a program in another language.
+        // An untyped gate passes its frames undecoded to a program in another language.
         let language = if codec == gate.codec { Language::Rust } else { Language::Other };
         let message = gate.sent_and_received().1?;
         let estimate = MemoryEstimate::new(component.message_types()?, message, language, format)?;

@@ -35,7 +35,7 @@ impl<T> Encoding<T> {
             self.memory.reserve(PIECE);
         }
         let frame = (self.to_frame)(message, &mut self.memory);
-        // What a codec wrote before it failed is no part of the next message.
+        // Discard what a codec wrote before it failed, or it would become part of the next message.
         self.memory.clear();
         match &self.texts {
             Some(texts) => frame.and_then(|frame| texts.check(&frame).map(|()| frame)),

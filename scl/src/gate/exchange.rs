@@ -116,7 +116,7 @@ impl Exchange {
         let _permit = match self.permits.try_acquire() {
             Ok(permit) => permit,
             Err(_) => {
-                // Boxed, because every call is moved with the room for this, which few need.
+                // Boxed, because few calls need this future, and it would make every call larger.
                 let permit = Box::pin(until(self.permits.acquire(), deadline, state)).await?;
                 permit.unwrap_or_else(|_| unreachable!("the semaphore is never closed"))
             }
@@ -126,7 +126,7 @@ impl Exchange {
         let mut unsent = Some(body);
         let mut direct_wait = state.direct_wait();
         poll_fn(|cx| {
-            // A stopped program's calls stay pending: what waits for them is dropped.
+            // After a stop request, calls stay pending until the futures that await them are dropped.
             if state.is_stopped() {
                 return Poll::Pending;
             }
@@ -134,7 +134,7 @@ impl Exchange {
             if polled.is_ready() {
                 return polled;
             }
-            // After the waker was registered, so that no end of the calls is missed.
+            // Check after the waker was registered, so that `end_calls` is not missed.
             if let Err(unusable) = state.check() {
                 return Poll::Ready(Err(ExchangeError::Unusable(unusable)));
             }
@@ -161,7 +161,7 @@ impl Exchange {
         if unsent.is_none()
             && polled.is_pending()
             && let Some(within) = direct_wait.take()
-            // Waiting keeps the other calls from the end.
+            // Only if there is no other call: the wait holds the lock on the end, which others would need.
             && self.calls.in_progress() == 1
             && end.wait(within.min(deadline.saturating_duration_since(Instant::now())))
         {
@@ -170,7 +170,7 @@ impl Exchange {
         if polled.is_pending() {
             self.calls.wait(id, cx.waker());
             if std::mem::take(&mut end.refused) {
-                // Tried again after others had their turn.
+                // Retry after other tasks have run.
                 cx.waker().wake_by_ref();
             }
         }
@@ -241,7 +241,8 @@ impl End {
 
     /// Sends a request, or returns it if that is not possible now.
     fn request(&mut self, id: u64, body: Bytes) -> Option<Bytes> {
-        // This discards replies, so it is for the first call only: the others find the connection as that one left it.
+        // `poll_connected` discards replies, so call it only while none is awaited. Otherwise use the connection as it
+        // is.
         if self.sent_calls.iter().all(|call| call.result.is_some()) {
             let connected = self.link.poll_connected(&mut Context::from_waker(&self.waker));
             self.report_change();
@@ -257,7 +258,7 @@ impl End {
                 None
             }
             Err(body) => {
-                // The connection broke at this very moment, and the next poll starts to reconnect; or there is no room.
+                // The connection has just broken, and the next poll starts to reconnect; or the link has no room.
                 self.refused = true;
                 Some(body)
             }
@@ -347,7 +348,7 @@ async fn until<F: Future>(future: F, deadline: Instant, state: &ComponentState) 
     let changes = state.changes();
     loop {
         let mut changed = pin!(changes.next());
-        // Before the check, so that no end of the calls is missed.
+        // Subscribe before checking, so that `end_calls` is not missed.
         changed.as_mut().enable();
         state.check().map_err(ExchangeError::Unusable)?;
         let ended = poll_fn(|cx| match future.as_mut().poll(cx) {

@@ -96,7 +96,7 @@ impl Fanout {
         if self.may_wait || self.state.is_stopped() {
             poll_fn(|cx| self.poll_room(cx)).await?;
         }
-        // A program that only sends lets the connections' tasks run now and then.
+        // Yield now and then, so that the connections' tasks run even if the program does nothing but send.
         tokio::task::coop::consume_budget().await;
         self.hand_out(message);
         Ok(())
@@ -128,7 +128,7 @@ impl Fanout {
             let state = Arc::clone(&self.state);
             let waited = state.block_on_for(timeout, poll_fn(|cx| self.poll_room(cx))).map_err(self.refused())?;
             waited.unwrap_or(Ok(()))?;
-            // Room found after the wait is as good as room found in time.
+            // After a timeout, check once more: room that has appeared since then is good enough.
             if let Some(peer) = self.full(&mut Context::from_waker(Waker::noop())) {
                 return Err(SendTimeoutError::Timeout { gate: self.name, peer, waited: timeout });
             }
@@ -158,9 +158,9 @@ impl Fanout {
 
     /// Ready when no connection would make the message wait, so that it goes to all of them at once or to none.
     pub(crate) fn poll_room(&mut self, cx: &mut Context<'_>) -> Poll<Result<(), SendError>> {
-        // A stopped program's calls stay pending: what waits for them is dropped.
+        // After a stop request, calls stay pending until the futures that await them are dropped.
         let pending = self.state.is_stopped() || self.full(cx).is_some();
-        // After the waker was registered, so that no end of the calls is missed.
+        // Check after the waker was registered, so that `end_calls` is not missed.
         match self.state.check() {
             Err(source) => Poll::Ready(Err(SendError::Blocking { gate: self.name, source })),
             Ok(()) if pending => Poll::Pending,
@@ -182,7 +182,7 @@ impl Fanout {
     pub(super) fn lend(&self, length: usize, alignment: usize) -> (Loan, Option<usize>) {
         let fits = |loan: &Loan| loan.len() == length && loan.as_slice().as_ptr().addr().is_multiple_of(alignment);
         let count = self.connections.len();
-        // A gate that shares will most likely send over the connection whose turn it is.
+        // A gate that shares its messages among peers will most likely send over the connection whose turn it is.
         let lenders = (0..count).map(|offset| (self.turn + offset) % count);
         let mut lent = lenders.filter_map(|index| {
             let loan = lock(&self.connections[index]).loan(length).filter(fits)?;
@@ -204,7 +204,7 @@ impl Fanout {
             .map(|connection| lock(connection))
             .filter_map(|mut connection| connection.poll_room(cx).is_pending().then(|| connection.peer_name()));
         let first = full.next();
-        // A shared message needs room at one of them.
+        // A gate that shares its messages among peers needs room at only one of them.
         let others = if self.shares { full.count() } else { 0 };
         first.filter(|_| !self.shares || others + 1 == self.connections.len())
     }
@@ -275,7 +275,7 @@ impl Fanout {
         let connections: Vec<Weak<Mutex<Connection>>> = self.connections.iter().map(Arc::downgrade).collect();
         let (open, dropped) = (Arc::downgrade(&self.open), self.tap.dropped_later());
         Box::new(move |figures| {
-            // Checked first: connections outlive their gate until their peers have taken everything.
+            // Check this first: connections may outlive their gate, until their peers have taken everything.
             let is_open = open.strong_count() > 0;
             if connections.iter().any(|connection| connection.strong_count() == 0) {
                 return is_open;

@@ -81,13 +81,14 @@ impl Inbox {
             let polled = self.poll_links();
             self.was_empty = polled.is_pending();
             if polled.is_ready() {
-                // Polled until nothing is left, or the next event would find nobody to wake.
+                // Drain the links: a link that is ready has not registered the waker, so the next event would wake
+                // nothing.
                 self.take_in();
             }
             return polled;
         }
         if self.newest_only {
-            // What a sender has said counts only if its link was looked at just now.
+            // A sender's answer counts only if its link was polled just now.
             self.links.look_again();
         }
         self.take_in();
@@ -148,14 +149,15 @@ impl Inbox {
         self.fetch();
         self.take_in();
         if !self.queue.waits() && self.links.are_lossless() {
-            // The sender waits for each of its messages: at any time there is only one.
+            // The sender relies on this gate not to drop messages, so return them one at a time.
             arrived.extend(self.pop());
             return self.report_ready();
         }
         std::mem::swap(self.queue.items_mut(), arrived);
         self.links.count_all_gone();
         if self.queue.waits() {
-            // Such a gate takes in no more than its queue holds, but what is passed over keeps no publisher waiting.
+            // Such a gate reads no more than its queue holds, but messages that the caller skips must not keep a
+            // publisher waiting, so read on.
             self.links.look_again();
             self.pass_over(arrived);
             self.links.note_waiting();
@@ -171,7 +173,7 @@ impl Inbox {
             }
             arrived.push_back(newer);
         }
-        // There is more, as in `drain_links`.
+        // More may be left: poll again later, as in `drain_links`.
         self.links.ask_later();
     }
 
@@ -204,7 +206,7 @@ impl Inbox {
         if !self.links.may_have_more() {
             return;
         }
-        // Before as well: what has arrived may be the question how much that is.
+        // Report before draining, too: the links may then read a request for this number.
         self.links.note_waiting();
         self.drain_links();
         self.links.note_waiting();
@@ -225,13 +227,13 @@ impl Inbox {
                 return;
             }
         }
-        // There is more: the task continues after others had their turn.
+        // More may be left: the task continues after other tasks have run.
         self.links.ask_later();
     }
 
     /// Takes in a message in place of one that has left a full queue. The links are connected already.
     fn take_in_for_room(&mut self) {
-        // Not for each message, because a fast program would notice that.
+        // Report once per tick of the coarse clock: reporting every message would slow down a fast program.
         let last = self.activity.last;
         if std::mem::replace(&mut self.told_at, last) != last {
             self.links.note_waiting();
@@ -264,7 +266,7 @@ impl Inbox {
             self.queue.push(arrived);
             None
         } else if arrived.latched.is_some() && self.queue.policy.when_full == WhenFull::DropNewest {
-            // It is the state that holds; those before it are not.
+            // A latched message is the current state, so it must not be dropped in favour of older messages.
             self.queue.push_over_newest(arrived).map(|newest| newest.link)
         } else {
             let oldest = self.queue.front().map(|oldest| oldest.link);
@@ -283,7 +285,7 @@ impl Inbox {
         let arrived = self.queue.pop()?;
         self.links.count_gone(arrived.link);
         if self.is_stalled {
-            // A sender that closes asks what was received, and waits for the answer.
+            // Read on now: a sender that is closing asks what was received, and waits for the answer.
             self.take_in_for_room();
         }
         Some(arrived)

@@ -160,13 +160,13 @@ impl<T> Incoming<T> {
         if self.state.check().is_err() {
             return Poll::Ready(None);
         }
-        // A stopped program's calls stay pending: what waits for them is dropped.
+        // After a stop request, calls stay pending until the futures that await them are dropped.
         if self.state.is_stopped() {
             return Poll::Pending;
         }
         match self.inbox.poll_next(cx, caller) {
             Poll::Ready(arrived) => Poll::Ready(Some(arrived)),
-            // The calls may have been ended before this one could register its waker.
+            // `end_calls` may have run before this call registered its waker.
             Poll::Pending if self.state.check().is_err() => Poll::Ready(None),
             Poll::Pending => Poll::Pending,
         }
@@ -338,7 +338,7 @@ impl<T> Drop for Incoming<T> {
         if self.state.is_inherited() {
             return;
         }
-        // The task may hold the inbox a little longer.
+        // The task may keep the inbox alive a little longer, so stop its reports now.
         self.inbox.lock().stop_reporting();
     }
 }

@@ -128,7 +128,7 @@ impl Links {
 
     /// Whether a sender may hold something newer. Asks each, even if an earlier one is behind.
     pub(super) fn are_behind(&mut self) -> bool {
-        // They may read messages that were not there before.
+        // Asking may read messages that have just arrived.
         self.drained.reset();
         let cx = &mut Context::from_waker(&self.waker);
         self.links.iter_mut().fold(false, |behind, link| link.end.poll_caught_up(cx).is_pending() | behind)
@@ -144,7 +144,7 @@ impl Links {
         let link = &mut self.links[link];
         link.waiting -= 1;
         if link.waiting == 0 || link.is_awaited {
-            // The program may receive nothing more for long.
+            // Report now: the program may not receive another message for a long time.
             link.note_waiting(&mut Context::from_waker(&self.waker));
         }
     }

@@ -32,7 +32,7 @@ impl<'a, T: ?Sized> Loaned<'a, T> {
         if let Some((peer, size, limit)) = exceeded(fanout.strictest, length) {
             return Err(LoanError::TooLong { gate, peer, size, limit });
         }
-        // A program without async may not have had a turn since its peer connected.
+        // In a program without async, the runtime may not have run since the peer connected.
         fanout.state.take_turn();
         let (memory, lender) = fanout.lend(length, alignment);
         Ok(Self { fanout, memory, lender, message: PhantomData })

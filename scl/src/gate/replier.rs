@@ -147,7 +147,7 @@ impl<A, B> Rep<A, B> {
         if let Err(source) = self.replies.state.check() {
             return Poll::Ready(Err(self.refused(source)));
         }
-        // A stopped program's calls stay pending: what waits for them is dropped.
+        // After a stop request, calls stay pending until the futures that await them are dropped.
         if self.replies.state.is_stopped() {
             return Poll::Pending;
         }

@@ -189,7 +189,7 @@ impl Link {
         if self.replier.peers() > DRIVEN_BY_CALLS {
             self.waker.wake_by_ref();
         } else if self.look_ahead() {
-            // Only some of them were polled.
+            // `look_ahead` stops at the first request, so it may not have polled all connections.
             let waker = self.waker.clone();
             self.drive(&mut Context::from_waker(&waker));
         }

@@ -78,15 +78,15 @@ impl Shared {
     fn drive(&self, cx: &mut Context<'_>) {
         let mut end = lock(&self.end);
         end.task.clone_from(cx.waker());
-        // Before a new observer is told that it is connected, so that a message sent at once waits for the lock and is
-        // shown.
+        // Set this before a new observer is told that it is connected, so that a message sent right afterwards waits
+        // for the lock and is observed.
         self.observed.store(true, Ordering::Release);
         let is_observed = end.tap.drive(cx);
         self.observed.store(is_observed, Ordering::Release);
     }
 
     fn observe(&self, kind: ObservedKind, call_id: u64, payload: impl FnOnce() -> Bytes) {
-        // Counted also while nobody observes, so that an observer can tell a gap from its own absence.
+        // Count even without observers, so that an observer can tell a gap from its own absence.
         let sequence = self.sequence.fetch_add(1, Ordering::Relaxed);
         if !self.latches && !self.observed.load(Ordering::Acquire) {
             return;

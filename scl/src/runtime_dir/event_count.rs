@@ -38,13 +38,13 @@ impl EventCount {
         }
         let slot = seen.slot.get_or_insert_with(|| self.new_slot());
         let is_registered = seen.registered.as_ref().is_some_and(|known| known.will_wake(cx.waker()));
-        // The waker of a second poll may have been taken for an event that the first one has seen already.
+        // Check the slot, too: `mark` may have taken the registered waker for an event that was already seen.
         if is_registered && slot.armed.load(Ordering::SeqCst) {
             return Poll::Pending;
         }
         slot.put(cx.waker());
         seen.registered = Some(cx.waker().clone());
-        // It may have happened before the waker was in its slot.
+        // Check again: the event may have happened before the waker was in its slot.
         if self.is_news(seen) { Poll::Ready(()) } else { Poll::Pending }
     }
 

@@ -68,7 +68,7 @@ impl RuntimeDir {
             if !path.is_absolute() {
                 return Err(RuntimeDirError::RelativeFolder { variable: "SCL_RUNTIME_DIR", path });
             }
-            // Removes a slash at the end, which would make the verification follow a link.
+            // Removes a trailing slash, which would make the verification follow a symbolic link.
             (path.components().collect(), true)
         } else if let Some(session) = absolute("XDG_RUNTIME_DIR").filter(|path| is_own_folder(path)) {
             (session.join("scl"), false)

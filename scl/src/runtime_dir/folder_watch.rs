@@ -47,7 +47,7 @@ impl FolderWatch {
             let removed = WatchFlags::DELETE | WatchFlags::DELETE_SELF | WatchFlags::MOVE_SELF;
             let runtime_folder = inotify.watch(dir.runtime_folder(), removed)?;
             inotify.watch(dir.folder(), removed | ARRIVED)?;
-            // Replacing a file by another one changes the number of its links, which is one of its attributes.
+            // Replacing a file changes the link count of the old one, which is reported as `ATTRIB`.
             inotify.watch(&lock_file, WatchFlags::ATTRIB | WatchFlags::MOVE_SELF)?;
             Ok((inotify, runtime_folder))
         };
@@ -99,7 +99,7 @@ impl FolderWatch {
         }
         let name = event.file_name().map_or(&[][..], CStr::to_bytes);
         if event.wd() == self.runtime_folder {
-            // The removal of another system only shows that there is no quiet yet.
+            // The removal of another system's folder only shows that files are still being removed.
             return name == self.system.as_bytes();
         }
         name.starts_with(self.prefix.as_bytes()) || self.schema.as_ref().is_some_and(|file| name == file.as_bytes())

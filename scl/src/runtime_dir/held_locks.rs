@@ -96,7 +96,8 @@ pub(super) fn unlock(id: FileId) {
 /// Who holds the lock on the file at `path`, if any process does.
 pub(super) fn lock_holder(path: &Path) -> Option<ComponentProcess> {
     let mut open = lock(&OPEN);
-    // Not for writing: who follows which components run takes the closing of a writable descriptor for the end of one.
+    // Open it for reading only: programs that watch the folder take a `CLOSE_WRITE` event of a lock file for the end of
+    // its component.
     let index = match open_once(path, OpenOptions::new().read(true), &mut open, &mut |_| {}).ok()? {
         Opened::At(index) => index,
         Opened::LockedHere => return Some(ComponentProcess::ThisProcess),
@@ -133,7 +134,8 @@ fn try_lock_with(path: &Path, step: &mut dyn FnMut(Step)) -> io::Result<Attempt>
         }
         step(Step::Opened);
         match rustix::fs::fcntl_lock(file, FlockOperation::NonBlockingLockExclusive) {
-            // A file that was removed or replaced in the meantime excludes nobody.
+            // The lock is worthless if the file was removed or replaced in the meantime: other processes would lock the
+            // new one.
             Ok(()) if FileId::at(path).is_ok_and(|now| now == id) => {
                 if !has_lock(file.as_raw_fd()) && is_locked_by_another_copy(id) {
                     return Ok(Attempt::Held(ComponentProcess::ThisProcess));
@@ -179,7 +181,7 @@ fn open_once(
     let file = options.custom_flags(FLAGS.bits().cast_signed()).open(path)?;
     let id = FileId::of(&file.metadata()?);
     if let Some(found) = find(open, id) {
-        // It was renamed to `path` just now. Closing it would release the lock.
+        // An open file was renamed to `path` just now. Closing this descriptor would release the lock on it.
         std::mem::forget(file);
         return Ok(found);
     }

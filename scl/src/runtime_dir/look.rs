@@ -29,7 +29,7 @@ impl RuntimeDir {
     ///
     /// The folder cannot be read.
     pub fn systems(&self) -> io::Result<Vec<String>> {
-        // Not through a link, whose target may belong to another user.
+        // Symbolic links are not followed: their targets may belong to another user.
         names(fs::read_dir(self.path())?, |kind, name| Some(name).filter(|_| kind.is_dir()))
     }
 
@@ -41,7 +41,7 @@ impl RuntimeDir {
     pub fn running_systems(&self) -> io::Result<Vec<String>> {
         let mut systems = self.systems()?;
         systems.retain(|name| {
-            // Folders that are not safe, or disappear meanwhile, are no systems that could be observed.
+            // Skip folders that are unsafe or have disappeared: they cannot be observed.
             let Ok(Some(dir)) = self.existing_system(name) else { return false };
             let components = dir.components().unwrap_or_default();
             components.iter().any(|component| matches!(dir.state(component), ComponentState::Running(_)))
@@ -68,7 +68,7 @@ impl SystemDir {
     pub fn state(&self, component: &str) -> ComponentState {
         let holder = || ComponentLock::holder(self, component).map(ComponentState::Running);
         holder().unwrap_or_else(|| match self.has_announcement(component) {
-            // A component that starts at this moment takes its lock before it announces itself.
+            // Ask again: a component that is just starting takes its lock before it announces itself.
             true => holder().unwrap_or(ComponentState::Dead),
             false => ComponentState::Stopped,
         })

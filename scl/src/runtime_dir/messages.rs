@@ -18,7 +18,7 @@ pub(super) fn compare_messages(
     peer: &str,
 ) -> Result<(), String> {
     let (Some(ours), Some(theirs)) = (own.schema, theirs) else { return Ok(()) };
-    // Other codecs do not carry messages of schemas.
+    // Only some codecs carry messages that are defined in schemas.
     let Some(encoding) = Encoding::of_codec(gate.codec).filter(|_| ours.hash != theirs) else { return Ok(()) };
     let key = (gate.payload, gate.codec, ours.hash, theirs.to_owned());
     let result = match dir.compared().get(&key) {

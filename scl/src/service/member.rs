@@ -69,7 +69,7 @@ impl Member {
         self.has_called.store(true, Ordering::Relaxed);
         self.called.store(true, Ordering::Relaxed);
         if let Some(period) = self.service.watchdog {
-            // A program that calls often is reported by the ticks.
+            // Report rarely here: while a program calls often, the ticks report it.
             self.service.report_alive(period / 2);
         }
     }

@@ -39,7 +39,7 @@ impl ComponentState {
     /// Lets [`end_calls`](Self::end_calls) wake the calls that wait at an end.
     pub(crate) fn register_calls(&self, calls: Weak<dyn WakeCall>) {
         let mut waiting = lock(&self.waiting_calls);
-        // Those of descriptors that are gone; gates of a component are never more than it has.
+        // Drop the entries of closed descriptors; the number of gates is bounded.
         waiting.retain(|calls| calls.strong_count() > 0);
         waiting.push(calls);
     }
@@ -57,7 +57,8 @@ impl ComponentState {
 
     /// Returns true if a call waits that was not counted by [`waiting`](Self::waiting).
     pub(super) fn any_call_waits(&self) -> bool {
-        // A blocking call is counted, and leaves its waker behind when it has returned.
+        // Without async, wakers do not count: blocking calls are counted by `waiting`, and leave their wakers behind
+        // when they return.
         let futures = self.runtime.is_none();
         lock(&self.waiting_calls).iter().filter_map(Weak::upgrade).any(|calls| calls.waits(futures))
             || self.ends().iter().any(|end| futures && lock(end).call_waits())
@@ -135,7 +136,8 @@ impl ComponentState {
     ///
     /// Messages that were held back to be written together are written first: the peer may have to answer them.
     pub(crate) fn direct_wait(&self) -> Option<Duration> {
-        // The component's thread may drive the runtime, and would have to wait for the end that this call waits at.
+        // Not while the component's thread drives the runtime: it would have to wait for the lock on the end, which
+        // this call holds while it waits.
         self.runtime.as_ref().filter(|runtime| !runtime.is_driven())?;
         let unwritten = lock(&self.ends).iter().filter(|one| !lock(&one.end).write_out()).count();
         (unwritten == 0).then_some(DIRECT_WAIT)

@@ -74,14 +74,14 @@ pub(super) async fn flush(
     let mut deadline = pin!(tokio::time::sleep(timeout));
     let mut look = pin!(tokio::time::sleep(LOOK));
     poll_fn(|cx| {
-        // All are asked, so that each of them wakes this task.
+        // Poll all of them, so that each wakes this task.
         let unflushed = ends.iter().filter(|end| lock(end).poll_flushed(true, cx).is_pending()).count();
         let absent = || ends.iter().filter_map(|end| lock(end).waits_for_absent_peer());
         let awaited = flush == Flush::Running && absent().any(|left| is_running(left.peer.component()));
         if unflushed == 0 && !awaited {
             return Poll::Ready(());
         }
-        // A peer that dies before it connects tells nobody.
+        // Check periodically, because a peer that dies before it connects causes no event.
         while awaited && look.as_mut().poll(cx).is_ready() {
             look.as_mut().reset(tokio::time::Instant::now() + LOOK);
         }
@@ -99,7 +99,7 @@ pub(super) fn flush_detached(
     timeout: Duration,
     is_running: &dyn Fn(&str) -> bool,
 ) -> Vec<Unflushed> {
-    // First of all: the runtime that the ends were opened on may have ended, and must not be asked for anything.
+    // Do this first: the runtime that the ends were opened on may have ended and must not be used.
     ends.iter().for_each(|end| lock(end).detach());
     let cx = &mut Context::from_waker(Waker::noop());
     let mut is_done = |end: &Arc<Mutex<dyn SendingEnd>>| {

@@ -45,7 +45,8 @@ impl Deref for Owner {
 impl Drop for Owner {
     fn drop(&mut self) {
         if self.is_inherited() {
-            // All of it is the parent's, and may be locked or half changed by threads that exist only there.
+            // The state belongs to the parent process. Threads that exist only there may have locked it or left it half
+            // changed.
             return std::mem::forget(Arc::clone(&self.0));
         }
         if self.owners.fetch_sub(1, Ordering::SeqCst) == 1 {

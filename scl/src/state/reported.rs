@@ -32,13 +32,13 @@ async fn report(state: Weak<ComponentState>, member: Arc<Member>) {
     while let Some(current) = state.upgrade() {
         let changes = current.changes();
         let mut changed = pin!(changes.next());
-        // Before the look, so that no change after it is missed.
+        // Subscribe before checking, so that no change is missed.
         changed.as_mut().enable();
         if let Some(missing) = current.monitor.missing() {
             member.report_missing(missing);
         }
         member.tick(|| current.any_call_waits());
-        // The component may be closed while this task waits.
+        // Hold no reference while waiting, so that the component can be closed.
         drop(current);
         let pause = if member.was_ready() { ONCE_READY } else { UNTIL_READY };
         let pause = member.tick_period().map_or(pause, |period| period.min(pause));

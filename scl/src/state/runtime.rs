@@ -56,7 +56,7 @@ struct Shared {
 
 impl Drop for Shared {
     fn drop(&mut self) {
-        // Waiting for its threads would panic inside async code; it has none that matter.
+        // Dropping the runtime waits for its threads, which panics inside async code. It has no threads that matter.
         if let Some(runtime) = self.runtime.take() {
             runtime.shutdown_background();
         }
@@ -83,7 +83,7 @@ impl OwnedRuntime {
         if is_thread_ending() {
             return Err(failed(io::Error::other(BlockingError::ThreadEnding)));
         }
-        // A program that keeps its component in a thread-local value closes it there.
+        // The program may keep its component in a thread-local value and close it in the destructor of that value.
         prepare_thread();
         let runtime = Builder::new_current_thread().enable_all().build().map_err(failed)?;
         let driver = waker_of_driver(&runtime).map_err(failed)?;
@@ -114,7 +114,7 @@ impl OwnedRuntime {
     /// Drives the runtime until a future is ready.
     pub(super) fn block_on<F: Future>(&self, future: F) -> Result<F::Output, BlockingError> {
         refuse_to_wait()?;
-        // Pinned here because tokio would allocate memory for a long future.
+        // Pinned here because tokio would allocate memory for a large future.
         let future = pin!(self.shared.with_a_turn(future));
         Ok(self.shared.call(|runtime| runtime.block_on(future)))
     }
@@ -169,7 +169,7 @@ impl Shared {
     /// Lets a call use the runtime, which the idle thread gives back for it.
     fn call<R>(&self, call: impl FnOnce(&Runtime) -> R) -> R {
         self.callers.fetch_add(1, Ordering::SeqCst);
-        // In its own block so that a call that panics is counted out too.
+        // A guard, so that the count drops even if the call panics.
         let _called = Called(self);
         if self.idle_drives.load(Ordering::SeqCst) {
             self.wanted.notify_one();
@@ -225,8 +225,8 @@ impl Shared {
     }
 
     fn drive_while_idle(&self) {
-        // Now, because a thread that makes its first thread-local value waits while `dlclose` runs a destructor, which
-        // may be waiting for this one.
+        // Prepare at once: a thread that creates its first thread-local value blocks while `dlclose` runs a destructor,
+        // and that destructor may be waiting for this thread.
         prepare_thread();
         while !self.ended.load(Ordering::SeqCst) {
             self.wait_until_idle();
@@ -263,7 +263,7 @@ impl Shared {
     /// Waits however long a call takes.
     fn wait_for_end_of_call<'r>(&self, rest: MutexGuard<'r, ()>) -> MutexGuard<'r, ()> {
         self.awaits_end.store(true, Ordering::SeqCst);
-        // A call that has ended before it could see this is not waited for.
+        // Check for calls only now: a call that ended before it could see the flag does not wake this thread.
         let awaits = |_: &mut ()| self.callers.load(Ordering::SeqCst) > 0 && !self.ended.load(Ordering::SeqCst);
         let rest = self.called.wait_while(rest, awaits).unwrap_or_else(PoisonError::into_inner);
         self.awaits_end.store(false, Ordering::SeqCst);
@@ -324,11 +324,12 @@ pub(super) fn park_until_or<F: Future>(time: Duration, future: F) -> Option<F::O
 /// calls in destructors and at their exit: a thread-local value that the binding makes after this call is destroyed
 /// before those, so its destructor tells when calls have to be made on another thread.
 pub fn prepare_thread() {
-    // Tokio keeps thread-local values, which are destroyed after those that the thread makes later.
+    // This creates tokio's thread-local values, which are then destroyed after those that the thread creates later.
     if refuse_to_wait().is_ok()
         && let Ok(runtime) = Builder::new_current_thread().build()
     {
-        // Through the handle it waits as a call does while another one has the runtime, which makes one value more.
+        // `Handle::block_on` waits like a call while another call drives the runtime, which creates one more
+        // thread-local value.
         runtime.handle().block_on(async {});
     }
 }
@@ -336,9 +337,10 @@ pub fn prepare_thread() {
 /// Fails on a thread that must not wait: inside async code, and while its thread-local values are destroyed.
 pub(super) fn refuse_to_wait() -> Result<(), BlockingError> {
     match Handle::try_current() {
-        // A thread that only entered a runtime, as opening does, could wait; but nothing waits then.
+        // This includes threads that have merely entered a runtime, and could block. Opening a component enters one,
+        // but does not block.
         Ok(_) => Err(BlockingError::InsideAsync),
-        // tokio panics if such a thread drives a runtime or makes a timer.
+        // tokio panics if a thread that is ending drives a runtime or creates a timer.
         Err(_) if is_thread_ending() => Err(BlockingError::ThreadEnding),
         Err(_) => Ok(()),
     }

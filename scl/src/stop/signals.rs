@@ -106,7 +106,7 @@ async fn watch(
         return second.exit_code();
     }
     let (name, code) = (first.name(), first.exit_code());
-    // Before the grace period ends, so that the program does not exit before the line is written.
+    // Log before the grace period ends, so that the program does not exit before the line is written.
     log(format!("the program is still running {grace_period:?} after {name}; exiting with code {code}"));
     if stop.is_handled() {
         stop.end_grace_period();
@@ -120,7 +120,7 @@ fn log(line: String) {
     let (written, wait) = mpsc::sync_channel(1);
     let writer = thread::Builder::new().spawn(move || {
         if tracing::dispatcher::get_default(|log| log.is::<NoSubscriber>()) {
-            // A program without a log is not ended in silence either.
+            // Without a subscriber, write to stderr, so that the program is not ended silently.
             let _nobody_reads = writeln!(io::stderr(), "{line}");
         } else {
             tracing::error!("{line}");

@@ -40,7 +40,7 @@ impl StopState {
 
     /// From now on the program handles the request itself: its gates work until the grace period is over.
     pub(super) fn handle(&self) {
-        // Polled in loops, so it writes only once.
+        // Programs may call this in a loop, so write only once.
         if !self.has(HANDLED) {
             self.flags.fetch_or(HANDLED, Ordering::AcqRel);
         }

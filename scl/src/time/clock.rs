@@ -8,7 +8,7 @@ pub(super) fn is_paused() -> bool {
     let before = tokio::time::Instant::now();
     let start = std::time::Instant::now();
     while std::time::Instant::now() <= start {}
-    // Without a pause, tokio's clock advances with the other one, so at least by what has passed since `start`.
+    // Unless paused, tokio's clock advances with the system's, which has advanced since `start`.
     tokio::time::Instant::now() == before
 }
 

@@ -13,7 +13,7 @@ impl fmt::Display for Rounded {
         let digits = nanos.checked_ilog10().map_or(1, |log| log + 1);
         let unit = 10_u128.pow(digits.saturating_sub(3));
         let rounded = (nanos + unit / 2) / unit * unit;
-        // Beyond 584 years nothing is rounded.
+        // Durations of more than 584 years, which overflow 64 bits, are shown unrounded.
         let shown = u64::try_from(rounded).map_or(self.0, Duration::from_nanos);
         write!(f, "{shown:?}")
     }

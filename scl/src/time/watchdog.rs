@@ -53,7 +53,7 @@ impl Watchdog {
     }
 
     fn set(&mut self, deadline: Instant, left: Duration) -> io::Result<()> {
-        // Only here, because looking costs more than a poll.
+        // Checked only here, because the check costs more than a poll.
         if clock::is_paused() {
             self.paused = Some(Box::pin(sleep_until(deadline)));
         } else {

@@ -70,7 +70,7 @@ impl Endpoint {
 
     /// An endpoint that accepts messages of up to `max_size` bytes, with default limits otherwise.
     pub fn accepting(name: impl Into<Cow<'static, str>>, max_size: u64) -> Self {
-        // A limit beyond what this machine can address is none.
+        // A limit beyond the address space is no limit.
         Self { max_size: usize::try_from(max_size).unwrap_or(usize::MAX), ..Self::new(name) }
     }
 }

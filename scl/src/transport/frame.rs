@@ -16,7 +16,7 @@ pub enum Frame {
     Loan(Loan),
 }
 
-// The queues of gates hold frames; a frame that is no longer than bytes costs them nothing.
+// The queues of gates hold frames, so a frame must not be larger than `Bytes`.
 const _: () = assert!(size_of::<Frame>() == size_of::<Bytes>());
 
 impl Frame {

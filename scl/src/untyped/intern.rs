@@ -40,7 +40,8 @@ fn intern_below(limit: usize, known: &mut Interned, plan: &Plan) -> Result<&'sta
         return Ok(spec);
     }
     let schema = plan.schema.as_ref().map(|schema| known.schemas.get(schema).copied().ok_or(schema));
-    // The text contains everything that is kept, and the schema if it is a new one; each is kept here and as a key.
+    // An estimate: the JSON text contains everything that is kept, plus the schema if it is new. Both are stored twice,
+    // in the specification and in the key.
     let without_schema = Plan { schema: None, ..plan.clone() };
     let new_schema = schema.and_then(Result::err).map_or(0, |schema| schema.descriptors.len());
     let bytes = known.bytes.saturating_add(2 * without_schema.to_json().len()).saturating_add(2 * new_schema);

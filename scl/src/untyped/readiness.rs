@@ -74,8 +74,8 @@ impl Readiness {
         let stop = state.spawn(async move {
             stop::STOP.requested().await;
             stopping.upgrade().into_iter().for_each(|set| set.request_stop());
-            // A program that handles the request has acknowledged it; the end of its grace period ends the calls that
-            // wait.
+            // If the program handles the request, it acknowledges it, so wake it once more when its grace period is
+            // over and waiting calls end.
             if !stop::gates_stopped() {
                 stop::STOP.until_gates_stopped().await;
                 stopping.upgrade().into_iter().for_each(|set| set.set_woken(true));

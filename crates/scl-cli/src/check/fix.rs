@@ -54,7 +54,7 @@ pub(super) fn fix_file(file: &Source<'_>, loaded: &mut Loaded, dry_run: bool) ->
     let replaces_file = is_written && !is_stdin && applied > 0;
     let error = if replaces_file { replace_file(path, &old, &new).err() } else { None };
     if dry_run || error.is_some() {
-        // What is said is about the file as it is.
+        // Nothing was written, so report the problems of the unchanged text.
         *loaded = check(&old);
     }
     Some(Outcome { applied, is_written, out, error: error.map(|error| error.to_string()) })

@@ -31,7 +31,7 @@ pub(super) fn add_names(shell: Shell, command_line: &Command, script: String) ->
 /// The arguments whose values are called GATE or COMPONENT in the help.
 fn places(command_line: &Command) -> Vec<Place> {
     let place = |command: &Command, argument: &Arg| {
-        // An argument without a name for its value is called like its field.
+        // Without a value name, the help shows the argument's id in capitals.
         let called = argument.get_value_names().map(|names| names.iter().map(|name| name.to_string()).collect());
         let called: Vec<String> = called.unwrap_or_else(|| vec![argument.get_id().as_str().to_uppercase()]);
         let is_called = |word: &str| {

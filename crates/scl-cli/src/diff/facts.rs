@@ -16,7 +16,7 @@ pub(super) fn component_facts(component: &Component) -> Vec<Fact> {
 pub(super) fn gate_facts(gate: &Gate, plan: &GatePlan) -> Vec<Fact> {
     let mut facts =
         vec![("kind", plan.kind.word().to_owned()), ("type", plan.payload.to_string()), ("codec", plan.codec.clone())];
-    // Options that the kind does not have would differ only because the kind does.
+    // Skip options that do not apply to this kind: they would differ only because the kind does.
     let options = OPTIONS.iter().filter(|option| option.fits(gate.kind()) && !option.is_text());
     facts.extend(options.map(|option| (option.key, option.get(gate.options()).unwrap_or_else(|| "none".to_owned()))));
     facts.push(("doc", doc(gate.doc())));

@@ -28,7 +28,7 @@ pub(super) fn find_message_changes(old: &Side, new: &Side) -> MessageChanges {
     let (old_schemas, new_schemas) = (schemas(&old.plan), schemas(&new.plan));
     for connection in connections_of(&new.plan) {
         let Some(encoding) = Encoding::of_codec(&connection.gate.codec) else { continue };
-        // That of the sending component describes what both ends exchange.
+        // The sending component's schema describes what both ends exchange.
         let [before, after] = [&old_schemas, &new_schemas].map(|schemas| schemas.get(connection.component));
         let (Some(before), Some(after)) = (before, after) else { continue };
         if before.hash == after.hash {

@@ -62,7 +62,7 @@ fn reasons(old: &[(String, Part<'_>)], new: &[(String, Part<'_>)]) -> Vec<String
             true => {}
         }
     }
-    // A component that is connected to itself has the connection at two gates.
+    // If a component is connected to itself, the connection appears at two of its gates.
     reasons.dedup();
     reasons
 }

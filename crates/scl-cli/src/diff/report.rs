@@ -35,7 +35,7 @@ fn change_line(change: &Change) -> String {
         How::Added(facts) => ('+', summary(facts)),
         How::Removed(facts) => ('-', summary(facts)),
         How::Changed(facts) => {
-            // Types contain `->` themselves.
+            // Not `old -> new`, because types may contain `->`.
             let facts = facts.iter().map(|(key, old, new)| format!("{key} from {} to {}", shown(old), shown(new)));
             ('~', format!(": {}", facts.collect::<Vec<_>>().join(", ")))
         }

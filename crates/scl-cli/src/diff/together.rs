@@ -14,12 +14,12 @@ pub(super) type Group = Vec<Rebuild>;
 pub(super) fn group(old: &Side, new: &Side, rebuilds: Vec<Rebuild>, pairs: &[(String, String)]) -> Vec<Group> {
     let mut leaders = Leaders::default();
     if old.system != new.system {
-        // Systems have folders of their own.
+        // Each system has its own runtime folder, so old and new programs cannot connect to each other.
         rebuilds.windows(2).for_each(|pair| leaders.join(&pair[0].component, &pair[1].component));
     }
     let present: HashSet<&str> = new.plan.components.iter().map(|plan| plan.component.as_str()).collect();
     for (one, other) in parted(&old.plan, &new.plan).into_iter().chain(pairs.iter().cloned()) {
-        // What a component that is gone was connected to has nothing else in common.
+        // A removed component does not tie its former peers together.
         if present.contains(one.as_str()) && present.contains(other.as_str()) {
             leaders.join(&one, &other);
         }

@@ -58,11 +58,11 @@ impl<'a> Output<'a> {
     }
 
     fn document(&self, gate: &Watched, seen: &Observation, shown: &Value) -> String {
-        // The YAML library escapes control characters, but not those that change the direction of text.
+        // The YAML library escapes control characters, but not bidirectional formatting characters.
         let text: String = to_yaml(shown).lines().map(|line| format!("{}\n", escape(line))).collect();
         let is_nested = matches!(shown, Value::Map(_) | Value::List(_) | Value::Opaque(_));
         if !self.several && !self.exchanges {
-            // The values of a single field are lines.
+            // The scalar values of a single field are printed one per line, without separators.
             return if is_nested || self.fields.len() != 1 { format!("---\n{text}") } else { text };
         }
         let what = match seen.kind {

@@ -13,7 +13,7 @@ pub(crate) fn draw_mermaid(topology: &Topology) -> String {
 fn draw_component(topology: &Topology, id: ComponentId, component: &Component) -> String {
     let name = component_name(topology, id);
     let label = escape(component.name());
-    // Mermaid draws a subgraph without nodes as nothing, so a component without gates is a node itself.
+    // Mermaid does not draw empty subgraphs, so a component without gates becomes a node.
     if component.gates().is_empty() {
         return format!("    {name}[\"{label}\"]\n");
     }

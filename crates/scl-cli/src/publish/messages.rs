@@ -69,7 +69,7 @@ fn read_input() -> Receiver<io::Result<Result<Value, ReadError>>> {
                 Ok(line) => documents.line(&line).map(Ok),
                 Err(error) => Some(Err(error)),
             };
-            // A send fails when the command has ended.
+            // The send fails once the command has ended.
             let is_last = message.as_ref().is_some_and(Result::is_err);
             if message.is_some_and(|message| sender.blocking_send(message).is_err()) || is_last {
                 return;
@@ -82,13 +82,13 @@ fn read_input() -> Receiver<io::Result<Result<Value, ReadError>>> {
 
 /// The lines of a text in UTF-8.
 fn text_lines(mut input: impl BufRead) -> impl Iterator<Item = io::Result<String>> {
-    // No text in UTF-8 begins so, but a byte order mark of UTF-16 or UTF-32.
+    // These bytes never occur in UTF-8, but begin a byte order mark of UTF-16 or UTF-32.
     let wrong = match input.fill_buf().map(<[u8]>::first) {
         Ok(Some(0xfe | 0xff)) => Some(io::Error::other("it is text in UTF-16, but must be UTF-8")),
         Ok(_) => None,
         Err(error) => Some(error),
     };
-    // A caller ends at the first error.
+    // The caller stops at the first error.
     wrong.map(Err).into_iter().chain(input.lines())
 }
 

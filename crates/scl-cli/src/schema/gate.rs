@@ -57,7 +57,7 @@ fn option_schema(option: &GateOption) -> Value {
     schema["description"] =
         json!(format!("{} {} Value: {values}.{told}", option.summary, without_references(option.text)));
     if let Some(default) = default {
-        // A number or a boolean as itself, a duration, a size or a word as text.
+        // Numbers and booleans stay JSON values; durations, sizes and words become strings.
         schema["default"] = serde_json::from_str(&default).unwrap_or_else(|_| json!(default));
     }
     schema

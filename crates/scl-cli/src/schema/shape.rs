@@ -12,7 +12,7 @@ const RUST_PATH: &str = "^(::[A-Za-z_][A-Za-z0-9_]*|[A-Za-z_][A-Za-z0-9_]*::[A-Z
 /// 16 to a reader of YAML.
 pub(super) fn shape_schema(shape: Shape) -> Value {
     match shape {
-        // A text without quotes may look like a number or a boolean.
+        // YAML may read an unquoted text as a number or a boolean.
         Shape::Text => json!({ "type": ["string", "number", "boolean"], "pattern": "\\S" }),
         Shape::Name => json!({ "type": "string", "pattern": "\\S" }),
         Shape::Codec => codec_schema(),

@@ -55,9 +55,9 @@ async fn show(mut watches: Vec<Watch>, period: Duration, order: Order, mut stop:
         };
         match action {
             Action::Quit => return Ok(()),
-            // SIGSTOP, because SIGTSTP is handled here. The program continues in the next line when it is continued.
+            // SIGSTOP, because SIGTSTP is handled here. SIGCONT resumes the program at the next line.
             Action::Suspend => screen.leave_during(|| {
-                // It cannot fail for a signal that exists.
+                // Sending a valid signal to this process cannot fail.
                 let _ = kill_process(getpid(), Signal::STOP);
             })?,
             Action::Draw | Action::Nothing => {}
@@ -89,7 +89,7 @@ fn read_events() -> UnboundedReceiver<Event> {
         while !sender.is_closed() {
             match event::read() {
                 Ok(event) => drop(sender.send(event)),
-                // By a signal, for example after the program was suspended.
+                // Interrupted by a signal, for example after the program was suspended.
                 Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
                 Err(_) => break,
             }

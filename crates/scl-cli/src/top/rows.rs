@@ -57,7 +57,7 @@ fn count_text(count: u64) -> String {
 /// Puts the rows into an order. Rows that are equal in it stay by name.
 pub(super) fn sort(snapshot: &mut Snapshot, order: Order) {
     let Snapshot { components, gates, .. } = snapshot;
-    // Integers have a total order; thousandths are enough for it.
+    // Sort by integers, because floats have no total order; thousandths are precise enough.
     let thousandths = |number: Option<f64>| Reverse(number.map(|number| (number * 1000.0) as u64));
     match order {
         Order::Name => {}

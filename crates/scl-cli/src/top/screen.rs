@@ -73,7 +73,7 @@ fn take_over() -> io::Result<()> {
 }
 
 fn restore() {
-    // Whatever fails here, the rest is still worth trying; the terminal may be gone.
+    // Ignore errors and try the rest: the terminal may be gone.
     let _ = disable_raw_mode();
     let _ = execute!(stdout(), LeaveAlternateScreen, Show);
 }

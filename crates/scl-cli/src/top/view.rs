@@ -96,7 +96,7 @@ impl View {
 
     fn sort_by(&mut self, order: Order) {
         self.order = order;
-        // By name first, as in a new snapshot, because rows that are equal in an order keep their places.
+        // Sort by name first, as in a new snapshot: the sort is stable, so equal rows stay ordered by name.
         self.snapshot.gates.sort_by_key(GateRow::name);
         self.snapshot.components.sort_by(|one, other| one.name.cmp(&other.name));
         sort(&mut self.snapshot, order);

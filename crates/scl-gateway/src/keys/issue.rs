@@ -132,7 +132,7 @@ impl Authority {
         if certificate.public_key != key.public_key_raw() {
             return Err(damaged("its key does not belong to its certificate"));
         }
-        // The library needs no more of the certificate than this, which is all that `new_authority` chooses.
+        // The library needs only these parameters, which `new_authority` derives from the name in the same way.
         let issuer = Issuer::new(authority_params(&certificate.name), key);
         Ok(Self { pem, issuer, expires: certificate.not_after })
     }
@@ -155,7 +155,7 @@ impl Authority {
 fn new_authority(wanted: &Wanted<'_>) -> Result<(String, String), KeysError> {
     let failed = |source| KeysError::Certificate { host: "authority".to_owned(), source };
     let key = KeyPair::generate().map_err(failed)?;
-    // Two authorities have different names, so that a host that trusts the other one can say so.
+    // Each authority has a unique name, so that a host that trusts a different one can say so.
     let identifier = CertificateParams::default().key_identifier(&key);
     let identifier: String = identifier.iter().take(4).map(|byte| format!("{byte:02x}")).collect();
     let mut params = authority_params(&format!("SCL system {} {identifier}", wanted.system));
@@ -167,7 +167,7 @@ fn new_authority(wanted: &Wanted<'_>) -> Result<(String, String), KeysError> {
 fn authority_params(name: &str) -> CertificateParams {
     let mut params = CertificateParams::default();
     params.distinguished_name = common_name(name);
-    // It signs certificates of hosts, and no other authorities.
+    // It may sign certificates of hosts, but not of other authorities.
     params.is_ca = IsCa::Ca(BasicConstraints::Constrained(0));
     params.key_usages = vec![KeyUsagePurpose::KeyCertSign];
     params
@@ -200,7 +200,7 @@ fn create_folder(folder: &Path) -> io::Result<()> {
 /// It is written under another name and then renamed: a full disk leaves no half of a key, and what is to be replaced
 /// stays until then.
 fn replace_folder(folder: &Path, files: &[(&str, &str)]) -> io::Result<()> {
-    // Removed at the end, with what was replaced.
+    // This temporary folder is removed on return, together with the replaced one inside it.
     let beside = tempfile::Builder::new().prefix(".").tempdir_in(folder.parent().unwrap_or(folder))?;
     let (new, old) = (beside.path().join("new"), beside.path().join("old"));
     create_folder(&new)?;

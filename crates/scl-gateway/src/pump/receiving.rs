@@ -58,7 +58,7 @@ impl Carry for Pump<WireReceiver, Receiving> {
                     let number = self.state.handed + self.state.queue.len() as u64 + 1;
                     self.state.latched.push_back((number, sent));
                 }
-                // Never more than a window, because none is acknowledged earlier.
+                // Never more than a window, because a message is acknowledged only after the component has taken it.
                 ReceiverEvent::Message(message) => self.state.queue.push_back(message.into()),
                 ReceiverEvent::AcknowledgementRequested => self.state.flush = true,
             }
@@ -69,7 +69,7 @@ impl Carry for Pump<WireReceiver, Receiving> {
         self.carry(cx, driven);
         self.ask(cx);
         self.confirm();
-        // The last acknowledgement may have been all that it was waited for.
+        // `confirm` may have acknowledged the last pending message.
         self.close_if_done(cx);
         self.counts.set_held(self.state.pending());
         if self.stopping && self.state.pending() == 0 { Poll::Ready(()) } else { Poll::Pending }
@@ -99,7 +99,7 @@ impl Pump<WireReceiver, Receiving> {
                 self.end_epoch();
             }
             self.state.local = None;
-            // There may be another mirror already.
+            // Poll again, because a new mirror may exist already.
             cx.waker().wake_by_ref();
         }
     }
@@ -118,7 +118,7 @@ impl Pump<WireReceiver, Receiving> {
                 let open = || Ok(transport.publish(&mirror.publishing(gate, names(&route.to))?)?);
                 self.attempts.open(cx, route, open).map(|sender| (sender, Some(mirror)))
             }
-            // Without a component to connect to, nothing is tried.
+            // Do not try while the component is not running.
             (None, _) if running(&self.component).is_none() => return,
             (None, _) => {
                 let mut endpoint = Endpoint::new(route.endpoint.clone());
@@ -162,7 +162,7 @@ impl Pump<WireReceiver, Receiving> {
         let Some(local) = &mut self.state.local else { return };
         if let Some(mut link) = local.link.take() {
             link.read_last();
-            // What the component has acknowledged at last still counts.
+            // Count the component's last acknowledgements.
             let confirmed = self.state.handed - link.unacknowledged();
             self.tell(confirmed);
             drop(link);

@@ -18,7 +18,7 @@ pub(crate) struct Replying {
 
 impl Carry for Pump<WireReplier, Replying> {
     fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()> {
-        // The requesters of requests without a reply notice at once.
+        // Do not wait for open requests: their requesters notice at once that no reply will come.
         if self.stopping {
             return Poll::Ready(());
         }
@@ -42,7 +42,7 @@ impl Carry for Pump<WireReplier, Replying> {
 impl Pump<WireReplier, Replying> {
     fn open_or_close(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
-        // Without a component to connect to, nothing is tried.
+        // Do not try to connect while the component is not running.
         let is_wanted = self.matched && running(&self.component).is_some();
         if !is_wanted && state.local.take().is_some() {
             self.close();
@@ -56,7 +56,7 @@ impl Pump<WireReplier, Replying> {
 
     fn connect(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
-        // Once connected, this would discard replies.
+        // Only until connected, because `poll_connected` discards replies.
         if let Some(local) = state.local.as_mut().filter(|_| !state.open)
             && local.poll_connected(cx).is_ready()
         {

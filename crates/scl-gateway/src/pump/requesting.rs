@@ -28,7 +28,7 @@ struct Local {
 
 impl Carry for Pump<WireRequester, Requesting> {
     fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()> {
-        // Its requesters notice at once.
+        // Do not wait for open requests: their requesters notice at once that no reply will come.
         if self.stopping {
             return Poll::Ready(());
         }
@@ -61,7 +61,7 @@ impl Pump<WireRequester, Requesting> {
                     path.refuse(&envelope);
                 }
             }
-            // As with a replier on this host that does not reply: the requester's time runs out.
+            // The requester times out, as with a replier on this host that does not reply.
             RequesterEvent::Gone { id } => {
                 let unanswered = state.open.remove(&id);
                 self.counts.add_given_up(u64::from(unanswered.is_some()));
@@ -75,7 +75,7 @@ impl Pump<WireRequester, Requesting> {
         if let Some(local) = &state.local
             && !mirror.as_ref().is_some_and(|mirror| Arc::ptr_eq(mirror, &local.mirror))
         {
-            // Requesters notice at once that their requests are lost.
+            // Close the local end: requesters notice at once that their requests are lost.
             state.local = None;
             self.counts.add_given_up(state.open.len() as u64);
             state.open.clear();

@@ -116,7 +116,7 @@ impl Pump<WireSender, Sending> {
 
     /// Shows the far host that the publisher runs.
     fn follow_publisher(&mut self) {
-        // Any component may push, so this end does not wait for one.
+        // Any component may push, so there is no publisher to wait for.
         if self.component.is_none() {
             return self.wire.set_open(true);
         }
@@ -220,7 +220,7 @@ impl Pump<WireSender, Sending> {
             state.told = state.sent;
         }
         state.local = None;
-        // There may be another mirror already.
+        // Poll again, because a new mirror may exist already.
         cx.waker().wake_by_ref();
     }
 
@@ -243,7 +243,7 @@ impl Pump<WireSender, Sending> {
             state.local = None;
             state.run = None;
             self.wire.set_open(false);
-            // The publisher may run again already.
+            // Poll again, because the publisher may already be running again.
             cx.waker().wake_by_ref();
         } else if is_read {
             self.ask_far_side();

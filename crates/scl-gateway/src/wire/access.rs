@@ -55,9 +55,9 @@ fn permissions(options: &WireOptions, from: &str, to: &str) -> BTreeMap<&'static
             permissions.route(route, is_sender);
         }
     }
-    // Of any system: the token of a foreign gateway shall be seen, so that it can be named.
+    // Allow tokens of any system, so that a gateway of another system can be detected and named.
     permissions.add("liveliness_token", format!("scl/*/@host/{from}/*"));
-    // Of any component: a host that claims another's shall be named.
+    // Allow any component, so that a host that claims another host's component can be detected and named.
     permissions.add("liveliness_token", format!("scl/{system}/@component/*/{from}/*/*"));
     permissions.add("declare_queryable", format!("scl/{system}/@component/*/{from}/*/*"));
     permissions.add("reply", format!("scl/{system}/@component/*/{from}/*/*"));
@@ -87,7 +87,7 @@ impl Permissions {
     fn route(&mut self, route: &Route, is_sender: bool) {
         let key = route.key.clone();
         let side = if is_sender { keys::Side::Sender } else { keys::Side::Receiver };
-        // Of any contract, so that a program that must be rebuilt is reported instead of not being seen.
+        // Allow any contract, so that a program that must be rebuilt is reported instead of being invisible.
         let token = format!("{}/*/{}/*/*", keys::without_contract(&key), side.word());
         self.add("liveliness_token", token);
         let mut streams = vec![(key.clone(), is_sender)];

@@ -58,7 +58,7 @@ pub(super) fn config(options: &WireOptions) -> Result<Value, WireError> {
                 "accept_timeout": OPEN_TIMEOUT_MS,
                 "accept_pending": 100,
                 "max_links": 1,
-                // Loses messages over 64 KiB.
+                // This mode loses messages over 64 KiB.
                 "lowlatency": false,
                 "qos": { "enabled": true },
             },
@@ -75,7 +75,7 @@ pub(super) fn config(options: &WireOptions) -> Result<Value, WireError> {
                         },
                         "congestion_control": {
                             "drop": { "wait_before_drop": 1000, "max_wait_before_drop_fragments": 50000 },
-                            // For declarations only: nothing of ours blocks.
+                            // Affects declarations only: our own messages never block.
                             "block": { "wait_before_close": 5000000 },
                         },
                         "allocation": { "mode": "lazy" },

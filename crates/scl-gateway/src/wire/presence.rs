@@ -204,7 +204,7 @@ impl State {
             }
             false => gateways.retain(|gateway| gateway.instance != instance),
         }
-        // The refusal of a gateway that is now the only one ends.
+        // If the accepted gateway has left, the next one takes its place: withdraw its refusal.
         gateways.iter_mut().take(1).for_each(|first| first.refusal = None);
         let after = gateways.first().map(|gateway| gateway.instance.clone());
         if before == after || host == self.options.host {
@@ -274,7 +274,7 @@ impl State {
 
     fn report_conflicts(&mut self) {
         for (host, gateways) in &mut self.gateways {
-            // The accepted one, or this gateway itself.
+            // One gateway per host is accepted. On this host it is this gateway, which is not in the list.
             let accepted = if *host == self.options.host { 0 } else { 1 };
             debug_assert!(
                 gateways.iter().take(accepted).all(|it| it.refusal.is_none()),

@@ -72,7 +72,7 @@ impl WireReplier {
             }
             (true, None) => (),
             (false, _) => {
-                // The requester ends its requests itself when it misses the token.
+                // The requester gives up its open requests itself when this side's token disappears.
                 self.open.clear();
                 self.requests.close();
             }

@@ -31,7 +31,7 @@ fn try_set() -> io::Result<()> {
     for entry in fs::read_dir("/proc/self/fd")? {
         let entry = entry?;
         let Some(number) = entry.file_name().to_str().and_then(|name| name.parse().ok()) else { continue };
-        // It may have been closed meanwhile; then it needs no limit.
+        // The descriptor may have been closed in the meantime; then it needs no timeout.
         let Ok(target) = fs::read_link(entry.path()) else { continue };
         if !target.as_os_str().as_bytes().starts_with(b"socket:") {
             continue;
@@ -40,7 +40,8 @@ fn try_set() -> io::Result<()> {
         match sockopt::socket_type(&socket) {
             Ok(SocketType::STREAM) if is_internet(&socket) => sockopt::set_tcp_user_timeout(&socket, LEASE_MS)?,
             Ok(_) => {}
-            // Another thread has closed the socket and opened a file in its place.
+            // Another thread has closed the socket and opened a file in its place. Closing the duplicate would release
+            // this process's locks on that file, so leak it.
             Err(_) => std::mem::forget(socket),
         }
     }

@@ -67,7 +67,7 @@ fn checked(parameter: &str) -> (&str, String) {
     let start = parameter.rfind(['*', ' ']).map_or(0, |end| end + 1);
     let (declared, name) = parameter.split_at(start);
     let check = match declared.strip_suffix('*').map(str::trim_end) {
-        // Any pointer becomes one to `void`, and text is text.
+        // Not checked: `const void *` accepts any pointer, and `const char *` is plain text.
         Some("const void" | "const char") | None => format!("({name})"),
         Some(pointee) => match pointee.strip_prefix("const ") {
             Some(pointee) => format!("SCL_CONST_POINTER({pointee}, {name})"),

@@ -6,10 +6,10 @@ use std::collections::{HashMap, HashSet};
 
 /// Returns true if one of the messages, or one that it contains at any depth, can contain itself.
 pub(super) fn is_any_recursive<'a>(files: &FileDescriptorSet, names: impl Iterator<Item = &'a str>) -> bool {
-    // By full names with a dot at the start: the messages that each message has fields of.
+    // Maps each message to the types of its fields, by full name with a leading dot.
     let mut contained: HashMap<String, Vec<&str>> = HashMap::new();
     for file in &files.file {
-        // Names of enums are among those of the fields; they contain nothing.
+        // These types include enums, which contain nothing.
         contained.extend(messages(file).into_iter().map(|(path, message)| {
             let fields: Vec<&str> = message.field.iter().filter_map(|field| field.type_name.as_deref()).collect();
             (format!(".{}", full_name(file, &path)), fields)

@@ -9,7 +9,7 @@ use scl_plan::{GateOptions, OptionAccess, Payload};
 pub(super) fn write(text: &str, out: &mut Writer) {
     let mut lines: Vec<String> = comment::lines(text.trim()).map(|line| escape(&line)).collect();
     remove_common_indentation(lines.get_mut(1..).unwrap_or_default());
-    // A quote beside the three of the docstring would be taken for one of them; ruff puts a space there.
+    // A quote next to the docstring's triple quotes would be taken for one of them; ruff inserts a space there.
     if let Some(first) = lines.first_mut().filter(|line| line.starts_with('"')) {
         first.insert(0, ' ');
     }
@@ -60,7 +60,7 @@ pub(super) fn of_gate(component: &Component, gate: &Gate, unsupported: Option<&s
     let mut parts: Vec<String> = gate.doc.iter().map(|doc| doc.trim().to_owned()).collect();
     parts.push(format!("`{}`: {}.", gate.plan.kind.word(), sentence(gate)));
     let options = options(gate);
-    // A counterpart has others than the topology file says: it drops and refuses nothing.
+    // A counterpart does not use the options of the topology file: it drops and rejects nothing.
     if !options.is_empty() && component.counterpart_of.is_none() {
         parts.push(format!("Options: {}.", options.join(", ")));
     }

@@ -76,7 +76,8 @@ impl Layout {
         let Some((before, elements, [open, close], behind)) = split(doc) else { return flat };
         let inner = Self { depth: self.depth + 1 };
         let list = flat_list(&elements);
-        // ruff adds no comma behind the only line, and keeps an exploded list exploded by its comma.
+        // As ruff formats it: without a trailing comma if all elements fit on one line, else one element per line, each
+        // with a comma.
         let lines = if inner.fits(&list, 0) {
             vec![list]
         } else {

@@ -108,7 +108,7 @@ impl Messages<'_> {
                 let inner = scope.inner(declared.name(), MESSAGE_ENUM, index);
                 separate(&mut is_first, out);
                 self.write_enum(declared, &inner, out);
-                // The class has the values, too, as C++ and Java have.
+                // The enclosing class has the enum's values, too, as in C++ and Java.
                 out.blank();
                 self.write_values(declared, &inner, out);
             }
@@ -141,7 +141,7 @@ impl Messages<'_> {
         let reference = self.names.reference(&scope.full_name, self.imports);
         for (index, value) in declared.value.iter().enumerate() {
             if !names::is_value_attribute(value.name()) {
-                // Reached by `getattr` or `Value` only.
+                // Only reachable through `getattr` or `Value`.
                 out.line(format!("# {}: no attribute of Python", value.name()));
                 continue;
             }

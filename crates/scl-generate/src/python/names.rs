@@ -56,7 +56,7 @@ pub(super) fn gate(gate: &Gate) -> String {
     if OF_COMPONENTS.contains(&name.as_str()) {
         format!("{name}_")
     } else if name.starts_with('_') {
-        // Such names belong to the class itself, and Python rewrites those that start with two.
+        // Names with a leading underscore belong to the class itself, and Python mangles those with two.
         format!("gate{name}")
     } else {
         name
@@ -65,7 +65,7 @@ pub(super) fn gate(gate: &Gate) -> String {
 
 /// Whether a field can be written as an attribute.
 pub(super) fn is_attribute(field: &str) -> bool {
-    // Python rewrites names that start with two underscores inside of classes.
+    // Inside classes, Python mangles names that start with two underscores.
     identifier::python(field) == field && !has_word(OF_MESSAGES, field) && !field.starts_with("__")
 }
 

@@ -65,7 +65,7 @@ impl FileResolver for Disk {
     }
 
     fn open_file(&self, name: &str) -> Result<File, Error> {
-        // A copy on disk must not differ from what each language has built in.
+        // Ignore a copy on disk: it could differ from the file that is built into each language.
         if is_built_in(name) {
             return GoogleFileResolver::new().open_file(name);
         }
@@ -82,7 +82,7 @@ impl FileResolver for Disk {
 
 impl Disk {
     fn open_text(&self, name: &str, path: PathBuf, text: String) -> Result<File, Error> {
-        // The positions that the compiler reports count no byte order mark, as those of `Sources` do.
+        // Strip the byte order mark, so that the compiler's positions agree with those of `Sources`.
         let text = text.trim_start_matches('\u{feff}').to_owned();
         if let Some(why) = limits::exceeded(&text) {
             return Err(Error::new(why));

@@ -96,7 +96,7 @@ impl Importer<'_> {
         let help = help.or_else(|| {
             let near = self.folders.candidates(import.name).find_map(|path| similar_file(&path, &[]))?;
             let near = Path::new(import.name).with_file_name(near);
-            // A file may be similar to the name that it imports.
+            // The file with the similar name may be the importing file itself.
             let is_itself =
                 self.folders.candidates(near.to_str()?).any(|path| self.folders.relative(&path) == self.file);
             (!is_itself).then(|| format!("a file with a similar name exists: `{}`", near.display()))
@@ -108,7 +108,7 @@ impl Importer<'_> {
         let name = import.name;
         let [one, other] = found.each_ref().map(|path| self.folders.relative(path).display());
         let message = format!("the import `{name}` in `{}` can mean two files: `{one}` and `{other}`", self.shown());
-        // The neighbour is more likely meant.
+        // Prefer the file next to the importing one: it is more likely meant.
         let [first, second] = &found;
         let is_beside = |path: &Path| self.folders.relative(path).parent() == self.file.parent();
         let in_order = if is_beside(second) { [second, first] } else { [first, second] };
@@ -173,7 +173,7 @@ fn is_portable(name: &str) -> bool {
 fn imports(text: &str) -> Vec<Import<'_>> {
     let mut imports = Vec::new();
     let mut depth = 0_usize;
-    // The start of the statement that is being read, if it has begun as an import, and its name.
+    // The start of the current statement and the imported name, once it is known to be an import.
     let mut open: Option<(usize, Option<&str>)> = None;
     let mut is_start = true;
     for (at, lexeme) in Lexemes::of(text) {

@@ -12,7 +12,7 @@ const MOST: usize = 20_000;
 /// Why a schema is too large, in a few words.
 pub(super) fn exceeded(text: &str) -> Option<String> {
     let mut all = 0;
-    // The declarations of each open brace; the first counts those of the file.
+    // The number of declarations in each open brace; the first entry counts the top level of the file.
     let mut open = vec![0];
     for token in words(text) {
         match token {

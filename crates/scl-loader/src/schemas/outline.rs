@@ -22,7 +22,7 @@ const MOST: usize = 10_000;
 /// Reads the outline of any text.
 pub(super) fn outline(text: &str) -> Outline {
     let mut outline = Outline::default();
-    // The message of each open brace, or `None` for a brace of something else.
+    // For each open brace, the message that it belongs to, or `None` if it opens something else.
     let mut open: Vec<Option<String>> = Vec::new();
     let mut words: Vec<&str> = Vec::new();
     for token in lexemes::words(text) {
@@ -50,7 +50,7 @@ pub(super) fn outline(text: &str) -> Outline {
                 words.clear();
             }
             word => {
-                // A statement has few words; a text that is no schema may have many.
+                // A statement has few words, but a file that is not a schema may have any number.
                 if words.len() < 100 {
                     words.push(word);
                 }

@@ -2,7 +2,7 @@
 
 use prost_types::{DescriptorProto, FieldDescriptorProto, FileDescriptorProto};
 
-// Fields of `FileDescriptorProto`, `DescriptorProto` and `EnumDescriptorProto` in paths of
+// Field numbers of `FileDescriptorProto`, `DescriptorProto` and `EnumDescriptorProto`, as they appear in the paths of
 // `google.protobuf.SourceCodeInfo`.
 pub(super) const FILE_PACKAGE: i32 = 2;
 /// `FileDescriptorProto.message_type`.

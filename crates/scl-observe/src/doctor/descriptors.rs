@@ -26,7 +26,7 @@ pub(super) fn check(examined: &Examined<'_>) -> Vec<Finding> {
             let name = format!("`{}` of system `{}`", escape(&component.name), escape(system.name()));
             let process = component.process_id().filter(|_| component.is_running());
             let open = process.and_then(open_in);
-            // What does not run would have the limit of this shell.
+            // A component that is not running would get the limit of this shell.
             let limit = process.map_or(own.current, limit_of);
             let needed = component.plan().map(needed_by);
             findings.extend(limit.and_then(|limit| judge_use(&name, open, needed, limit)));
@@ -63,7 +63,7 @@ fn needed_by(plan: &Plan) -> u64 {
     let gates = plan.gates.iter().map(|gate| {
         let connections = gate.connections.len() as u64;
         let ends = match gate.kind {
-            // An end for each connection, and the tap.
+            // One listener per connection, and one for the tap.
             GateKind::Pub => LISTENER * connections + LISTENER,
             GateKind::Pull | GateKind::Rep => LISTENER + LISTENER,
             GateKind::Sub | GateKind::Push | GateKind::Req => 0,

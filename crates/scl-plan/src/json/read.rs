@@ -100,7 +100,7 @@ fn gate(at: &At<'_>) -> Result<GatePlan, PlanError> {
     let known: Vec<&str> = own.into_iter().chain(GateOptions::ALL.map(|option| option.json)).collect();
     let fields = at.object(&known)?;
     let mut options = GateOptions::DEFAULT;
-    // One that an earlier release did not know, in a recording for example, has its default.
+    // An option that is missing, as in a recording made with an earlier release, keeps its default.
     for option in GateOptions::ALL.into_iter().filter(|option| fields.has(option.json)) {
         read_option(&fields.field(option.json)?, option.access, &mut options)?;
     }

@@ -36,7 +36,7 @@ fn document(system: &str, components: &[Plan]) -> String {
     let schemas = components.iter().filter_map(|plan| plan.schema.as_ref());
     let schemas = schemas.map(|schema| (schema.hash.as_str(), base64::encode(&schema.descriptors))).collect();
     let document = Document { version: VERSION, system, components, schemas };
-    // All keys are texts and nothing is read while it is written, so this cannot fail.
+    // Cannot fail: all map keys are strings, and serializing does no I/O.
     serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
 }
 
@@ -56,7 +56,7 @@ impl Serialize for GateOptions {
                 OptionAccess::Number(number) => map.serialize_entry(field.json, number(&mut options)),
                 OptionAccess::Size(size) => map.serialize_entry(field.json, size(&mut options)),
                 OptionAccess::Duration(duration) => {
-                    // A duration of over 584 years is none that `validate` accepts.
+                    // `validate` rejects durations that do not fit (more than 584 years).
                     let nanoseconds = u64::try_from(duration(&mut options).as_nanos()).unwrap_or(u64::MAX);
                     map.serialize_entry(field.json, &nanoseconds)
                 }

@@ -95,7 +95,7 @@ impl Alignment {
         if !has_enough(0) || !has_enough(1) {
             return Step::Wait;
         }
-        // Whether so many messages in a row are the same.
+        // Returns true if `count` messages in a row are equal on both sides.
         let mut agree = |[one, other]: [usize; 2], count: usize| {
             (0..count).all(|more| match (queues[0].get(one + more), queues[1].get(other + more)) {
                 (Some(one), Some(other)) => rules.difference(sides, [one, other]).is_none(),
@@ -104,13 +104,13 @@ impl Alignment {
                 _ => false,
             })
         };
-        // Where the numbers say that messages were lost. A signal that repeats itself agrees at other places, too.
+        // First try the gap that the sequence numbers suggest: a periodic signal agrees at other positions, too.
         if let Some(at) = self.numbered_gap(queues).filter(|at| agree(*at, 2)) {
             return Step::Resume(at);
         }
         let lengths = queues.map(VecDeque::len);
         for far in 1..lengths[0].max(lengths[1]) + 1 {
-            // A message that has changed is more likely than one missing here and another one too many.
+            // A changed message is more likely than a missing and an additional one.
             let is_near = far == 1 && agree([1, 1], 1);
             let gaps = (0..if far <= NEAR { far.min(BOTH) } else { 1 }).flat_map(|less| [[far, less], [less, far]]);
             let found = if is_near { Some([1, 1]) } else { gaps.chain([[far, far]]).find(|at| agree(*at, 2)) };
@@ -118,7 +118,8 @@ impl Alignment {
                 return Step::Resume(at);
             }
         }
-        // Half, because what agrees again may begin behind the window; and the next search costs as much.
+        // Skip half of the window: the recordings may agree again just beyond it. Not less, because the next search
+        // costs as much as this one.
         Step::Unlike((lengths[0].min(lengths[1]) / 2).max(1))
     }
 

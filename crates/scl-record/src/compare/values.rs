@@ -95,14 +95,14 @@ impl<'o> Rules<'o> {
         let larger = one.abs().max(other.abs());
         let CompareOptions { within, relative, .. } = *self.options;
         let tolerance = within.max(relative * larger);
-        // -0.0 equals 0.0, and the programs that divide by it differ.
+        // -0.0 equals 0.0, but a program that divides by it gets a different result.
         if larger == 0.0 && one.is_sign_negative() != other.is_sign_negative() {
             return within > 0.0 || relative > 0.0;
         }
         if are_same {
             return true;
         }
-        // Decimal numbers that differ by just the tolerance may differ by somewhat more in binary.
+        // Decimal numbers that differ by exactly the tolerance may differ by slightly more in binary.
         let rounding = 4.0 * f64::EPSILON * larger;
         let is_near = tolerance > 0.0 && (one - other).abs() <= tolerance + rounding;
         is_near || one.is_nan() && other.is_nan() || one == other && is_exact(one)

@@ -21,12 +21,12 @@ impl<'a> Encoding<'a> {
     /// messages.
     pub fn new(codec: &'a str, type_name: Option<&'a str>, descriptors: Option<&'a [u8]>) -> Self {
         let Some(schema_name) = type_name else {
-            // Bytes are what they are, whatever codec the system has for its other gates.
+            // Gates without a message type carry raw bytes, whatever codec the system's other gates use.
             return Self { message: "raw".into(), schema_name: "bytes", schema_encoding: "", schema: [][..].into() };
         };
         let (schema_encoding, schema) = match (codec, descriptors) {
             ("protobuf", Some(descriptors)) => ("protobuf", descriptors),
-            // Readers of JSON need a schema, and accept one that says no more than this.
+            // Readers of JSON messages require a schema; one that allows any object is enough.
             ("json", _) => ("jsonschema", ANY_OBJECT),
             _ => ("", &[][..]),
         };

@@ -61,7 +61,7 @@ impl Collector<'_> {
         }
         let is_stored = loop {
             tokio::select! {
-                // Signals first: under load there always is a message.
+                // Signals first: under load a message is always ready.
                 biased;
                 () = stop.received() => break true,
                 () = &mut end => break true,
@@ -119,7 +119,7 @@ impl Collector<'_> {
     }
 
     fn connect(&mut self, gate: usize) {
-        // A component that starts again may have another plan.
+        // A restarted component may have a different plan.
         if let Some(plan) = self.plans.update(self.system) {
             self.queue.command(Command::Plan(plan));
         }

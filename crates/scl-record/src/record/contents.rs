@@ -33,7 +33,7 @@ impl Contents {
     /// Starts a recording with everything that is known. If there is no room even for that, the file is removed.
     pub(crate) fn start_file(&self, path: PathBuf, file: File) -> Result<RecordingFile, WriteError> {
         self.begin(path.clone(), file).inspect_err(|_| {
-            // Never a device or pipe.
+            // Never remove a device or pipe.
             if path.is_file() {
                 let _removed = fs::remove_file(&path);
             }

@@ -136,7 +136,7 @@ impl Continuous {
         self.start_file(contents)?;
         while self.split.keep.is_some_and(|keep| self.finished.len() >= keep) {
             let Some(oldest) = self.finished.pop_front() else { break };
-            // Somebody may have moved it away; then there is nothing to delete.
+            // The user may have moved the file; then there is nothing to delete.
             if fs::remove_file(&oldest.path).is_ok() {
                 self.deleted += 1;
             }
@@ -170,7 +170,7 @@ impl Continuous {
         match finished {
             Ok(written) => {
                 if self.sync.is_some() {
-                    // What cannot be synced here is not lost for readers, only less safe.
+                    // If the sync fails, the file is still readable, but not yet safe on the disk.
                     let _synced = file.sync();
                 }
                 let named = file.check_name().map_err(|error| error.problem(STOPPED, file.path()));

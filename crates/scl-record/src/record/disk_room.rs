@@ -43,7 +43,7 @@ fn reserve(file: &File, from: u64, to: u64) -> io::Result<()> {
     match fallocate(file, FallocateFlags::KEEP_SIZE, from, to - from) {
         Ok(()) => Ok(()),
         Err(error @ (Errno::NOSPC | Errno::DQUOT | Errno::FBIG)) => Err(error.into()),
-        // Some file systems cannot reserve. Free blocks are the next best answer; others may take them.
+        // Some file systems cannot reserve space. Check the free blocks instead, although other programs may take them.
         Err(_) => {
             let free = fstatvfs(file).map_or(u64::MAX, |disk| disk.f_bavail.saturating_mul(disk.f_frsize));
             if free < to - from { Err(Errno::NOSPC.into()) } else { Ok(()) }

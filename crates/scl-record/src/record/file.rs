@@ -107,7 +107,7 @@ impl RecordingFile {
     /// Adds the channels of a gate, unless the file has them already.
     pub(crate) fn add_gate(&mut self, number: usize, gate: &ObservedGate) -> Result<(), WriteError> {
         for NewChannel { part, topic, encoding, metadata } in channels(gate) {
-            // The record and its copy in the index.
+            // A channel's record is also copied into the index, so it takes `size` twice.
             let texts: usize = metadata.iter().map(|(key, value)| key.len() + value.len()).sum();
             let size =
                 (encoding.schema.len() + encoding.schema_name.len() + topic.len() + texts) as u64 + INDEX_PER_CHANNEL;
@@ -191,7 +191,7 @@ impl RecordingFile {
         self.writer.write_metadata(&Metadata { name: Totals::NAME.to_owned(), metadata: totals.to_map() })?;
         self.writer.finish()?;
         let bytes = self.written.load(Ordering::Relaxed);
-        // Gives back what was reserved behind the end.
+        // Release the space that was reserved beyond the end.
         self.file.set_len(bytes).map_err(McapError::from)?;
         Ok(WrittenFile { path: self.path.clone(), bytes, totals })
     }
@@ -200,9 +200,9 @@ impl RecordingFile {
     pub(crate) fn abandon(self) -> WrittenFile {
         let totals = self.totals();
         let Self { path, file, writer, flushed, .. } = self;
-        // Otherwise, the writer and its buffer would try to write once more when they are dropped.
+        // Take the writer and its buffer apart: dropping them would write once more.
         let _unwritten = writer.into_inner().into_inner().into_parts();
-        // The disk may be gone; then nothing can be done about the file.
+        // Ignore errors: if the disk is gone, the file cannot be truncated.
         let _cut = file.set_len(flushed);
         WrittenFile { path, bytes: flushed, totals }
     }
@@ -240,7 +240,7 @@ pub(crate) fn options() -> WriteOptions {
         .compression(Some(Compression::Lz4))
         // A chunk is built in memory and written at once, so that a file that is cut off ends with a complete chunk.
         .disable_seeking(true)
-        // Chunks are ended by `flush`, which keeps account of the room that they need.
+        // Chunks are ended by `flush`, which keeps track of the space that they need.
         .chunk_size(None)
 }
 

@@ -70,7 +70,7 @@ impl FileNames {
             _ => Problem::new(format!("cannot create `{}`: {error}", path.display())),
         };
         let file = options.open(&path).map_err(cannot_create)?;
-        // Held until the file is closed; `scl recover` looks at it, too. Where there are no locks, there is no
+        // The lock is held until the file is closed; `scl recover` checks it, too. File systems without locks offer no
         // protection.
         if flock(&file, FlockOperation::NonBlockingLockExclusive) == Err(Errno::WOULDBLOCK) {
             return Err(Problem::new(format!("`{}` is being recorded by another process", path.display())));

@@ -32,7 +32,7 @@ impl Losses {
     pub(crate) fn see(&mut self, sequence: u64, sent_ns: u64) {
         let expected = match self.next {
             None => sequence,
-            // The component has started again.
+            // The component has restarted.
             Some(next) if sequence < next => 0,
             Some(next) => next,
         };

@@ -75,7 +75,7 @@ impl Ring {
 
     fn copy_to(&self, recording: &mut RecordingFile) -> Result<(), WriteError> {
         self.messages.iter().enumerate().try_for_each(|(index, message)| {
-            // What was lost before the first one was lost before this recording begins.
+            // Losses before the first message are older than this recording.
             if index > 0 {
                 recording.count_lost(message.gate, message.lost_before);
             }

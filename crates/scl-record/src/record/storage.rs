@@ -78,7 +78,7 @@ pub(crate) fn store(
         }
     }
     drop(stopped);
-    // After a failure: what is still in the queue is lost.
+    // After a failure, everything that is still in the queue is lost.
     while let Some(items) = receiver.take(POLL) {
         items.iter().for_each(|item| count_as_lost(item, &contents, &mut totals));
     }
@@ -115,7 +115,7 @@ fn store_items(
         }
         Item::Command(command) => handle(store, contents, command, totals),
     });
-    // Only after a failure are any left.
+    // Items are left only after a failure.
     items.for_each(|item| count_as_lost(&item, contents, totals));
     stored?;
     match store {
@@ -155,7 +155,7 @@ fn handle(store: &mut Store, contents: &mut Contents, command: Command, totals: 
             };
             let flushed = match (&saved, store) {
                 (Err(problem), Store::Continuous(_)) => Err(problem.clone()),
-                // A ring goes on: there may be room the next time.
+                // A ring buffer keeps recording: there may be room the next time.
                 _ => Ok(()),
             };
             let _asker_is_gone = answer.send(saved);

@@ -51,7 +51,7 @@ pub(crate) async fn answer(mut stream: UnixStream, result: &Result<PathBuf, Stri
         Ok(path) => format!("ok {}\n", path.display()),
         Err(text) => format!("error {text}\n"),
     };
-    // Who asked may be gone.
+    // The client may have disconnected.
     let _written = stream.write_all(line.as_bytes()).await;
 }
 

@@ -37,7 +37,7 @@ impl Clock {
             self.channels.resize(message.channel + 1, 0);
         }
         let latest = self.latest.unwrap_or(received);
-        // Topics may stand one after the other in a file of another program, so each is compared with itself.
+        // Other programs may write one topic after the other, so compare each topic only with itself.
         let step = (received.saturating_add(SMALLEST_STEP) < self.channels[message.channel])
             .then(|| latest.saturating_sub(received));
         if let Some(step) = step {
@@ -50,7 +50,7 @@ impl Clock {
         let steady = received.saturating_add(self.set_back);
         let sent = message.sent_ns.saturating_add(self.set_back);
         Times {
-            // Of a message sent before the step, the time is that of the clock before.
+            // A message sent before the step carries the time of the old clock, so cap it at the receive time.
             sent: if self.set_back > 0 { sent.min(steady) } else { sent },
             received: steady,
             step,

@@ -43,7 +43,7 @@ impl Overview {
         while let Some(header) = records.next()? {
             if header.is_cut {
                 if header.opcode == op::CHUNK {
-                    // What can be read of it counts.
+                    // Count what can still be read of a truncated chunk.
                     let content = records.content(u64::MAX)?;
                     let _ends_with_an_error = chunk::read(&content, header.length, |record| overview.add(record));
                 }
@@ -84,7 +84,7 @@ impl Overview {
     }
 
     fn add_times(&mut self, mut content: &[u8]) {
-        // A chunk without messages has zeros.
+        // The times of a chunk without messages are zero.
         if let (Ok(first), Ok(last @ 1..)) = (content.try_get_u64_le(), content.try_get_u64_le()) {
             self.add_time(first);
             self.add_time(last);

@@ -36,7 +36,7 @@ impl Target {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let file = NamedTempFile::new_in(folder)
             .map_err(|error| Problem::new(format!("cannot create a file in `{}`: {error}", folder.display())))?;
-        // The content is what matters; a file system may know no permissions.
+        // Ignore errors: some file systems have no permissions, and the content matters more.
         let _copied = file.as_file().set_permissions(old.permissions());
         Ok(Self { path: path.to_owned(), file, output: None, messages: 0, pending: 0 })
     }
@@ -92,7 +92,7 @@ impl Target {
         match added {
             Ok(()) => Ok(true),
             Err(error @ (McapError::Io(_) | McapError::AttemptedWriteAfterFailure)) => Err(error),
-            // It contradicts another record, or names one that is missing.
+            // The record contradicts another one, or refers to one that is missing.
             Err(_) => Ok(false),
         }
     }
@@ -111,7 +111,7 @@ impl Target {
         let mut kept = self.path.clone().into_os_string();
         kept.push(".bak");
         let kept = PathBuf::from(kept);
-        // A link fails if the name is taken, and leaves the file where it is until the new one replaces it.
+        // A hard link fails if the name is taken, and keeps the file in place until the new one replaces it.
         fs::hard_link(&self.path, &kept).map_err(|error| {
             Problem::new(format!("cannot keep the damaged file as `{}`: {error}", kept.display()))
                 .help("name a new file with `-o`")

@@ -23,7 +23,7 @@ impl Participants {
     /// A component is unknown or runs, all of them run, or a running one has another contract.
     pub(super) fn choose(plan: &SystemPlan, options: &ReplayOptions) -> Result<Self, Problem> {
         let variables = |name: &str| std::env::var_os(name);
-        // The name as the runtime chooses it.
+        // Choose the name as the runtime does.
         let named = named_system(options.system.as_deref(), &variables)?;
         let system = named.unwrap_or_else(|| plan.system.clone());
         let dir = RuntimeDir::locate(&variables).and_then(|dir| dir.system(&system));

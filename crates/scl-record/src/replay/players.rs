@@ -80,7 +80,7 @@ impl Players {
                 make_lossless(&mut plan);
             }
             if options.ready_within.is_zero() {
-                // Peers that nobody waits for at the beginning are not waited for later either.
+                // If the replay does not wait for peers at the start, it does not wait for them later either.
                 let connections = plan.gates.iter_mut().flat_map(|gate| &mut gate.connections);
                 connections.for_each(|connection| connection.required = false);
             }
@@ -126,7 +126,7 @@ impl Players {
             Some(SendingGate::Req { queue, .. }) => {
                 let (done, answered) = oneshot::channel();
                 let call = Call { request: message.clone(), done: Some(done) };
-                // The task does not end before its queue does.
+                // The task outlives its queue, so the send cannot fail.
                 let _sent = queue.send(call).await;
                 if self.is_lossless {
                     let _answered = answered.await;
@@ -182,7 +182,7 @@ impl Players {
                 }));
             }
         }
-        // Last, because played components also receive and answer what others of them send.
+        // Stop receiving last, because played components also receive and answer each other's messages.
         self.receiving.iter().for_each(JoinHandle::abort);
         for task in self.receiving {
             let _ended = task.await;
@@ -217,7 +217,7 @@ impl Players {
                 self.receiving.push(tokio::spawn(answer(gate, name.clone(), answers, Arc::clone(&counts))));
                 self.answering.push((name, counts));
             }
-            // What a played component receives was recorded too, where it was sent.
+            // Discard what a played component receives: it was recorded where it was sent.
             Gate::Sub(mut gate) => {
                 self.receiving.push(tokio::spawn(async move { while gate.recv().await.is_ok() {} }));
             }
@@ -236,7 +236,7 @@ impl Players {
                 SendingGate::Push(gate) => gate.peer_stats(),
                 SendingGate::Req { .. } => Vec::new(),
             };
-            // What `queue: 1` replaces is not missed.
+            // Messages replaced because of `queue: 1` do not count as dropped.
             for PeerStats { peer, connected, dropped_oldest, dropped_newest, lost, .. } in peers {
                 let reason = if connected { "its queue was full" } else { "it was not connected" };
                 let full = (dropped_oldest + dropped_newest, reason);
@@ -275,7 +275,7 @@ async fn call(mut gate: Req<Bytes, Bytes>, mut calls: mpsc::Receiver<Call>, repl
                 replies.fetch_add(1, Ordering::Relaxed);
             }
             Err(CallError::Blocking { .. }) => return,
-            // Sent and not answered, as the counts say.
+            // The request was sent but not answered, as the counts show.
             Err(_) => {}
         }
         if let Some(done) = done {
@@ -306,7 +306,7 @@ async fn answer(mut gate: Rep<Bytes, Bytes>, name: String, mut answers: Option<A
                 continue;
             }
         };
-        // Otherwise the requester has gone.
+        // An error means that the requester is gone.
         if request.reply(&reply).is_ok() {
             counts.answered.fetch_add(1, Ordering::Relaxed);
         }

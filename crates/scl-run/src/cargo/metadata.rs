@@ -57,7 +57,7 @@ pub(crate) fn built_before(build: &Program) -> Result<Vec<Artifact>, Problem> {
     let metadata = read(&mut command)?;
     let target = value(&["--target-dir"]).map_or(metadata.target_directory, |folder| build.folder.join(folder));
     let is_release = words.iter().any(|word| word == "--release" || word == "-r");
-    // The folders of cargo's own profiles have other names than these.
+    // Cargo's built-in profiles do not all have an output folder of the same name.
     let profile = match value(&["--profile"]).as_deref() {
         None if is_release => "release".to_owned(),
         None | Some("dev" | "test") => "debug".to_owned(),
@@ -70,7 +70,7 @@ pub(crate) fn built_before(build: &Program) -> Result<Vec<Artifact>, Problem> {
     let has_own = metadata.packages.iter().any(|package| package.manifest_path == own);
     let is_chosen = |package: &Package| match &chosen {
         Some(name) => package.name == *name,
-        // In the folder of a package, cargo builds that one.
+        // In the folder of a package, cargo builds only that package.
         None => !has_own || package.manifest_path == own,
     };
     let programs = metadata

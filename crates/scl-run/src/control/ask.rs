@@ -71,12 +71,12 @@ pub fn ask(options: &ControlOptions<'_>) -> Result<Done, Vec<Problem>> {
     }
     let requests = match assign(options, answering, folder.as_ref()) {
         Ok(requests) => requests,
-        // The runs that do not answer may have what was not found.
+        // The missing components may belong to a run that did not answer, so report that instead.
         Err(_) if !done.problems.is_empty() => return Err(done.problems),
         Err(problems) => return Err(problems),
     };
     if !options.components.is_empty() {
-        // All of them were found elsewhere.
+        // All components were found in other runs, so it does not matter which runs did not answer.
         done.problems.clear();
     }
     if options.command == Command::Restart
@@ -85,7 +85,7 @@ pub fn ask(options: &ControlOptions<'_>) -> Result<Done, Vec<Problem>> {
     {
         return Ok(Done { problems: vec![problem], ..Done::default() });
     }
-    // At the same time, so that the slowest run decides how long it takes.
+    // Ask all runs in parallel, so that the slowest one determines the total time.
     let responses = thread::scope(|scope| {
         let ask = |(run, request): (ControlledRun, Request)| run.ask(&request).map_err(|error| run.problem(&error));
         let asked = requests.into_iter().map(|request| scope.spawn(move || ask(request)));

@@ -57,8 +57,8 @@ pub fn find_runs(runtime_folder: &Path, system: Option<&str>) -> Vec<ControlledR
         };
         sockets.into_iter().filter_map(run)
     });
-    // A connection without a request is closed by the other side, and nothing else. One that does not accept is there,
-    // too.
+    // Connecting without sending a request has no effect on a run. A run that cannot accept at the moment
+    // (`WouldBlock`) is running, too.
     let is_there = |error: io::Error| error.kind() == ErrorKind::WouldBlock;
     runs.filter(|run| connect(&run.socket).map_or_else(is_there, |_| true)).collect()
 }
@@ -112,7 +112,7 @@ impl ControlledRun {
         let mut connection = loop {
             match connect(&self.socket) {
                 Ok(connection) => break connection,
-                // Too many connections wait to be accepted.
+                // The backlog of the socket is full.
                 Err(error) if error.kind() == ErrorKind::WouldBlock => {
                     self.look(Command::List, began)?;
                     thread::sleep(LOOK);
@@ -148,7 +148,7 @@ impl ControlledRun {
     /// Looks whether an answer may still come: a stop takes as long as the programs take, but how they are is known at
     /// once.
     fn look(&self, command: Command, began: Instant) -> Result<(), NoAnswer> {
-        // By a signal or by a debugger.
+        // A process that is stopped by a signal or a debugger cannot answer.
         let stat = Pid::from_raw(self.process.cast_signed()).and_then(ProcessStat::of);
         if stat.is_some_and(|stat| stat.is_stopped || stat.is_traced) {
             return Err(NoAnswer::Stopped);
@@ -158,7 +158,7 @@ impl ControlledRun {
             (true, Command::List) => Err(NoAnswer::Silent),
             (true, _) => match self.ask(&Request::new(Command::List, Vec::new())) {
                 Err(error @ (NoAnswer::Silent | NoAnswer::Stopped)) => Err(error),
-                // Its end ends the first connection, too.
+                // If the run has ended, so has the connection that waits for the answer.
                 _ => Ok(()),
             },
         }

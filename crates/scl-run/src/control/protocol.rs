@@ -93,7 +93,7 @@ pub struct ComponentReport {
 impl BuildCommand {
     /// The build, in the environment of this process.
     pub(crate) fn of(build: &Build) -> Self {
-        // JSON has no place for variables that are not UTF-8. Builds do not inherit the component that this process
+        // JSON cannot represent variables that are not UTF-8. Builds do not inherit the component that this process
         // runs as.
         let own = std::env::vars_os()
             .filter(|(name, _)| name != COMPONENT)

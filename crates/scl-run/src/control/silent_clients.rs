@@ -22,7 +22,7 @@ impl SilentClients {
         if silent.len() > MOST
             && let Some(oldest) = silent.pop_front()
         {
-            // Ends the read of its thread.
+            // Ends the blocking read in the client's thread.
             let _ = oldest.shutdown(Shutdown::Both);
         }
     }

@@ -67,12 +67,12 @@ impl LaunchDocument {
             return Err(self.found.clone());
         }
         let (file, mut problems) = Reader::new(self.source(), known, &LAUNCH).read(&self.document);
-        // What could not be read is no second mistake there.
+        // Drop problems at the place of a syntax problem: they are its consequences.
         let place = |problem: &Diagnostic| problem.primary.as_ref().map(|label| label.span);
         problems.retain(|problem| !self.found.iter().any(|of_text| place(of_text) == place(problem)));
         problems.extend(self.found.iter().cloned());
         let mut found = problems.into_sorted();
-        // A value for which several aliases stand is read several times.
+        // A value with several aliases is read, and reported, several times.
         found.dedup();
         if found.is_empty() { Ok(file) } else { Err(found) }
     }

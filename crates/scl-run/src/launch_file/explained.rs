@@ -19,7 +19,7 @@ pub fn launch_keys() -> Vec<(Entry, &'static [&'static str])> {
 }
 
 fn explained(key: &Key, what: &'static str) -> Entry {
-    // Links lead to other parts of the page.
+    // Drop the links: they lead to other sections of `docs/launch.md`.
     let sentences = without_links(key.meaning);
     let summary = key.meaning.split(". ").next().unwrap_or_default().trim_end_matches('.');
     let meaning = sentences.split(" See ").next().unwrap_or_default();

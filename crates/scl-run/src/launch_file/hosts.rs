@@ -86,7 +86,7 @@ impl Reader<'_> {
         let entries = self.entries(field, "`gateway` is a mapping", GATEWAY_EXAMPLE);
         let keys = entries.map(|entries| self.keys(entries, keys::GATEWAY, "`gateway`"));
         let keys = keys.as_ref();
-        // What is missing in something else than a mapping has been said.
+        // If `gateway` is not a mapping, that was reported already; do not report missing keys as well.
         let may_have = |key| keys.is_none_or(|keys| keys.may_have(key));
         Gateway {
             place: field.key_span,

@@ -124,7 +124,7 @@ impl Reader<'_> {
         let Some(meant) = meant else { return self.report(problem) };
         let problem = problem.help(format!("did you mean `{}: {meant}`?", field.key));
         let span = field.value.span;
-        // A number without a unit may be one of milliseconds.
+        // A number without a unit may have been meant in milliseconds, so the fix is not certain.
         self.report(if form == Form::Duration { problem.maybe_fix(span, meant) } else { problem.fix(span, meant) });
     }
 }
@@ -145,7 +145,7 @@ fn likely(form: Form, text: &str) -> Option<String> {
             other => closest_name(other, ["true", "false"]).map(str::to_owned),
         },
         Form::Port => text.parse::<u16>().ok().filter(|port| *port != 0).map(|port| port.to_string()),
-        // A number without its unit: seconds, as nearly every other tool has it.
+        // Assume seconds for a number without a unit, as most other tools do.
         Form::Duration => Some(format!("{text}s")).filter(|meant| limit(meant).is_some()),
         Form::DelayRange => {
             let meant = text.replacen("...", "..", 1).replacen('-', "..", 1).replacen(" to ", "..", 1);

@@ -24,7 +24,7 @@ impl Transports {
         }
         let all = self.all.as_deref().or(inherited.filter(|value| !value.is_empty()));
         let of_gates = self.of_gates.iter().map(|(gate, word)| format!("{gate}={word}"));
-        // Of several entries, the last one counts: those of the file are after those that are inherited.
+        // The last matching entry wins, so the entries of the file follow the inherited ones.
         Some(all.map(str::to_owned).into_iter().chain(of_gates).collect::<Vec<_>>().join(","))
     }
 }

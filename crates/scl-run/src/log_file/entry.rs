@@ -67,7 +67,7 @@ fn cut(text: &[u8], longest: usize) -> usize {
         return text.len();
     }
     let is_inside = |&at: &usize| text[at] & 0b1100_0000 == 0b1000_0000;
-    // A character has four bytes at most; anything longer is no text.
+    // A UTF-8 character has at most four bytes. If no boundary is found, the text is not UTF-8.
     (longest.saturating_sub(3)..=longest).rev().find(|at| !is_inside(at)).unwrap_or(longest)
 }
 

@@ -44,11 +44,12 @@ impl LogReader {
                 self.line.clear();
                 match entry {
                     Ok(entry) => return Ok(Some(entry)),
-                    // Such as a line that a full disk has cut.
+                    // Skip a line that is not an entry, for example one that a full disk has truncated.
                     Err(_) => continue,
                 }
             }
-            // At the end of the file. What was written before it was rotated is read before its successor.
+            // End of file. Once a successor exists, read this file to its end once more: lines may have been added just
+            // before it was rotated.
             if std::mem::take(&mut self.is_complete) {
                 self.line.clear();
                 if !self.open_next(Some(id))? {
@@ -64,7 +65,7 @@ impl LogReader {
 
     fn has_successor(&self, id: u64) -> bool {
         let files = self.folder.files_of(&self.component);
-        // A file that is gone was rotated out.
+        // A file that no longer exists was rotated out, so it has a successor, too.
         files.iter().rev().position(|file| file_id(file) == Some(id)) != Some(0) && !files.is_empty()
     }
 
@@ -75,7 +76,7 @@ impl LogReader {
         let Some(path) = files.get(position.map_or(0, |position| position + 1)) else { return Ok(false) };
         let file = match File::open(path) {
             Ok(file) => file,
-            // It is being rotated.
+            // The file is being rotated.
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(false),
             Err(error) => return Err(error),
         };

@@ -110,7 +110,7 @@ impl Backlog {
                 self.changed.notify_all();
                 Ok::<_, io::Error>(())
             });
-            // If standard error is closed, there is no place to report that.
+            // A failed report is ignored: if standard error is closed, there is no place to report that.
             is_lost |= written.is_err() && !part.is_report;
         }
         Written { dropped, is_lost }

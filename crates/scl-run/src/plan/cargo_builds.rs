@@ -10,7 +10,7 @@ use scl_terminal::Problem;
 /// is one, because cargo builds several in one go.
 pub(super) fn add(builds: &mut Vec<Build>, program: Program, component: &str, cargo: &CargoRun) -> MadeByCargo {
     let is_same = |build: &Build| match &build.cargo_choices {
-        // Without a choice, cargo builds all programs.
+        // Do not combine builds with and without a choice of program: without one, cargo builds all programs.
         Some(choices) => build.program == program && choices.iter().all(|it| it.is_empty() == cargo.choice.is_empty()),
         None => false,
     };

@@ -88,7 +88,7 @@ pub(super) fn plan_gateway(
     options: &Options,
 ) -> Result<Component, Problem> {
     let topology = topology.ok_or_else(|| no_topology(&launch_path.display().to_string()))?;
-    // The program runs in the folder, so paths from elsewhere must be absolute.
+    // The gateway runs in `folder`, so a path relative to the current folder must be made absolute.
     let launch_file = launch_path.file_name().map_or_else(|| launch_path.to_owned(), |name| folder.join(name));
     let files = [("--topology", topology), ("--launch", &launch_file)];
     let files = files.into_iter().flat_map(|(option, path)| [OsString::from(option), path.as_os_str().to_owned()]);

@@ -48,7 +48,8 @@ fn tell() -> io::Result<()> {
         let mut ready = [PollFd::new(&source, PollFlags::IN), PollFd::new(&input, PollFlags::IN)];
         poll(&mut ready, None)?;
         let is_last = !ready[1].revents().is_empty();
-        // The signals of a key reach all processes of the group before one of them can end by it.
+        // Read these signals even if the input has ended: the kernel signals all processes of the group before one of
+        // them can end because of the key.
         while let Some(signal) = source.read_signal()? {
             let sent = Key::ALL.iter().find(|(_, key, _)| *key as i32 == signal.ssi_signo.cast_signed());
             if let Some((.., word)) = sent.filter(|_| signal.ssi_code == SI_KERNEL) {

@@ -172,13 +172,13 @@ impl<'d> Sizes<'d> {
             Kind::Map(entry) => times(self.of(entry).saturating_add(BLOCK), [11, 5]),
             Kind::Message(inner) if repeated => match self.language {
                 Language::Rust => times(self.of(inner), [4, 2]),
-                // A block for each, and a list of pointers.
+                // One block per element, and an array of pointers.
                 Language::Other => times(self.of(inner).saturating_add(BLOCK + 32), [1, 1]),
             },
             Kind::Message(inner) if self.is_inline(message, inner) => times(0, [0, 0]),
             Kind::Message(inner) => times(self.of(inner).saturating_add(BLOCK), [1, 1]),
             Kind::Text if repeated => times(TEXT, [4, 2]),
-            // C++ and C allocate the text and its content.
+            // C++ and C allocate both the text object and its content.
             Kind::Text => times(BLOCK + TEXT, [1, 1]),
             Kind::Number { width, .. } if repeated => Cost { first: (8 * width).max(32), next: 2 * width },
             Kind::Number { .. } => times(0, [0, 0]),

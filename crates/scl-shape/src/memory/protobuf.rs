@@ -20,7 +20,7 @@ pub(super) fn most_per_byte(messages: &[MessageLayout], language: Language) -> u
     let unknown = if language == Language::Rust { 0 } else { UNKNOWN + BLOCK };
     let fields = messages.iter().flat_map(|message| &message.fields);
     let most = fields.map(|field| match field.kind {
-        // Packed, with one byte for each number.
+        // `4 * width` is for packed numbers of one byte each.
         Kind::Number { width, .. } => field.cost.first.max(4 * width),
         _ => field.cost.first.saturating_add(BLOCK),
     });

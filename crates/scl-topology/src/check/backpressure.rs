@@ -27,7 +27,7 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
-    // The option of a replier has been refused already, and a requester has none that would allow it.
+    // `when_full` at a replier is refused elsewhere, and a requester has no `backpressure` to set.
     let sends = |source: usize| matches!(draft.gates[source].kind, Some(GateKind::Pub | GateKind::Push));
     for (link, source, sink) in draft.flows().filter(|&(_, source, _)| sends(source)) {
         let waits = draft.gates[sink].options.when_full == WhenFull::Wait;

@@ -117,7 +117,7 @@ impl Graph {
                     open.push(at);
                 } else {
                     let child = self.steps[at][step - 1].to;
-                    // There is no way back from a knot that is closed.
+                    // A closed knot (a finished strongly connected component) cannot reach `at`.
                     if knot[child] == NEW {
                         low[at] = low[at].min(low[child]);
                     }

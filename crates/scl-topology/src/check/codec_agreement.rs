@@ -27,7 +27,7 @@ pub(crate) const RULE: Rule = Rule {
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     for (link, source, sink) in draft.flows() {
         let (Some(a), Some(b)) = (&draft.gates[source].codec, &draft.gates[sink].codec) else { continue };
-        // Bytes of no type are sent as they are, whatever the codec.
+        // Untyped bytes are sent as they are, whatever the codec.
         let is_untyped = [source, sink].iter().any(|&gate| draft.gates[gate].payload == Some(Payload::Bytes));
         if a.value == b.value || is_untyped {
             continue;

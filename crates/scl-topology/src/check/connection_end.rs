@@ -30,7 +30,7 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     for link in 0..draft.links.len() {
         draft.links[link].ends = draft.links[link].model.ends.each_ref().map(|end| resolved(draft, &end.value));
     }
-    // A suggestion prefers gates that no other connection names.
+    // Mark all named gates first: suggestions prefer gates that no other connection names.
     name_all(draft);
     for (link, end) in (0..draft.links.len()).flat_map(|link| [(link, 0), (link, 1)]) {
         if draft.links[link].ends[end].is_none() {

@@ -55,7 +55,7 @@ pub(super) fn check(draft: &Draft<'_>, allowed_lines: impl Fn(&Rule) -> HashSet<
     let receivers = waits::receivers_that_wait(draft);
     problems.extend(found.iter().map(|deadlock| report(&RULE, draft, deadlock, &receivers)));
     if judged.len() < waits.len() {
-        // What a comment allows is found all the same: that tells whether the comment has an effect.
+        // Also report what a comment allows: it is suppressed later, and a comment that suppresses nothing is reported.
         let knots = [requests(&waits), endless(&waits)].map(|waits| search::knots(components, &waits));
         let is_deadlocked = |step: &&Step| knots.iter().any(|knots| knots[step.from] == knots[step.to]);
         let steps = waits.iter().flat_map(|wait| &wait.steps).filter(is_deadlocked);

@@ -54,7 +54,7 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
 
 /// The names that an earlier one equals, each after the first.
 fn repeated<'m>(names: impl Iterator<Item = &'m Name>) -> impl Iterator<Item = (&'m Name, &'m Name)> {
-    // Compared by place in the model: a name is its own first declaration.
+    // Compare addresses: `with_first` pairs the first declaration with itself.
     with_first(names, |name| name).filter(|(first, name)| !std::ptr::eq(*first, *name))
 }
 

@@ -60,7 +60,7 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     problems.extend(lossy.map(|circle| work(draft, circle)));
     let loops = circles(draft, &[GateKind::Pub, GateKind::Push]);
     let mixed = loops.iter().filter(|circle| circle.steps.iter().any(|step| is_published(draft, step)));
-    // A circle in which everybody waits is a deadlock, which another rule reports.
+    // A circle in which every component waits is a deadlock, which another rule reports.
     let waits = |step: &Step| draft.links[step.link].flow.is_some_and(|(from, to)| waits::can_wait(draft, from, to));
     let open = mixed.filter(|circle| !circle.steps.iter().all(waits));
     problems.extend(open.map(|circle| messages(draft, circle)));

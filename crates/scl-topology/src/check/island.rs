@@ -37,7 +37,7 @@ pub(crate) const RULE: Rule = Rule {
 const MOST: usize = 8;
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
-    // A connection that could not be read may be the bridge.
+    // A connection that could not be read may be the one that joins two groups.
     let is_whole = draft.links.iter().all(|link| link.flow.is_some()) && draft.model.broken_ends.is_empty();
     let groups = groups(draft);
     if is_whole && groups.len() > 1 {

@@ -133,7 +133,7 @@ fn check_foreign(model: &Model, problems: &mut Diagnostics) {
         let field = gate_field(&name.value);
         let spellings = match noun {
             Noun::System => continue,
-            // Another rule tells what Rust reserves.
+            // Rust keywords are reported by other rules.
             Noun::Gate if is_keyword(&field) => continue,
             _ if is_unescapable(&field) => continue,
             Noun::Gate => vec![field],
@@ -149,7 +149,7 @@ fn find_foreign(noun: Noun, name: &Spanned<String>, spelling: &str) -> Option<Di
     let languages = [("C++", is_cpp(spelling)), ("Python", is_python(spelling))];
     let languages: Vec<&str> = languages.into_iter().filter(|(_, has_it)| *has_it).map(|(name, _)| name).collect();
     let headline = match languages.as_slice() {
-        // Those at the start are an error of their own.
+        // Leading underscores are reported by another rule.
         [] if spelling.trim_start_matches('_').contains("__") => {
             format!("{start} has two underscores in a row, which C++ reserves")
         }

@@ -21,7 +21,7 @@ pub(super) fn tell_once(problems: &mut Diagnostics) {
         let others = found.secondary.iter().map(|label| label.span);
         match found.code().get(..5) {
             Some("SCL03" | "SCL04" | "SCL05") => !at.into_iter().any(|span| meets(span, &misread)),
-            // Types that differ because one of them is not a type.
+            // Two types may differ because either of them was misread.
             Some("SCL06") => !at.chain(others).any(|span| meets(span, &misread)),
             _ => true,
         }

@@ -44,7 +44,7 @@ fn report(kind: Option<GateKind>, row: &GateOption, option: &OptionModel, range:
     let headline = format!("`{}` must be {}", row.key, range.rule);
     let default = row.default().map(|default| format!("leave it out to get the default, {default}"));
     let found = VALUE.at(headline, option.value.span, "").helps(default).notes(range.reason);
-    // An option that this kind of gate does not have needs no other value.
+    // If this kind of gate does not have the option, say so: no value would be right.
     found.notes(misfit(kind, row.key))
 }
 

@@ -29,7 +29,7 @@ pub(super) fn check(draft: &Draft<'_>, paths: &SocketPaths, system: &str, proble
     for (at, gate) in draft.gates.iter().enumerate() {
         let Some(ending) = gate.kind.and_then(longest_ending) else { continue };
         let names = [draft.component_name(at), &gate.model.name.value];
-        // Longer names have an error of their own.
+        // Repeated gates and names that are too long or malformed are reported by other rules.
         if gate.duplicate || names.iter().any(|name| name.len() > LONGEST_NAME || !is_well_formed(name)) {
             continue;
         }
@@ -43,7 +43,7 @@ pub(super) fn check(draft: &Draft<'_>, paths: &SocketPaths, system: &str, proble
 /// The end of the longest socket name that belongs to one gate of this kind; `sub`, `req` and `push` have no socket.
 fn longest_ending(kind: GateKind) -> Option<String> {
     let tap = kind.listens().then(|| TAP.to_owned());
-    // Which contract it is does not matter for the length.
+    // All contracts have the same length.
     let all_peers = matches!(kind, GateKind::Rep | GateKind::Pull).then(|| format!(".{}", "*".repeat(CONTRACT_LENGTH)));
     tap.into_iter().chain(all_peers).max_by_key(String::len)
 }

@@ -26,7 +26,7 @@ pub(super) fn tell_once(problems: &mut Diagnostics) {
             let is_end = [&unknown_component::UNKNOWN, &unknown_gate::RULE].contains(&found.rule);
             let what = if is_end { "connections name it" } else { "places have it" };
             found.notes.push(format!("{} {what}", uses.len()));
-            // The one place where the name is declared may be the one that is wrong.
+            // The mistake may be in the one declaration rather than in all of these places.
             found.fixes.iter_mut().for_each(|fix| fix.sure = false);
         }
         true
@@ -60,7 +60,7 @@ fn gates_that_do_not_fit(problems: &mut Diagnostics) {
         let shared = gates.filter(|gate| counts.get(gate).is_some_and(|count| *count > 1));
         shared.max_by_key(|gate| (counts.get(gate), gate.1.start)).filter(|_| PAIRS.contains(&found.rule))
     };
-    // The places of the further connections of each gate.
+    // For each gate, the places of its other connections that do not fit.
     let mut told: HashMap<(&Rule, Span), Vec<Span>> = HashMap::new();
     problems.retain(|found| {
         let Some(gate) = at_fault(found) else { return true };

@@ -59,7 +59,7 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
 
 fn is_reserved(noun: Noun, name: &str) -> bool {
     match noun {
-        // A folder may have any name, and `topology` is the usual one.
+        // A system's name only becomes a folder, so no name is reserved; `topology` is the usual default.
         Noun::System => false,
         Noun::Component => name == "scl" || name == "topology" || name.starts_with("scl_") || name.starts_with("__"),
         Noun::Gate => name.starts_with("__"),

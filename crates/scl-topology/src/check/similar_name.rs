@@ -126,7 +126,7 @@ fn check_names<'m>(
     problems: &mut Diagnostics,
 ) {
     let names = names.filter(|name| is_well_formed(&name.value));
-    // Names that are one in Rust are an error already.
+    // Two names that become the same Rust name are already an error.
     let alike = with_first(names, folded).filter(|(first, name)| rust(&first.value) != rust(&name.value));
     problems.extend(alike.map(|(first, name)| differ_in_case(plural, first, name)));
 }

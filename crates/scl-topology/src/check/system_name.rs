@@ -18,7 +18,7 @@ pub(super) fn system_name(model: &Model, facts: &Facts) -> String {
     match name.len() {
         0 => "topology".to_owned(),
         length if length <= LONGEST_DEFAULT => name.to_owned(),
-        // The fingerprint keeps apart files whose names begin alike.
+        // The fingerprint distinguishes files whose names begin alike.
         _ => {
             let mark = fingerprint::short([name]);
             format!("{}-{mark}", &name[..LONGEST_DEFAULT - mark.len() - 1])

@@ -118,7 +118,7 @@ fn each_gate(draft: &Draft<'_>) -> Vec<Diagnostic> {
         let open: Vec<usize> = component.gates.iter().copied().filter(|&gate| is_open(draft, gate)).collect();
         let warned = open.iter().filter(|&&gate| draft.gates[gate].kind != Some(GateKind::Req)).count();
         let alone = component.gates.iter().all(|&gate| !draft.gates[gate].named);
-        // One gate alone is explained better by its own warning.
+        // A single gate is better explained by its own warning.
         let lonely = alone && warned > 1 && !component.model.gates_unread;
         if lonely {
             problems.push(lonely_component(draft, component, &open));

@@ -46,7 +46,7 @@ pub(super) fn check(
     let may_search = draft.may_search();
     let meant = if may_search { meant(draft, link, end, component, gate) } else { Vec::new() };
     let mut found = report(draft, text, headline, gate, &meant);
-    // Another name altogether; if a single gate is left for it, that one is not unconnected as well.
+    // No name is similar: suggest the gate if only one fits and is unconnected, and do not report that one as well.
     let left = if may_search && meant.is_empty() { only_left(draft, link, end, component) } else { None };
     if let Some(left) = left {
         let place = draft.part(text.span, gate, true);

@@ -55,7 +55,7 @@ pub(super) fn all(draft: &Draft<'_>) -> Vec<Wait> {
             _ => {}
         }
     }
-    // A puller that could not be read may be one that never makes the pusher wait.
+    // A connection that could not be read may lead to a puller that never makes the pusher wait.
     for gate in draft.links.iter().filter(|link| link.flow.is_none()).flat_map(|link| link.ends).flatten() {
         shared[gate].clear();
     }

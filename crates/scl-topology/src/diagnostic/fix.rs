@@ -68,7 +68,7 @@ fn removal(source: &SourceFile, span: Span) -> Option<Span> {
     if (head.is_empty() || head == "- ") && rest.trim_end().is_empty() {
         let end = span.end as usize + rest.len();
         return Some(match end == text.len() {
-            // Without a line break of its own, the line takes the one before it along.
+            // The last line has no line break of its own, so remove the one before it.
             true => Span {
                 start: before[..line.start].trim_end_matches(['\r', '\n']).len() as u32,
                 end: end as u32,

@@ -138,7 +138,7 @@ pub(crate) fn is_whole_number(text: &str) -> bool {
 pub(super) fn number(text: &str, least: u32, most: u32) -> Result<u32, OutOfRange> {
     let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
     let is_negative = text.starts_with('-') && digits.bytes().any(|digit| digit != b'0');
-    // Digits alone fail to parse only if they are too many.
+    // A text of digits fails to parse only by overflow.
     match digits.parse::<u32>() {
         _ if is_negative => Err(outside(format!("at least {least}"))),
         Ok(number) if number < least => Err(outside(format!("at least {least}"))),

@@ -14,7 +14,7 @@ impl Reader<'_> {
         match &section.value.kind {
             NodeKind::Sequence { items } => items.iter().for_each(|item| self.read_connection(item)),
             NodeKind::Unread => self.model.cut_off = true,
-            // No connections is a warning of its own.
+            // A file without connections gets its own warning.
             _ if section.value.is_null() => {}
             _ => {
                 self.remember_broken_ends(section.value);

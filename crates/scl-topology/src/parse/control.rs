@@ -24,7 +24,7 @@ impl Reader<'_> {
         for (hash, start) in candidates {
             let next = texts.partition_point(|text: &Span| (text.start as usize) <= hash);
             let in_text = next > 0 && hash < texts[next - 1].end as usize;
-            // The rest of a comment belongs to the first mark in it.
+            // A second mark in the same comment belongs to the text of the first.
             if !in_text && hash >= line_end {
                 line_end = self.source.line_range(hash).end;
                 let control = self.control(hash, start);

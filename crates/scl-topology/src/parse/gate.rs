@@ -30,7 +30,7 @@ impl Reader<'_> {
                     self.read_gate(gate, component);
                 }
             }
-            // A component without gates is a warning of its own.
+            // A component without gates gets its own warning.
             _ if field.value.is_null() => {}
             _ => {
                 component.gates_unread = true;
@@ -255,7 +255,7 @@ impl Reader<'_> {
             self.report(shape::gate::odd_arrow(kind, arrow, &meant));
             payload.value = meant;
         }
-        // A type in quotes is the same type; the place is that of the whole value.
+        // Quotes do not change a type; the span includes them.
         (kind.value.is_plain() || !payload.value.trim().is_empty()).then_some(payload)
     }
 }

@@ -29,7 +29,7 @@ impl Reader<'_> {
                 let value = text.trim().to_owned();
                 return (!value.is_empty() && !value.contains('\n')).then_some(Spanned { value, span: node.span });
             }
-            // Text without quotes that YAML reads as something else.
+            // YAML reads some texts without quotes as booleans or numbers.
             NodeKind::Scalar { text, .. } if node.is_plain() => self.problems.extend(
                 pitfall::misread_name::find_boolean(text, node.span)
                     .or_else(|| pitfall::misread_name::find_number(text, node.span)),

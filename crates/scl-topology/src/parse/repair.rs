@@ -106,7 +106,7 @@ pub(super) fn find(error: &SyntaxError, text: &CheckedText, source: &SourceFile,
     let text = &text.text;
     let window = window::around(error, text, source)?;
     find_in(&window, true, error, text, source, dialect).or_else(|| {
-        // A second mistake below keeps all of it from being read.
+        // A second mistake further down may make the whole window unreadable, so leave out the lines below.
         let above = window.without_lines_below(error, text, source)?;
         find_in(&above, false, error, text, source, dialect).filter(|repair| repair.is_sure)
     })
@@ -135,7 +135,7 @@ fn find_in(
         let most = best.map_or(MOST_PROBLEMS, |(left, _)| left - 1);
         if let Some(left) = problems_left(&window.with(edit, text), dialect).filter(|left| *left <= most) {
             best = Some((left, at));
-            // The others are no smaller, and mend no more.
+            // The remaining edits are not cheaper and cannot leave fewer problems.
             if left == 0 {
                 break;
             }

@@ -63,7 +63,7 @@ impl Reader<'_> {
         if field.key == "gates"
             && let Some(component) = self.model.components.last_mut()
         {
-            // They are most probably those of the component above.
+            // These are probably the gates of the component above.
             component.gates_unread = true;
             let name = component.name.span;
             self.problems.retain(|found| {

@@ -13,7 +13,7 @@ use crate::yaml::{SyntaxErrorKind, Tree};
 pub(super) fn explain(tree: &Tree, text: &CheckedText, source: &SourceFile, dialect: &Dialect) -> Option<Diagnostic> {
     let error = tree.error.as_ref()?;
     if error.kind == SyntaxErrorKind::Limit {
-        // The parser may notice it before it hands out the first of the nested values.
+        // The parser may reach its own, higher limit before it emits the first value that exceeds ours.
         return tree.too_deep.is_none().then(|| depth::diagnose(source.span(error.at..error.at), dialect));
     }
     if text.is_mended {

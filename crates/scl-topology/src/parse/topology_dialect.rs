@@ -25,7 +25,7 @@ fn mistakes(document: &Document, source: &SourceFile) -> usize {
     reader.read_root(document);
     let Reader { model, problems, .. } = reader;
     let found = problems.into_sorted();
-    // A part of the text may show one section only.
+    // A part of a file may contain only one section, so missing sections do not count.
     let counts =
         |found: &&Diagnostic| found.severity == Severity::Error && found.code() != shape::missing::SECTION.code;
     found.iter().filter(counts).count() + implausible(&model)

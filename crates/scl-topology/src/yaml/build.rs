@@ -104,7 +104,7 @@ impl<'t> Builder<'t> {
             ScalarStyle::SingleQuoted | ScalarStyle::DoubleQuoted => Style::Quoted,
             ScalarStyle::Literal | ScalarStyle::Folded => Style::Block,
         };
-        // The parser says `~` where nothing is written.
+        // The parser returns `~` for a missing value.
         let text = if span.start == span.end && style == Style::Plain { String::new() } else { text };
         let span = if style == Style::Block { self.without_blank_end(span) } else { span };
         self.attach_value(Node { span, kind: NodeKind::Scalar { text, style } }, anchor);

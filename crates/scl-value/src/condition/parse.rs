@@ -93,7 +93,7 @@ impl<'t> Parser<'t> {
             }
         }
         let (path, rest) = match start.strip_prefix('.') {
-            // The message itself.
+            // A single `.` is the message itself.
             Some(rest) if !rest.starts_with(|c: char| c.is_alphanumeric() || c == '"') => (FieldPath::default(), rest),
             _ => FieldPath::read(start).map_err(|reason| self.wrong(&reason))?,
         };

@@ -94,7 +94,7 @@ fn add_columns(
     for field in message.fields() {
         let path = above.clone().field(field.name());
         match of_field(&field) {
-            // A type within itself has no end; its JSON stands in one column.
+            // A recursive type would have endless columns, so its JSON goes into a single column.
             FieldKind::Message(inner) if inner.fields().len() > 0 && !around.contains(&inner) => {
                 around.push(inner.clone());
                 add_columns(&inner, &path, around, columns);

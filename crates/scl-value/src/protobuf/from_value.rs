@@ -43,7 +43,7 @@ pub(crate) fn from_value(
         if name == UNKNOWN {
             continue;
         }
-        // Its name in the `.proto` file, or in JSON.
+        // The key is the field's name in the `.proto` file or in JSON.
         let named = message.get_field_by_name(&name).or_else(|| message.get_field_by_json_name(&name));
         let Some(field) = named else {
             match unknown {
@@ -218,7 +218,7 @@ fn boolean_word(word: &str, error: Mismatch) -> Mismatch {
 }
 
 fn enum_number(descriptor: &EnumDescriptor, value: &Value) -> Result<i32, Mismatch> {
-    // A name may be a word of YAML: `NULL`, `TRUE`.
+    // The name of an enum value may be a YAML keyword: `NULL`, `TRUE`.
     let name = key_text(value);
     if let Some(named) = descriptor.get_value_by_name(&name) {
         return Ok(named.number());

@@ -25,7 +25,7 @@ fn example(message: &MessageDescriptor, around: &mut Vec<MessageDescriptor>, cou
         Some(Short::List) => Value::List(Vec::new()),
         None => {
             let mut fields: Vec<FieldDescriptor> = message.fields().filter(is_first).collect();
-            // A type within itself has no end.
+            // Skip recursive fields, which would never end.
             fields.retain(|field| !around.iter().any(|outer| contains(field, outer)) && !is_any(field));
             let mut entries = Vec::new();
             for field in fields {

@@ -17,7 +17,7 @@ pub(super) fn to_value(message: &DynamicMessage, depth: usize) -> Value {
 /// The fields of a message, whether it is a well-known one or not.
 fn plain(message: &DynamicMessage, depth: usize) -> Value {
     if depth >= MAX_DEPTH {
-        // The decoder accepts less; an `Any` within an `Any` is decoded on its own.
+        // The decoder's own limit is lower, but every nested `Any` is decoded separately.
         return Value::Null;
     }
     let descriptor = message.descriptor();

@@ -15,12 +15,12 @@ impl<'de> DeserializeSeed<'de> for AsWritten {
             Value::List(_) => input.deserialize_seq(self),
             Value::Map(_) => input.deserialize_map(self),
             meaning @ (Value::Null | Value::Bool(_) | Value::Int(_) | Value::Uint(_) | Value::Float(_)) => {
-                // As a text, a scalar is what was written.
+                // Deserialized as a string, a scalar is returned as it was written.
                 let text = String::deserialize(input)?;
                 let is_lost = !text.is_empty() && text != key_text(&meaning);
                 Ok(if is_lost { Value::Written(Box::new(Written { text, meaning })) } else { meaning })
             }
-            // YAML 1.1 and 1.2 read different numbers, so it is a text here.
+            // YAML 1.1 and 1.2 read different numbers here, so it stays a text.
             Value::Text(text) if has_leading_zero(&text) => {
                 IgnoredAny::deserialize(input)?;
                 Ok(Value::Written(Box::new(Written { meaning: Value::Text(text.clone()), text })))
@@ -55,7 +55,7 @@ impl<'de> Visitor<'de> for AsWritten {
             let read = AsWritten(std::mem::replace(item, Value::Null));
             *item = input.next_element_seed(read)?.ok_or_else(|| A::Error::custom("an item is missing"))?;
         }
-        // A list of YAML ends only when it is asked for more.
+        // A YAML list ends only when another element is requested.
         input.next_element::<IgnoredAny>()?;
         Ok(Value::List(items))
     }

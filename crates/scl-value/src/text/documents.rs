@@ -22,7 +22,7 @@ pub struct Documents {
 impl Documents {
     /// Adds a line, without its end. Returns the message that it completes.
     pub fn line(&mut self, line: &str) -> Option<Result<Value, ReadError>> {
-        // At the beginning of each file, if several were joined.
+        // If several files were concatenated, each may begin with a byte order mark.
         let line = line.trim_start_matches(BYTE_ORDER_MARK);
         if let Some(start) = line.strip_prefix("---").filter(|rest| rest.is_empty() || rest.starts_with([' ', '\t'])) {
             let complete = self.end();

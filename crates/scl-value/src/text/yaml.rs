@@ -30,13 +30,13 @@ impl From<ReadError> for Problem {
 /// # Errors
 /// The text is not YAML, has several documents, or unfolds into too many values.
 pub fn read_yaml(text: &str) -> Result<Value, ReadError> {
-    // Editors of Windows begin files with it.
+    // Windows editors may put it at the start of a file.
     let text = text.trim_start_matches(BYTE_ORDER_MARK);
     if text.trim().is_empty() {
         return Ok(Value::Map(Vec::new()));
     }
     let input = || serde_yaml::Deserializer::from_str(text);
-    // YAML has nearly all texts of JSON, but for example none with unescaped control characters above U+007E.
+    // Not all JSON is valid YAML: for example, YAML does not allow unescaped control characters above U+007E.
     let read = read_json(text.as_bytes()).or_else(|_| AnyValue::new(&Budget::new()).deserialize(input()));
     let value = read.map_err(|error| ReadError { reason: error.to_string() })?;
     Ok(AsWritten(value.clone()).deserialize(input()).unwrap_or(value))

@@ -6,7 +6,7 @@ use super::{EXACT, Value};
 pub(crate) fn canonical(value: &Value) -> Value {
     match value {
         Value::Float(number) if number.fract() == 0.0 && number.abs() <= EXACT as f64 => Value::Int(*number as i64),
-        // There are many with other bits.
+        // NaN has many bit patterns; use one of them.
         Value::Float(number) if number.is_nan() => Value::Float(f64::NAN),
         Value::List(items) => Value::List(items.iter().map(canonical).collect()),
         Value::Map(entries) => {

@@ -17,7 +17,7 @@ const EXTENSION_STRUCT: &str = rmp_serde::MSGPACK_EXT_STRUCT_NAME;
 ///
 /// All characters that a terminal could act on are escaped.
 pub fn to_json(value: &Value) -> String {
-    // Writing to memory cannot fail, and there is an answer for every value.
+    // Writing to memory cannot fail, and every value has a JSON form.
     escape_json(&serde_json::to_string(&InFormat(value, Format::Json)).unwrap_or_default()).into_owned()
 }
 

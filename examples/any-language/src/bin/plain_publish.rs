@@ -13,7 +13,7 @@ async fn main() -> Result<(), Box<dyn Error>> {
     let mut socket = PubSocket::new();
     for endpoint in gate["zmq_endpoints"].as_array().ok_or("no endpoints")? {
         let endpoint = endpoint.as_str().ok_or("no text")?.replace("{folder}", &folder);
-        // A killed program leaves its socket behind, which this library does not replace.
+        // A killed program leaves its socket file behind, and this library does not replace it.
         let _ = fs::remove_file(endpoint.trim_start_matches("ipc://"));
         socket.bind(&endpoint).await?;
     }

@@ -10,7 +10,7 @@ async fn main() -> Result<(), Box<dyn Error>> {
     let gate = &config["components"]["heater"]["gates"]["heating"];
     let endpoint = gate["zmq_endpoints"][0].as_str().ok_or("no endpoint")?;
     let endpoint = endpoint.replace("{folder}", &system_folder(config["system"].as_str().ok_or("no system")?)?);
-    // This library does not wait for a peer that starts later, as libzmq does.
+    // Unlike libzmq, this library does not wait for a peer that starts later.
     let mut socket = loop {
         let mut socket = SubSocket::new();
         match socket.connect(&endpoint).await {
@@ -22,7 +22,7 @@ async fn main() -> Result<(), Box<dyn Error>> {
     loop {
         let message = socket.recv().await?;
         let heating: Value = serde_json::from_slice(message.get(0).ok_or("no frame")?)?;
-        // Canonical protobuf JSON leaves out what is false or zero.
+        // Canonical protobuf JSON omits fields that are false or zero.
         println!("heating {}", if heating["on"] == true { "on" } else { "off" });
     }
 }

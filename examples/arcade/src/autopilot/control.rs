@@ -142,7 +142,7 @@ impl RateController {
         let slope = (rates - self.rates) * (1.0 / elapsed);
         self.derivative += (slope - self.derivative) * (elapsed / (DERIVATIVE_TIME + elapsed));
         self.rates = rates;
-        // The part of the force that the motors give now, while the body still turns to its direction.
+        // The component of the force along the current thrust axis: the body may still be turning towards the force.
         let along = thrust.force.dot(attitude.up()) * (parameters.thrust_hover / GRAVITY);
         Demand {
             thrust: clamp(along, parameters.thrust_minimum, parameters.thrust_maximum),

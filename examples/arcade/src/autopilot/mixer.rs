@@ -40,7 +40,7 @@ pub fn mix(demand: &Demand) -> Mixed {
     }
     let span: f64 = most - least;
     let kept = if span > 1.0 { 1.0 / span } else { 1.0 };
-    // Thrust moves to where roll and pitch have room on both sides.
+    // Shift the thrust so that roll and pitch saturate no motor.
     let mut thrust = demand.thrust;
     thrust = if thrust > 1.0 - most * kept { 1.0 - most * kept } else { thrust };
     thrust = if thrust < -least * kept { -least * kept } else { thrust };

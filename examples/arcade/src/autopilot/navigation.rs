@@ -101,7 +101,7 @@ impl Navigator {
     fn land(&mut self) {
         self.enter(Mode::Landing);
         let velocity = self.set_point.velocity;
-        // Half a second at the present velocity is where braking takes it, nearly.
+        // Braking takes the vehicle about as far as half a second at its current velocity.
         self.target = self.set_point.position + Vec3::new(velocity.x, velocity.y, 0.0) * 0.5;
         self.target.z = 0.0;
     }
@@ -137,7 +137,7 @@ impl Navigator {
         if estimate.position_valid {
             return Drive::Fly;
         }
-        // Once fixes come again, the vehicle is to stay where it then is.
+        // Let the target follow the estimate, so the vehicle holds its position once fixes return.
         self.target = Vec3::new(estimate.position.x, estimate.position.y, self.target.z);
         self.set_point.position = Vec3::new(estimate.position.x, estimate.position.y, self.set_point.position.z);
         self.set_point.velocity = Vec3::new(0.0, 0.0, self.set_point.velocity.z);

@@ -47,24 +47,24 @@ macro_rules! parameters {
 }
 
 parameters! {
-    // Angular rates to torque: the difference of motor set-points for 1 rad/s, its integral and its derivative.
+    // Angular rates to torque: difference of motor set-points per rad/s, per its integral and per its derivative.
     rate_p: "rate.roll_pitch.p" = 0.06,
     rate_i: "rate.roll_pitch.i" = 0.1,
     rate_d: "rate.roll_pitch.d" = 0.001,
     yaw_rate_p: "rate.yaw.p" = 0.15,
     yaw_rate_i: "rate.yaw.i" = 0.1,
-    // Attitude to angular rates: rad/s for 1 rad.
+    // Attitude to angular rates: rad/s per rad.
     attitude_p: "attitude.p" = 6.0,
     yaw_p: "attitude.yaw.p" = 2.0,
-    // Velocity to acceleration, horizontally and vertically: m/s^2 for 1 m/s, and for 1 m of its integral.
+    // Velocity to acceleration, horizontal and vertical: m/s^2 per m/s, and per metre of its integral.
     velocity_p: "velocity.p" = 2.5,
     velocity_i: "velocity.i" = 0.8,
     climb_p: "climb.p" = 4.0,
     climb_i: "climb.i" = 2.0,
-    // Position to velocity: m/s for 1 m.
+    // Position to velocity: m/s per metre.
     position_p: "position.p" = 1.0,
     height_p: "height.p" = 1.5,
-    // Estimation: how fast each correction acts, 1/s, and the integrals, 1/s^2.
+    // Estimation: how fast each correction acts, in 1/s, and each integral, in 1/s^2.
     attitude_correction: "estimation.attitude.p" = 2.0,
     gyro_bias_correction: "estimation.attitude.i" = 0.2,
     position_correction: "estimation.position.p" = 0.5,

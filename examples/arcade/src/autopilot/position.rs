@@ -107,7 +107,7 @@ impl PositionEstimator {
         let elapsed = step(self.height_us, height.time_us);
         self.height_us = height.time_us;
         let measured = match height.range {
-            // It measures along the body's z axis.
+            // The sensor measures along the body's z axis, so correct for the tilt.
             Some(Range::Ultrasonic(range)) if range.is_finite() => {
                 let measured = range * past.upright;
                 let change = height.barometer - measured - self.barometer_offset;

@@ -36,7 +36,7 @@ impl Quaternion {
     pub fn angles(self) -> Vec3 {
         let Self { w, x, y, z } = self;
         let sine = 2.0 * (w * y - z * x);
-        // Rounding may take the sine of a vertical pitch past 1.
+        // Rounding may push the sine beyond 1 when the pitch is vertical.
         let sine = sine.clamp(-1.0, 1.0);
         Vec3::new(
             (2.0 * (w * x + y * z)).atan2(1.0 - 2.0 * (x * x + y * y)),

@@ -12,9 +12,9 @@ struct Options {}
 #[scl::main]
 fn main(autopilot: Autopilot) -> scl::Result<()> {
     let Options {} = Options::parse();
-    // Belongs to this user alone, and is in memory on most systems.
+    // The runtime folder belongs to this user alone, and is in memory on most systems.
     let folder = RuntimeDir::locate(&|name| std::env::var_os(name))?;
-    // Another vehicle, which runs under another name of the system, has a file of its own.
+    // Each vehicle runs under its own system name, so each has its own file.
     let system = std::env::var("SCL_SYSTEM").ok().filter(|name| !name.is_empty());
     let file = format!("{}-autopilot.state", system.as_deref().unwrap_or("arcade"));
     flight_loop::run(autopilot, Memory::open(&folder.path().join(file)))

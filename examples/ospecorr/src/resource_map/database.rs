@@ -146,7 +146,7 @@ impl Database {
         let delete = "DELETE FROM observation WHERE time_us < \
                       (SELECT min(time_us) + (max(time_us) - min(time_us)) / 4 FROM observation)";
         self.connection.execute(delete, [])?;
-        // Moves what is in the log to the file and empties it.
+        // Copy the log into the database file and truncate it.
         self.connection.query_one("PRAGMA wal_checkpoint(TRUNCATE)", [], |_| Ok(()))?;
         let pages: u32 = self.connection.pragma_query_value(None, "page_count", |row| row.get(0))?;
         self.connection.pragma_update(None, "max_page_count", pages)
@@ -155,7 +155,7 @@ impl Database {
 
 /// Makes sure that the file has this program's tables: those that it has, or new ones if it is empty.
 fn prepare_tables(connection: &mut Connection) -> Result<(), OpenError> {
-    // Exclusive of other writers, so that nobody else creates tables in between.
+    // Lock out other writers, so none of them creates tables in between.
     let transaction = connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
     let number = |pragma| transaction.pragma_query_value(None, pragma, |row| row.get::<_, i32>(0));
     let (application, version) = (number("application_id")?, number("user_version")?);

@@ -30,7 +30,7 @@ pub struct Keeper {
     pub jobs: Sender<Job>,
     /// Why the thread has refused the database, if it has.
     pub refused: oneshot::Receiver<Refused>,
-    // After `jobs`: fields are dropped in this order, and the thread ends when no more jobs can come.
+    // Declared after `jobs`: fields are dropped in order, and the thread ends only once `jobs` is dropped.
     _thread: JoinOnDrop,
 }
 
@@ -46,7 +46,7 @@ impl Keeper {
         let (refuse, refused) = oneshot::channel();
         let thread = thread::Builder::new().name("database".to_owned()).spawn(move || {
             if let Err(error) = work(recorder, waiting) {
-                // Without a receiver the program is ending anyway.
+                // If the receiver is gone, the program is ending anyway.
                 let _ = refuse.send(error);
             }
         })?;
@@ -56,7 +56,7 @@ impl Keeper {
 
 impl Drop for JoinOnDrop {
     fn drop(&mut self) {
-        // A panic of the thread was printed when it happened.
+        // Ignore the result: if the thread panicked, the panic has already been printed.
         let _ = self.0.take().map(JoinHandle::join);
     }
 }

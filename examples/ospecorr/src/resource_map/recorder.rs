@@ -98,7 +98,7 @@ impl Recorder {
 
     /// Adds a block, to be written by the next [`flush`](Self::flush).
     pub fn add(&mut self, time_us: i64, channels: Vec<Channel>) {
-        // Each block has a time of its own, also when the clock was set back.
+        // Give each block a unique time, even if the clock was set back.
         self.newest_us = time_us.max(self.newest_us + 1);
         self.held.push_back(Block { time_us: self.newest_us, channels });
         if self.held.len() > MOST_HELD {
@@ -169,7 +169,7 @@ impl Recorder {
         if self.database.is_none() {
             self.database = Some(Database::open(&self.settings.path, self.settings.max_bytes)?);
             self.was_opened = true;
-            // On a disk that is full already there is no reserve.
+            // Fails if the disk is already full; then there is no reserve.
             let _ = fs::write(ending(&self.settings.path, RESERVE), vec![0; RESERVE_BYTES]);
         }
         if let Some(mut database) = self.database.take() {
@@ -201,7 +201,7 @@ impl Recorder {
         let moved = (1..).map(|n| ending(path, &format!(".corrupt-{n}"))).find(|it| !it.exists());
         let moved = moved.unwrap_or_default();
         for log in ["-wal", "-shm"] {
-            // Usually there is none: SQLite removes it when it closes the file.
+            // Usually missing: SQLite removes these files when it closes the database.
             let _ = fs::rename(ending(path, log), ending(&moved, log));
         }
         fs::rename(path, &moved).map_err(|error| self.refused(&cannot_move(&moved, &error)))?;
@@ -214,7 +214,7 @@ impl Recorder {
         if self.made_room == MadeRoom::Never {
             self.say("is full; from now on the oldest observations make room for new ones");
         }
-        // Removing is a transaction, too, and needs room for its log.
+        // Free the reserve first: removing rows is a transaction too, and its log needs space.
         let _ = fs::remove_file(ending(&self.settings.path, RESERVE));
         if let Some(database) = &mut self.database
             && let Err(error) = database.remove_oldest()

@@ -52,7 +52,7 @@ impl Receiver {
         for (n, sample) in iq.chunks_exact_mut(2).enumerate() {
             let (symbol, offset) = ((timing + n) / SAMPLES_PER_SYMBOL, (timing + n) % SAMPLES_PER_SYMBOL);
             let mut shaped = [0.0; 2];
-            // The pulses of the last `SPAN` symbols overlap here, the newest at its beginning.
+            // The pulses of the last `SPAN` symbols overlap in this sample; the newest pulse has just begun.
             let newest_first = symbols[symbol..symbol + SPAN].iter().rev();
             for ([re, im], tap) in newest_first.zip(self.pulse[offset..].iter().step_by(SAMPLES_PER_SYMBOL)) {
                 shaped[0] += re * tap;

@@ -88,7 +88,7 @@ fn expand_root(context: &Context<'_>, root: Tree) -> TokenStream {
     if root.code.is_empty() {
         return packages;
     }
-    // Messages without a package belong beside the components. A module of their own keeps the imports from there.
+    // Messages without a package belong next to the components; a separate module keeps the imports out of there.
     let code = with_imports(context, root.code);
     let imports = expand_imports(context);
     let hidden = format_ident!("messages_of_{}", context.path_as_identifier());
@@ -159,6 +159,6 @@ fn refused(context: &Context<'_>, error: &str) -> TokenStream {
     let path = &context.path;
     let problem = format!("[SCL0406] cannot generate Rust from {schemas} of `{path}`: {error}\n = note: {BUG}");
     let error = quote_spanned! { context.span => ::core::compile_error! { #problem } };
-    // A file with errors has declared the unknown type with the first of them.
+    // If the file has errors, the first of them has already declared the unknown type.
     if context.loaded.topology.is_some() { expand_unknown_as(context, error) } else { error }
 }

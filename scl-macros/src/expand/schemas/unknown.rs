@@ -37,20 +37,20 @@ pub(super) fn expand_stand_ins(context: &Context<'_>) -> TokenStream {
             root.declare(package.iter().copied().chain(path.iter().map(String::as_str)));
         }
     }
-    // Types that gates name may be those of a schema that could not even be read.
+    // Gates may name types of a schema that could not even be read.
     for dotted in written_types(loaded).filter(|dotted| dotted.contains('.') && !starts_with_crate(context, dotted)) {
         root.declare(dotted.split('.'));
     }
     if context.for_editor {
         return expand_module(&root, 1, &|_| expand_unknown_type(context));
     }
-    // A type that does not implement the trait because it is erroneous: rustc accepts even struct literals of it.
+    // The `Target` of an erroneous type, which does not implement `Deref`: rustc accepts even struct literals of it.
     let unknown = expand_unknown_type(context);
     let modules = expand_module(&root, 1, &|depth| {
         let supers = std::iter::repeat_n(quote!(super::), depth);
         quote!(<#(#supers)* #unknown as ::core::ops::Deref>::Target)
     });
-    // An import of everything gives way to a module or a type of the user's with the same name.
+    // A glob import is shadowed by the user's own module or type of the same name.
     let hidden = format_ident!("__scl_unknown_messages_{}", context.path_as_identifier());
     quote! {
         #[doc(hidden)]

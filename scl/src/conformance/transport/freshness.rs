@@ -57,7 +57,7 @@ pub async fn catches_up_with_a_busy_sender(transport: &dyn Transport) {
             assert!(newest >= called_at, "{pattern:?}: {newest} is older than the call, {called_at}");
             let sent = last - called_at;
             assert!(sent <= MANY, "{pattern:?}: the sender sent {sent} messages until the receiver had caught up");
-            // A pause, in which the sender goes on.
+            // The sender continues between two calls.
             send(&mut sender, &mut last, 1000).await;
         }
     }

@@ -28,7 +28,7 @@ pub async fn carries_loans(transport: &dyn Transport) {
     for pattern in PATTERNS {
         let (mut sender, mut receiver) = pattern.connected(transport).await;
         for round in 0..30 {
-            // All at once, before anything is sent.
+            // Borrow memory for all messages before sending any.
             let messages = LENGTHS.map(|length| numbered_content(length, round));
             let mut frames = Vec::new();
             for message in &messages {
@@ -66,7 +66,7 @@ pub async fn returns_loans_that_it_refuses(transport: &dyn Transport) {
         for number in 0..MESSAGES {
             let message = numbered_content(LENGTH, number);
             let loan = sender.link.as_mut().and_then(|link| link.watched.end.loan(LENGTH));
-            // A link need not have memory for so many.
+            // The link may have run out of memory to lend.
             let frame = loan.map_or_else(|| message.clone().into(), |loan| fill(loan, &message));
             sender.queue_frame(frame);
             super::turns(1, |cx| assert!(sender.poll(cx), "{pattern:?}: disconnected")).await;

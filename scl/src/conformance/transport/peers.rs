@@ -45,7 +45,7 @@ pub async fn connects_without_room(transport: &dyn Transport) {
                 if sender.poll(cx) && receiver.watched.end.peers() == 1 { Poll::Ready(()) } else { Poll::Pending }
             })
             .await;
-            // When there is room, what was sent meanwhile is there.
+            // Messages sent while the receiver has no room arrive as soon as it has.
             sender.queue(numbered(3));
             turns(20, |cx| {
                 sender.poll(cx);

@@ -162,7 +162,7 @@ async fn is_answered(requester: &mut TestRequester, replier: &mut TestReplier) -
         if !requested && requester.poll_connected(cx).is_ready() {
             requested = requester.request(1, Bytes::from_static(b"question")).is_ok();
             if !requested {
-                // The connection broke since it was reported.
+                // The connection broke after it was reported; try again.
                 cx.waker().wake_by_ref();
             }
         }

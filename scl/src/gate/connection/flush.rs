@@ -23,7 +23,7 @@ impl SendingEnd for Connection {
         if !taken || !self.is_written() {
             return Poll::Pending;
         }
-        // The end may be removed next, and its task with it, which would have woken the others.
+        // Wake the other flushes now: the caller may remove the end and its task, which would have woken them.
         self.waiting_flushes.drain(..).filter(|waiting| !waiting.will_wake(cx.waker())).for_each(Waker::wake);
         Poll::Ready(())
     }
@@ -72,7 +72,7 @@ impl SendingEnd for Connection {
 
 impl Connection {
     fn report(&self, messages: u64) -> Unflushed {
-        // Nobody waits for an optional component that is not running.
+        // A gate does not wait for an optional peer that is not connected.
         let lossless = self.queue.waits() && (self.peer.is_some() || self.link.required);
         Unflushed { gate: self.gate, peer: self.peer_name(), messages, running: false, lossless }
     }

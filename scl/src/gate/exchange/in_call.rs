@@ -30,8 +30,8 @@ impl Drop for InCall<'_> {
         let mut end = self.exchange.lock();
         end.sent_calls.retain(|call| call.id != self.id);
         self.exchange.calls.end(self.id, self.watchdog.take());
-        // Polled once more, so that an event reported to the call is handled, and the next one wakes the task or
-        // another call.
+        // Drive the end once more: this handles an event that has woken only this call, and makes the next one wake the
+        // task or another call.
         if end.drive() {
             self.exchange.calls.wake_call();
         }

@@ -93,7 +93,7 @@ pub(super) fn decode(block: &[u8]) -> Option<ComponentStats> {
     let ready = rest.try_get_u32_le().ok()? & 1 != 0;
     let gates = rest.try_get_u32_le().ok()?;
     let _reserved = rest.try_get_u32_le().ok()?;
-    // Collecting stops at the first gate that is missing, so a wrong number reserves nothing.
+    // Collecting stops at the first missing gate, so a wrong count does not cause a large allocation.
     let gates = (0..gates).map(|_| take_gate(&mut rest)).collect::<Option<Vec<_>>>()?;
     (rest.len() == COUNTER).then_some(ComponentStats { written, period, pid, started, ready, gates })
 }

@@ -249,7 +249,7 @@ impl<T> PipeReader<T> {
 
     /// Notes how many of the items that were returned the caller keeps for later.
     pub(super) fn note_waiting(&self, waiting: u64) {
-        // Items of an earlier pipe may wait, too.
+        // `waiting` may include items of an earlier pipe.
         let received = self.taken.get().saturating_sub(waiting);
         self.shared.received.fetch_max(received, Ordering::Release);
     }

@@ -39,7 +39,7 @@ impl Receiver for Subscriber {
                     self.publisher = None;
                     self.connector.connect_again();
                 }
-                // A publisher that has dropped the connection and still listens has replaced this end by another.
+                // Do not connect to this publisher again: if it still listens, it has replaced this end by another.
                 None => self.publisher = None,
             }
         }
@@ -62,7 +62,7 @@ impl Receiver for Subscriber {
         if let Some(publisher) = &self.publisher {
             publisher.note_waiting(waiting + self.fetched.len() as u64);
         }
-        // Its sender looks at the number whenever it wants to.
+        // Always true: the sender never asks for the number, but reads it whenever it needs it.
         true
     }
 
@@ -112,7 +112,7 @@ impl Receiver for Puller {
             self.pushers.add(pusher);
         }
         let max_size = self.listener.endpoint.max_size;
-        // Without a message, the pusher is removed and thereby disconnected.
+        // Returning `None` removes the pusher and thereby disconnects it.
         self.pushers.poll(|pusher| pusher.poll_recv(cx).map(|message| message.filter(|it| it.len() <= max_size)))
     }
 

@@ -121,7 +121,7 @@ impl Replier for MemoryReplier {
         let max_size = self.listener.endpoint.max_size;
         self.requesters.poll(|requester| {
             let request = requester.requests.poll_recv(cx);
-            // Without a request, the requester is removed and thereby disconnected.
+            // Returning `None` removes the requester and thereby disconnects it.
             request
                 .map(|request| request.filter(|request| request.body.len() <= max_size).map(|it| requester.receive(it)))
         })
@@ -147,7 +147,7 @@ impl ToRequester {
     }
 
     fn receive(&mut self, request: Numbered) -> IncomingRequest {
-        // Envelopes are cut from a larger piece of memory, which is used again once they are dropped.
+        // Envelopes are split off a larger buffer, which is reused once they are dropped.
         self.envelopes.put_u64(request.id);
         let envelope = self.envelopes.split().freeze();
         let path = Arc::clone(&self.replies);
@@ -168,7 +168,7 @@ impl ReplyPath for PipeWriter<Answer> {
     }
 
     fn refuse(&self, envelope: &Bytes) {
-        // A requester that is gone waits for nothing.
+        // A requester that is gone need not be told.
         let _told = self.answer(envelope, |id| Answer::Refused { id });
     }
 }

@@ -42,7 +42,7 @@ impl Sender for Pusher {
         loop {
             let puller = ready!(self.puller.poll_connection(cx));
             if puller.is_open() {
-                // Once the link has been dropped, the same puller is connected to again.
+                // After the link is dropped, connect to the same puller again.
                 self.puller.connect_again();
                 return Poll::Ready(peer(MemoryLink::new(puller, Some(self.links.new_link()))));
             }
@@ -84,7 +84,7 @@ impl Link for MemoryLink {
     }
 
     fn send(&mut self, cx: &mut Context<'_>, message: Frame) -> Sent {
-        // A loan that cannot be sent yet stays one.
+        // Return a loan that cannot be sent yet as a loan, not as bytes.
         if matches!(message, Frame::Loan(_)) && !self.pipe.has_room(cx) {
             return Sent::Full(message);
         }

@@ -177,7 +177,7 @@ impl<L, C> Connector<L, C> {
             return Poll::Pending;
         }
         if let Some(check) = &self.endpoint.check {
-            // Without holding a lock, because the check is code of others.
+            // No lock is held here, because the check is foreign code.
             self.refusal = check().err();
             if self.refusal.is_some() {
                 return Poll::Pending;
@@ -203,7 +203,7 @@ impl<L, C> Connector<L, C> {
             self.again = false;
             return Poll::Ready(connection);
         }
-        // Since the listener was found, it may have been dropped.
+        // The listener may have been dropped since it was found.
         let listener = table.by_name.get(&*self.endpoint.name).and_then(|registered| registered.listener.as_ref());
         let Some(listener) = listener else { return Poll::Pending };
         let (connection, waker) = self.switchboard.pair_up(listener, &mut end);

@@ -141,7 +141,7 @@ impl Acceptor {
         while self.dir.poll_restored(&mut self.restored, cx).is_ready() {
             is_due = true;
         }
-        // Also reported when only other files in the folder were removed.
+        // A restoration is also reported when only other files were removed, so check whether this one is still there.
         while is_due && !self.guard.is_ours() {
             let _inside = runtime.enter();
             match Listener::bind(&self.dir, self.kind, &self.endpoint.name) {
@@ -165,7 +165,7 @@ impl Acceptor {
         let mut may_be_more = self.accept_waiting(cx, &mut arrived);
         if !arrived.is_empty() && self.admit(cx, arrived, open) > 0 {
             self.pause.set(STRANGERS_PAUSE);
-            // Polled so that it wakes the task.
+            // Poll the pause, so that its end wakes the task.
             may_be_more = self.pause.poll(cx).is_ready();
         }
         if may_be_more {
@@ -245,7 +245,7 @@ impl Acceptor {
         tracing::debug!(endpoint = %self.endpoint.name, %error, "cannot accept a connection");
         match Errno::from_io_error(error) {
             _ if is_out_of_descriptors(error) => return self.turn_away(cx),
-            // The peer has gone again.
+            // Only this connection failed, or the call was interrupted: try the next one.
             Some(Errno::CONNABORTED | Errno::INTR | Errno::NOTCONN | Errno::INVAL) => {}
             None => {}
             _ => self.pause.set(PAUSE),

@@ -147,7 +147,7 @@ impl ReceiveCredit {
     /// Notes that the program has received all but the given number of messages. Returns true if the sender is to be
     /// told.
     pub(super) fn note_waiting(&mut self, waiting: u64) -> bool {
-        // Messages of an earlier connection may wait, too.
+        // `waiting` may include messages of an earlier connection.
         self.received = self.received.max(self.taken.saturating_sub(waiting));
         self.awaited.take_if(|awaited| *awaited <= self.received).is_some()
     }

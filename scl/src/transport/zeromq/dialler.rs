@@ -119,7 +119,7 @@ impl Dialler {
         };
         match poll_handshake(&mut session, cx) {
             Poll::Ready(ready) => {
-                // A timer that goes on would wake a task that has nothing to do.
+                // Otherwise, the timer would wake the task for nothing.
                 self.limit.clear();
                 Poll::Ready(ready.map(|peer| (session, peer)))
             }
@@ -150,7 +150,8 @@ impl Dialler {
 
     fn connect(&mut self) -> io::Result<Session> {
         let address = runtime_dir::find(&self.dir, &self.endpoint.name);
-        // A peer with another type or codec listens elsewhere, so it is looked for now and then even if nobody is here.
+        // A peer with another type or codec listens at another endpoint, so check for one now and then even if nothing
+        // listens at this one.
         if address.is_some() || self.attempts % ATTEMPTS_PER_CHECK == ATTEMPTS_PER_CHECK - 1 || self.is_slow() {
             self.refusal = self.endpoint.check.as_ref().and_then(|check| check().err());
         }
@@ -189,8 +190,8 @@ impl Dialler {
             self.warn_once(&error.to_string());
         }
         self.attempts = self.attempts.saturating_add(1);
-        // Nothing was learned about the peer if no file descriptor is free, if its user cannot be checked now, or if it
-        // has not accepted others yet.
+        // These errors say nothing about the peer: no file descriptor is free, its user cannot be checked now, or its
+        // backlog is full.
         let unknown = |error: &io::Error| is_out_of_descriptors(error) || error.kind() == io::ErrorKind::WouldBlock;
         if !matches!(error, Closed::Io(error) if unknown(error)) {
             self.attempts_since_arrival = self.attempts_since_arrival.saturating_add(1);

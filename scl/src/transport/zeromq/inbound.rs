@@ -112,7 +112,7 @@ impl Inbound {
             }
         }
         if !self.session.is_written() {
-            // A peer that does not take acknowledgements any more may still have sent messages.
+            // A peer that no longer reads acknowledgements may still have sent messages.
             let _reported_by_reading = self.session.flush(cx);
         }
         self.emptied = self.session.take_emptied();
@@ -152,7 +152,7 @@ impl Inbound {
 
     fn take_sample(&mut self, sequence: u64, length: u64) -> Result<Bytes, Closed> {
         let (message, waits) = self.arriving.receive(sequence, length)?;
-        // Its memory is not the socket's, so its bytes do not count.
+        // The message is in shared memory, so its bytes do not count towards the window.
         self.count_taken(0);
         if waits && !self.credit.as_ref().is_some_and(ReceiveCredit::is_deferred) {
             self.acknowledge();
@@ -192,7 +192,7 @@ impl Inbound {
         let is_awaited = credit.is_awaited();
         if is_due {
             self.acknowledge();
-            // Nothing else may happen on this connection until the sender has read that.
+            // Flush now: this connection may have no other event until the sender has read the acknowledgement.
             let _reported_by_reading = self.session.flush(cx);
         }
         is_awaited
@@ -229,7 +229,7 @@ impl Inbound {
 
     fn write_acknowledgement(&mut self, numbers: Option<(u64, u64)>) {
         if let Some((taken, received)) = numbers {
-            // A peer that does not take acknowledgements any more may still have sent messages.
+            // A peer that no longer reads acknowledgements may still have sent messages.
             let _reported_by_reading = self.session.write(&acknowledgement(taken, received));
         }
     }
@@ -245,7 +245,8 @@ impl Inbound {
         if !self.newest_only {
             return Poll::Ready(());
         }
-        // The runtime may not have looked for a while. It must get its turn even if something new is always there.
+        // Read directly, because the runtime may not have polled the socket for a while. Yield to the runtime even if
+        // there is always more to read.
         if !std::mem::take(&mut self.emptied) && self.fill_raw() {
             ready!(pin!(coop::consume_budget()).poll(cx));
         }
@@ -267,7 +268,7 @@ impl Inbound {
         }
         self.catch_up.end_wait();
         if !self.ahead.is_empty() || self.closed.is_some() {
-            // The runtime does not report what was read without it.
+            // tokio does not see raw reads, so wake the task explicitly.
             cx.waker().wake_by_ref();
         }
         Poll::Ready(())
@@ -281,7 +282,7 @@ impl Inbound {
         if !self.newest_only {
             return;
         }
-        // The answer to an open question may be on its way already, so that one is not enough.
+        // The answer to an open question may have been sent before this call, so ask again.
         let is_answered = self.catch_up.is_fresh();
         self.await_answer();
         if !is_answered {
@@ -299,7 +300,7 @@ impl Inbound {
     }
 
     fn await_answer(&mut self) {
-        // What has arrived already does not tell what waits now.
+        // Read everything first: an answer that has already arrived does not tell what the sender holds now.
         self.read_ahead();
         self.catch_up.await_answer();
     }

@@ -156,7 +156,7 @@ impl SendLink {
         let message = message.make_bytes();
         self.session.write_message(&[], Header::new(0, message.len()).as_bytes(), message)?;
         self.session.flush(cx)?;
-        // Not earlier: a message that is handed back is not on its way.
+        // Count only now: a message that is handed back was not sent.
         if let Some(credit) = &mut self.credit {
             credit.count_sent(message.len());
         }
@@ -171,8 +171,8 @@ impl SendLink {
             Ok(Some(command)) => self.session.write(&command).and_then(|()| self.session.flush(cx)),
             Err(error) => Err(error),
         };
-        // Also if that failed: the sample is gone, so the message is on its way, and lost with the connection. Its
-        // bytes are not the socket's.
+        // Count it even if writing failed: the sample is gone, so the message counts as sent, and is lost with the
+        // connection. Its bytes are in shared memory and do not count.
         credit.count_sent(0);
         if let Err(error) = written {
             self.fail(cx, &error.into());
@@ -203,7 +203,7 @@ impl SendLink {
         }
         self.session.write_shared(self.batch.split().freeze())?;
         self.session.flush(cx)?;
-        // Not earlier: messages that stay in the queue are not on their way.
+        // Count only now: messages that stay in the queue were not sent.
         if let Some(credit) = &mut self.credit {
             queue.iter().take(count).for_each(|message| credit.count_sent(message.len()));
         }
@@ -227,7 +227,7 @@ impl SendLink {
                 if self.window_is_open() || self.state == State::Broken {
                     break;
                 }
-                // Only what has been polled wakes the task when an acknowledgement arrives.
+                // Poll the session; otherwise an acknowledgement does not wake the task.
                 self.try_drive(cx)?;
                 if !self.has_room() {
                     break;
@@ -287,7 +287,7 @@ impl Link for SendLink {
             return self.refused(message);
         }
         let age = u64::try_from(age.as_nanos()).unwrap_or(u64::MAX);
-        // A plain ZeroMQ program gets the message alone.
+        // A plain ZeroMQ program gets the message without its age.
         let told = if self.credit.is_some() { self.session.write(&latched(age)) } else { Ok(()) };
         match told.map_err(Closed::from).and_then(|()| self.send_one(cx, &mut message)) {
             Ok(()) => Sent::Sent,

@@ -58,7 +58,7 @@ impl Receiver for Puller {
             }
             let before = self.pushers.len();
             self.accept(cx);
-            // Those that were polled already will wake the task; the others must be polled as well.
+            // The connections polled above will wake the task, but new ones have to be polled first.
             if self.pushers.len() == before {
                 return Poll::Pending;
             }

@@ -67,7 +67,7 @@ impl Replier for ReplyingEnd {
             }
             let before = self.requesters.connections.len();
             self.accept(cx);
-            // Those that were polled already will wake the task; the others must be polled as well.
+            // The connections polled above will wake the task, but new ones have to be polled first.
             if self.requesters.connections.len() == before {
                 return Poll::Pending;
             }
@@ -178,7 +178,7 @@ impl Exchange {
         if let (Some(session), Some(number), true) = (&mut self.session, number, self.is_scl)
             && !session.is_unread(self.in_flight)
         {
-            // A connection that broke is noticed when it is polled.
+            // A broken connection is noticed when it is polled next.
             let _written = session.write(&refused(u64::from_be_bytes(number)));
             self.wake_unless_written();
         }

@@ -46,7 +46,7 @@ impl Session {
     pub(super) fn new(stream: Stream, decoder: Decoder, hello: &Bytes) -> Self {
         let unwritten = VecDeque::new();
         let mut session = Self { stream, decoder, unwritten, unwritten_bytes: 0, emptied: false };
-        // A stream that is broken already reports that when it is read.
+        // If the stream is already broken, reading it reports that.
         let _reported_by_reading = session.write_shared(hello.clone());
         session
     }
@@ -112,7 +112,7 @@ impl Session {
 
     /// The same, and reads it without the runtime.
     pub(super) fn wait(&mut self, within: Duration) -> bool {
-        // A broken connection reports that to the next poll, too.
+        // A broken connection is also reported by the next poll.
         self.is_written() && self.wait_readable(within) && matches!(self.fill_raw(), Ok(true))
     }
 

@@ -34,7 +34,7 @@ impl Subscriber {
     /// Connects to the publisher, while there is none.
     fn poll_publisher(&mut self, cx: &mut Context<'_>) -> Poll<&mut Inbound> {
         let (mut session, ready) = ready!(self.dialler.poll_connected(cx));
-        // Not earlier: libzmq closes a connection on which this arrives together with READY.
+        // Not sent earlier: libzmq closes a connection on which this arrives together with READY.
         if ready.scl.is_some_and(|scl| scl.latched) {
             let _reported_by_reading = session.write(&resume(self.resumed));
         }

@@ -66,7 +66,7 @@ impl TapReader {
 
 impl Subscribed {
     fn new(mut session: Session) -> Self {
-        // Not earlier: libzmq closes a connection on which this arrives together with READY.
+        // Not sent earlier: libzmq closes a connection on which this arrives together with READY.
         let _reported_by_reading = session.write(SUBSCRIBE_ALL_AND_PING);
         Self { session, is_confirmed: false, first: None }
     }

@@ -29,7 +29,7 @@ impl Socket {
     }
 
     fn listening(address: SocketAddr) -> Self {
-        // The kernel wants zeros for both families.
+        // The kernel expects an all-zero remote address for listening sockets of both families.
         Self { local: canonical(address), remote: (Ipv6Addr::UNSPECIFIED, 0).into(), listens: true }
     }
 
@@ -115,7 +115,7 @@ impl UserChecks {
                 let reason = format!("the peer belongs to user {user}, this program to user {own}");
                 Err(io::Error::new(io::ErrorKind::PermissionDenied, reason))
             }
-            // A peer that has just left, or never was there.
+            // The peer has just closed its socket, or never had one.
             None => Err(io::ErrorKind::ConnectionRefused.into()),
         }
     }

@@ -24,7 +24,7 @@ impl Topics {
                 }
                 self.bytes += topic.len();
                 self.everything += usize::from(topic.is_empty());
-                // Copied, so that a short topic does not keep all that was read with it.
+                // Copied, so that a short topic does not keep the whole receive buffer alive.
                 self.topics.push(Bytes::copy_from_slice(&topic));
             }
             Subscription::Cancel(topic) => {

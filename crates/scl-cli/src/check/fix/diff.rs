@@ -11,7 +11,7 @@ const SEARCH: Duration = Duration::from_secs(1);
 
 /// `--- path`, `+++ path` and the hunks; empty if nothing differs.
 pub(super) fn unified_diff(path: &str, old: &str, new: &str) -> String {
-    // Not `diff_lines`, for which a carriage return ends a line, too.
+    // Not `diff_lines`, which also splits lines at carriage returns.
     let [old, new] = [old, new].map(|text| text.split_inclusive('\n').collect::<Vec<_>>());
     let diff = TextDiff::configure().timeout(SEARCH).newline_terminated(true).diff_slices(&old, &new);
     diff.unified_diff().context_radius(CONTEXT).header(path, path).to_string()

@@ -13,12 +13,12 @@ use tempfile::NamedTempFile;
 /// The file no longer holds `old`, or the operating system refuses. The file is then as it was.
 pub(super) fn replace_file(path: &Path, old: &str, new: &str) -> io::Result<()> {
     let path = fs::canonicalize(path)?;
-    // In the same folder, as only within one file system a rename is atomic.
+    // In the same folder, because a rename is atomic only within one file system.
     let mut file = NamedTempFile::new_in(path.parent().unwrap_or(Path::new("/")))?;
     file.as_file().set_permissions(fs::metadata(&path)?.permissions())?;
     file.write_all(new.as_bytes())?;
     file.as_file().sync_all()?;
-    // As late as possible: an editor may have saved the file meanwhile.
+    // Check as late as possible: an editor may have saved the file in the meantime.
     if fs::read(&path)? != old.as_bytes() {
         return Err(io::Error::other("the file changed while it was being fixed"));
     }

@@ -100,7 +100,7 @@ impl Incoming {
             return Outcome { too_large: offset == 0, ..Outcome::default() };
         }
         if offset == 0 {
-            // No reservation: `total` is only a claim.
+            // Do not preallocate: `total` is only a claim of the sender.
             self.partial = Some(Partial { sequence: header.sequence, attempt: header.attempt, bytes: BytesMut::new() });
         }
         let continues = |partial: &&mut Partial| {

@@ -45,7 +45,7 @@ pub(in crate::wire) struct ReceivingEnd {
 impl ReceivingEnd {
     /// Receives what `host` sends on `key`. Closed at first.
     pub(in crate::wire) fn new(commands: &Commands, host: &str, key: &str, max_size: u64) -> Self {
-        // Twice what the sender may have on its way: it may have started over.
+        // Twice what the sender may have in flight, because it may have started over.
         let mail = Arc::new(Mailbox::new(2 * max_size.saturating_add(4 * WINDOW_BYTES)));
         let (host, key, thread_mail) = (host.to_owned(), key.to_owned(), Arc::clone(&mail));
         let declared_key = key.clone();

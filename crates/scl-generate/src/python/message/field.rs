@@ -73,7 +73,7 @@ impl<'a> Field<'a> {
                     out.line(format!("def {}(self) -> {}:", self.name, self.read));
                     out.indented(|out| {
                         docs::write(comment, out);
-                        // Without it, checkers see a function that forgets to return.
+                        // With only a docstring, type checkers report a missing return.
                         out.line("...");
                     });
                 }

@@ -43,7 +43,7 @@ pub(super) fn write(
 
     let oneofs: Vec<(usize, &str)> = message.oneof_decl.iter().map(|oneof| oneof.name()).enumerate().collect();
     let members = |index: usize| fields.iter().filter(move |field| field.oneof == Some(index)).map(|field| field.name);
-    // A field with `optional` is a oneof of its own, with a name that nobody uses.
+    // Skip the synthetic oneofs of `optional` fields: nobody uses their names.
     let oneofs: Vec<_> = oneofs.into_iter().filter(|(index, _)| members(*index).next().is_some()).collect();
     let groups = || oneofs.iter().map(|(_, name)| *name);
 

@@ -22,16 +22,16 @@ pub(in crate::schemas) fn find_clashes(
     let nameless = nameless.into_iter().filter(|declared| told.insert(declared.what.as_str()));
     let mut found: Vec<Diagnostic> = nameless.map(|declared| report_nameless(declared, places)).collect();
 
-    // Two components with one name are another rule's.
+    // Two components with the same name are reported by another rule.
     let components: Vec<Declared<'_>> = of_components(model).collect();
     let key = |declared: &'_ Declared<'_>| (declared.scope.clone(), declared.name.clone());
     let mut first: HashMap<_, &Declared<'_>> = components.iter().map(|component| (key(component), component)).collect();
     let mut told = HashSet::new();
     for declared in named {
         let other = *first.entry(key(declared)).or_insert(declared);
-        // Packages whose names become one share a module, and a package may have several files.
+        // Packages with the same module name share the module, and several files may declare one package: no clash.
         let is_one = other.what == declared.what || is_package(other) && is_package(declared);
-        // Several names come from one declaration; one of them tells enough.
+        // One declaration may produce several clashing names; report only the first.
         if !is_one && told.insert((&other.origin, &declared.origin)) {
             found.push(report(other, declared, places));
         }

@@ -56,7 +56,7 @@ pub(super) fn of_schema(file: &FileDescriptorProto) -> Vec<Declared<'_>> {
     let mut package = String::new();
     for part in package_parts(file.package()) {
         package = dotted(&package, part);
-        // Packages whose modules are equal share it, so they are one thing.
+        // Packages with the same module name share the module, so they do not clash.
         let module = snake_case(part);
         walk.add(walk.module(), &module, format!("package `{package}`"), vec![FILE_PACKAGE]);
         walk.modules.push(module);
@@ -199,7 +199,7 @@ fn methods(message: &DescriptorProto, field: &FieldDescriptorProto, name: &str, 
     let plain = name.trim_start_matches("r#");
     if let Some(entry) = map_entry(message, field) {
         let has_enum = entry.field.iter().any(|field| field.name() == "value" && field.r#type() == Type::Enum);
-        // Not `plain`: the derive macro does not take `r#` off here.
+        // Not `plain`: the derive macro keeps the `r#` here.
         return if has_enum { vec![format!("get_{name}"), format!("insert_{name}")] } else { Vec::new() };
     }
     match (field.r#type(), field.label()) {

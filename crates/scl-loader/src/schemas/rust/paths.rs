@@ -9,7 +9,7 @@ use std::collections::HashMap;
 pub fn rust_paths(schemas: &Schemas) -> HashMap<String, Vec<String>> {
     let mut paths = HashMap::new();
     for file in &schemas.file_descriptor_set.file {
-        // prost makes a field of a map type of an entry, and no struct.
+        // prost generates a map field for a map entry, not a struct.
         for (path, _) in messages(file).into_iter().filter(|(_, message)| !is_map_entry(message)) {
             let Some((name, outer)) = path.split_last() else { continue };
             let modules = package_parts(file.package()).chain(outer.iter().copied()).map(snake_case);

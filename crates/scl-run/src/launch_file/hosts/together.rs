@@ -33,7 +33,7 @@ impl Reader<'_> {
             self.report(problem.help("remove it from one of the lists"));
         }
         let names = self.component_names(started);
-        // A misspelt name, or an entry that could not be read, would be reported a second time here.
+        // A misspelt name or an unreadable entry would be reported a second time here.
         let is_known = |(name, _): &(String, Span)| names.contains(name);
         if hosts.iter().any(|host| host.components.is_empty() || !host.components.iter().all(is_known)) {
             return;

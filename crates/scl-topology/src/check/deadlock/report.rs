@@ -54,7 +54,7 @@ fn ways_out(draft: &Draft<'_>, mut found: Diagnostic, steps: &[Step], receivers:
         let step = steps.iter().find(|step| kind(draft, step) == Some(wanted));
         step.and_then(|step| draft.links[step.link].flow)
     };
-    // What is published is mostly replaced by newer values anyway; work is not.
+    // Prefer dropping published messages: newer values usually replace them anyway, unlike pushed work.
     let queue = first(GateKind::Pub).or_else(|| first(GateKind::Push));
     if let Some((source, sink)) = queue {
         found = drop_messages(draft, found, source, sink, receivers[source]);

@@ -27,7 +27,7 @@ pub(super) fn find(components: usize, waits: &[Wait], is_wanted: impl Fn(&Step) 
     let mut found: Vec<Deadlock> = circles
         .map(|circle| Deadlock { steps: circle.steps, is_circle: true, has_others: circle.has_others })
         .collect();
-    // What is still deadlocked when those circles are broken depends on a shared wait.
+    // Deadlocks that remain once those circles are broken depend on a shared wait.
     let knots = graph.knots();
     let in_a_circle = |wait: &Wait| wait.steps.len() == 1 && knots[wait.from()] == knots[wait.steps[0].to];
     let rest: Vec<&Wait> = waits.iter().filter(|wait| !in_a_circle(wait)).collect();

@@ -27,7 +27,7 @@ const MARKERS: [&str; 4] = ["<<<<<<<", "|||||||", "=======", ">>>>>>>"];
 /// version that is left may not be the one meant, so nothing else is to be said about it.
 pub(super) fn check(source: &SourceFile, text: &mut String) -> Option<Diagnostic> {
     let markers = markers(text);
-    // A line of `=` alone may be text of a documentation.
+    // A line of `=` alone proves nothing: it may underline a heading in a text.
     let (first, _) = markers.iter().find(|(_, sign)| *sign != '=')?.clone();
     let mut problem = RULE
         .at("this is a conflict marker of git", source.span(first.start..first.start + 7), "left by a merge")
@@ -72,7 +72,7 @@ fn blank(markers: &[(Range<usize>, char)], text: &mut String) {
             _ => {}
         }
     }
-    // Whole lines became spaces, so the text is as valid as before.
+    // Only whole lines became spaces, so the text is still valid UTF-8.
     *text = String::from_utf8_lossy(&bytes).into_owned();
 }
 

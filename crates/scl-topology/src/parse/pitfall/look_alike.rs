@@ -76,7 +76,7 @@ pub(in crate::parse) fn in_word(node: &Node, text: &str, what: &str, source: &So
         }
         None => look_alike_mark(letter, span),
     };
-    // In quotes or over several lines, the text is not what is written.
+    // The value of a quoted or multi-line text differs from its source, so there is no fix.
     let retyped = confusable::retyped(text);
     Some(match written == text {
         true => problem.fix(node.span, retyped.trim_matches(['"', '\''])),

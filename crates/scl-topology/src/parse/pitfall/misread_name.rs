@@ -186,7 +186,7 @@ pub(in crate::parse) fn text_block(node: &Node, text: &str, source: &SourceFile)
         return problem;
     }
     let block = header(node, source).to(node.span);
-    // The block ends with its last line break, which stays.
+    // The block includes its last line break, which the fix keeps.
     let whole = source.snippet(block);
     let end = block.start + whole.trim_end().len() as u32;
     problem.help(format!("write `{}`", written(node, name, source))).fix(Span { end, ..block }, name)

@@ -101,7 +101,7 @@ fn diagnose(key: &str, written_after: &str, at: Span, dialect: &Dialect) -> Diag
         false => problem.help(format!("write `{key}: {value}`")),
     };
     let after = Span { start: span.end, ..span };
-    // More than one word after the colon: the colon may be a slip of its own.
+    // If several words follow the colon, the colon itself may be the mistake, so the fix is not certain.
     let is_one = written_after.trim_end() == value || value.starts_with(['[', '{']);
     match is_one && ((dialect.word)(key).or_else(|| (dialect.word)(value)).is_some()) {
         true => problem.fix(after, " "),

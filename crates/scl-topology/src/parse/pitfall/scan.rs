@@ -31,7 +31,7 @@ impl Scan {
 pub(in crate::parse) fn blank(text: &mut String, ranges: impl IntoIterator<Item = Range<usize>>) {
     let mut bytes = std::mem::take(text).into_bytes();
     ranges.into_iter().for_each(|range| bytes[range].fill(b' '));
-    // Whole characters became as many spaces, so the text is as valid as before.
+    // Only whole characters became spaces, so the text is still valid UTF-8.
     *text = String::from_utf8_lossy(&bytes).into_owned();
 }
 
@@ -45,7 +45,7 @@ pub(in crate::parse) fn scan(text: &str) -> Scan {
     let bytes = text.as_bytes();
     let mut scan = Scan::default();
     let mut at = 0;
-    // Whether a value can start here; inside a plain word a quote is a letter as any other.
+    // Whether a value can start here. Inside a plain word, a quote is an ordinary character.
     let mut fresh = true;
     while let Some(&byte) = bytes.get(at) {
         let end = match byte {
@@ -67,7 +67,7 @@ pub(in crate::parse) fn scan(text: &str) -> Scan {
             b' ' | b'\t' => fresh || at > 0 && matches!(bytes[at - 1], b':' | b'-' | b',' | b'?'),
             b'\n' | b'\r' => true,
             b'[' | b'{' | b',' => fresh || in_flow,
-            // In quotes a key may be followed by its value at once.
+            // After a quoted key in brackets, the value may follow the colon without a space.
             b':' => in_flow && at > 0 && matches!(bytes[at - 1], b'"' | b'\''),
             _ => false,
         };

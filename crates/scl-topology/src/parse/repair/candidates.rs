@@ -76,7 +76,7 @@ fn between(tokens: &[Token], at: usize, next: Option<&Token>, text: &str, edits:
     let end = token.range.end;
     let open = next.map_or(&[][..], |next| &next.open);
     if let Some(next) = next {
-        // A kind without a type ends with its colon.
+        // A kind without a type, as in `pub:`, ends with its colon.
         let ends = token.ends_value() || token.class == Class::Colon && next.class == Class::Word;
         if !open.is_empty() && ends && next.begins_value() {
             let space = if next.range.start == end { ", " } else { "," };
@@ -86,7 +86,7 @@ fn between(tokens: &[Token], at: usize, next: Option<&Token>, text: &str, edits:
         if !open.is_empty() && (token.ends_value() || token.class == Class::Colon) && ends {
             close(open, token, text, 1, edits);
         }
-        // A key stands first in its line, or after a bracket or a comma.
+        // A key is the first word in its line, or follows an opening bracket or a comma.
         let is_first = tokens[..at].iter().all(|before| before.class == Class::Dash);
         let follows = at.checked_sub(1).is_some_and(|at| matches!(tokens[at].class, Class::Open | Class::Comma));
         if token.class == Class::Word && (is_first || follows) && next.begins_value() {

@@ -43,7 +43,7 @@ impl Token {
 /// The tokens of a line without its comment, and the brackets that are open after it.
 pub(super) fn tokens(line: &Range<usize>, text: &str) -> (Vec<Token>, Vec<usize>) {
     let before = &text[..line.start];
-    // Lines of a block start with no bracket open; far above nothing matters to a line in brackets.
+    // The brackets that the text above leaves open: none for a line in block style.
     let mut open = scan::scan(before).open_brackets;
     let content = &text[line.clone()];
     let mut tokens = Vec::new();

@@ -112,7 +112,7 @@ pub(super) fn suspects(error: &SyntaxError, text: &str, source: &SourceFile, win
         .map(|line| source.line_range(line.start))
         .collect();
     let items = above.iter().filter(|line| text[(*line).clone()].trim_start().starts_with("- ")).take(2);
-    // A text that goes on over several lines begins where its list begins.
+    // A text that spans several lines may begin at the head of its list: suspect that line and the one below it.
     let list = above.iter().position(|line| text[line.clone()].trim_end().ends_with(':'));
     let start = match list {
         Some(at) => &above[at.saturating_sub(1)..=at],

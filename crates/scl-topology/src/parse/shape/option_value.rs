@@ -52,7 +52,7 @@ pub(in crate::parse) fn not_text(place: &str, node: &Node) -> Diagnostic {
 fn label(value: &Node, expected: Shape) -> String {
     let is_size = matches!(expected, Shape::Size { .. });
     match &value.kind {
-        // Quotes around a number with a unit do no harm.
+        // Quotes are not the mistake here: a quoted size with a unit is valid.
         NodeKind::Scalar { text, .. } if is_size && text.parse::<i64>().is_ok() => {
             "this is a number without a unit".to_owned()
         }
@@ -69,7 +69,7 @@ fn meant(value: &Node, expected: Shape) -> Vec<String> {
     let NodeKind::Scalar { text, .. } = &value.kind else { return Vec::new() };
     let words: Vec<&str> = match expected {
         Shape::Number { .. } if !value.is_plain() && text.parse::<u32>().is_ok() => return vec![text.clone()],
-        // A bare number is most probably meant as milliseconds.
+        // A number without a unit was probably meant in milliseconds.
         Shape::Duration { .. } if text.parse::<u32>().is_ok() => return vec![format!("{text}ms")],
         Shape::Size { .. } => return size::suggestions(text),
         Shape::Boolean => vec!["true", "false"],

@@ -101,7 +101,7 @@ pub(in crate::parse) fn of_gate(field: Field<'_>, kind: &str, path: &str) -> Dia
     let message = format!("unknown key `{}` in gate `{path}`", field.key);
     let mut problem = own_key(OF_GATE.at(message, field.key_span, ""), field.key);
     let similar = similar(field.key, OPTIONS.iter().map(|option| option.key));
-    // An option of other kinds would be the next mistake.
+    // Offer no fix that would be the next mistake: an option that this kind does not have.
     if similar.iter().all(|name| only_of(name, kind).is_empty()) {
         problem = problem.fix_word(field.key, &similar);
     }
@@ -120,7 +120,7 @@ pub(in crate::parse) fn comma_in_doc(key: Span, text: Span, source: &SourceFile,
     let message = format!("the text of `doc` in gate `{path}` ends at its comma");
     let problem = OF_GATE.at(message, key, "read as a key of the gate");
     let words = source.snippet(text);
-    // In double quotes, these would have to be written otherwise.
+    // These characters would need escaping in double quotes.
     if words.contains(['"', '\\', '\n']) {
         return problem.help("put the text in single quotes");
     }

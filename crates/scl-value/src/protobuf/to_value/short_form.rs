@@ -9,7 +9,7 @@ use prost_reflect::{DynamicMessage, ReflectMessage as _};
 
 /// A well-known message in its short form; `None` if it has none, or if this message cannot be told in it.
 pub(super) fn shorten(message: &DynamicMessage, depth: usize) -> Option<Value> {
-    // What the short form leaves out must not be lost.
+    // Keep unknown fields, which the short form would lose.
     if message.unknown_fields().next().is_some() {
         return None;
     }
@@ -26,7 +26,7 @@ pub(super) fn shorten(message: &DynamicMessage, depth: usize) -> Option<Value> {
         Short::Struct => inner("fields"),
         Short::List => inner("values"),
         Short::Value => match plain(message, depth) {
-            // One field of a oneof; `null_value` is an enum.
+            // The message is a oneof, so it has one field; `null_value` is an enum.
             Value::Map(mut entries) => match entries.pop()? {
                 (name, _) if name == "null_value".into() => Some(Value::Null),
                 (_, value) => Some(value),
@@ -42,7 +42,7 @@ fn any(message: &DynamicMessage, depth: usize) -> Option<Value> {
     let url = message.get_field_by_name("type_url")?.as_str()?.to_owned();
     let bytes = message.get_field_by_name("value")?.as_bytes()?.clone();
     let descriptor = any_type(&message.descriptor(), &url)?;
-    // Each `Any` begins anew with the decoder's limits, so that the depth is limited here.
+    // The decoder's limits start anew in each `Any`, so the depth is limited here.
     if depth + 1 >= MAX_DEPTH || check::check(&descriptor, &bytes).is_err() {
         return None;
     }

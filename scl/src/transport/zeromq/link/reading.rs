@@ -17,7 +17,7 @@ impl SendLink {
             Item::Command(Command::ShmOpen) => self.sharing.open(),
             Item::Command(Command::CatchUp(number)) => self.waiting_report.ask(number),
             Item::Command(Command::Finish) if self.state == State::Open => self.state = State::Finishing,
-            // Anything else that a peer sends here has no meaning.
+            // Everything else is ignored, except for subscriptions.
             item => {
                 if let (Some(topics), Some(subscription)) = (&mut self.topics, item.into_subscription()) {
                     topics.handle(subscription)?;
@@ -28,7 +28,7 @@ impl SendLink {
     }
 
     pub(super) fn try_drive(&mut self, cx: &mut Context<'_>) -> Result<(), Closed> {
-        // Without a runtime nothing interrupts a peer that never stops sending.
+        // Without a runtime, nothing else stops this loop while a peer keeps sending.
         let mut reads = if self.detached { RAW_READS } else { usize::MAX };
         loop {
             while let Some(item) = self.session.buffered_item()? {
@@ -40,7 +40,7 @@ impl SendLink {
             reads -= 1;
         }
         if self.state == State::Finishing {
-            // Behind everything that was sent.
+            // Written after all messages that were sent.
             self.session.write(FINISHED)?;
             self.state = State::Finished;
         }
@@ -55,7 +55,7 @@ impl SendLink {
                 self.handle(item)?;
             }
             reads -= 1;
-            // The runtime does not report what was read without it, and the task may wait for an acknowledgement.
+            // tokio does not see raw reads, and the task may be waiting for an acknowledgement, so wake it explicitly.
             cx.waker().wake_by_ref();
         }
         Ok(self.session.flush_raw()?)

@@ -134,7 +134,7 @@ impl Sharing {
 
     fn count_inline(&mut self, error: &scl_shm::LoanError) {
         self.inline += 1;
-        // Neither every message nor only the first: one can see whether it goes on.
+        // Warn ever more rarely, but not only once, so that the log shows whether this continues.
         if self.inline.is_power_of_two() {
             tracing::warn!("sending long messages through the socket, {} so far: {error}", self.inline);
         }

@@ -81,19 +81,19 @@ fn request(socket: Socket) -> [u8; REQUEST] {
     rest.put_u32_ne(REQUEST as u32);
     rest.put_u16_ne(BY_FAMILY);
     rest.put_u16_ne(NLM_F_REQUEST);
-    // A sequence number and a port, both not needed.
+    // `nlmsg_seq` and `nlmsg_pid`, which are not needed.
     rest.put_bytes(0, 8);
     let family = if socket.local.is_ipv4() { AddressFamily::INET } else { AddressFamily::INET6 };
     rest.put_slice(&[family.as_raw() as u8, IPPROTO_TCP, 0, 0]);
-    // Sockets in all states.
+    // Match sockets in all states.
     rest.put_u32_ne(u32::MAX);
     rest.put_u16(socket.local.port());
     rest.put_u16(socket.remote.port());
     rest.put_slice(&octets(socket.local.ip()));
     rest.put_slice(&octets(socket.remote.ip()));
-    // Through any interface.
+    // Match any interface.
     rest.put_u32_ne(0);
-    // `INET_DIAG_NOCOOKIE`: whatever its cookie is.
+    // `INET_DIAG_NOCOOKIE`: match any cookie.
     rest.put_bytes(0xff, 8);
     request
 }
@@ -120,7 +120,7 @@ fn answer(bytes: &[u8], asked: Socket) -> io::Result<Option<Owner>> {
     }
     let (Some(BY_FAMILY), Some(mut message)) = (kind, bytes.get(HEADER..ANSWER)) else { return Err(malformed()) };
     let (is_ipv4, state) = (u16::from(message.get_u8()) == AddressFamily::INET.as_raw(), message.get_u8());
-    // What timers it has.
+    // Skip `idiag_timer` and `idiag_retrans`.
     message.advance(2);
     let [local_port, remote_port] = [message.get_u16(), message.get_u16()];
     let [local, remote] = [message.get_u128(), message.get_u128()].map(|ip| match is_ipv4 {
@@ -132,10 +132,10 @@ fn answer(bytes: &[u8], asked: Socket) -> io::Result<Option<Owner>> {
         remote: SocketAddr::new(remote, remote_port),
         listens: state == LISTENING,
     };
-    // Interface, cookie, expiry and queues.
+    // Skip interface, cookie, expiry and queues.
     message.advance(24);
     let owner = Owner { user: message.get_u32_ne(), inode: message.get_u32_ne() };
-    // The kernel falls back to the socket that listens at the port, at any address.
+    // If no socket matches exactly, the kernel returns the one that listens on the port, at whatever address.
     Ok(found.is(asked).then_some(owner))
 }
 

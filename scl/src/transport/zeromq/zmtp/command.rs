@@ -114,7 +114,7 @@ impl Command {
             b"SUBSCRIBE" => Self::Subscription(Subscription::Add(content)),
             b"CANCEL" => Self::Subscription(Subscription::Cancel(content)),
             b"PING" => {
-                // Two bytes say how long the peer waits for anything.
+                // The first two bytes are the TTL, which is ignored.
                 content.advance(content.len().min(2));
                 content.truncate(CONTEXT);
                 Self::Ping(content)

@@ -83,7 +83,8 @@ impl Decoder {
     /// `max_size` is the longest message that is accepted at a socket that receives messages.
     pub(in crate::transport::zeromq) fn new(socket: SocketType, max_size: usize) -> Self {
         let receives = !matches!(socket, SocketType::XPub | SocketType::Push);
-        // What peers send to the others is short, whatever the limit for messages is.
+        // Sockets that do not receive messages receive only short commands and subscriptions, whatever the message
+        // limit is.
         let max_size = if receives { max_size } else { COMMAND_LIMIT };
         Self {
             socket,
