@@ -1,6 +1,6 @@
-//! The age of the first value that a subscriber receives after it did not receive for a while.
+//! The age of the first value that a subscriber receives after a pause.
 //!
-//! A control loop that was busy must not act on old values: with `queue: 1` the first value is to be the newest.
+//! A control loop that was busy must not act on old values: with `queue: 1`, the first value should be the newest.
 
 mod subscriber;
 
@@ -10,7 +10,7 @@ use crate::components::fresh::Publisher;
 use crate::durations::Durations;
 use crate::ends::{Calls, Sender};
 use crate::link::{CONNECT_TIMEOUT, connect, open};
-use crate::message::{Frame, Message};
+use crate::message::Message;
 use crate::raw::SocketPaths;
 use crate::report::{Column, Report, Row, Table};
 use crate::runtime::start_runtime;
@@ -46,13 +46,13 @@ const COLUMNS: [Column; 4] = [
     Column::plain("call_max_us"),
 ];
 
-/// The publisher and the subscriber of a variant, and what was measured.
+/// The publisher and the subscriber of a variant, and the measurements.
 struct Measurement {
     publisher: Sender,
     subscriber: Worker,
     /// From sending the first value after a pause to receiving it.
     ages: Durations,
-    /// How long the call took that received it.
+    /// Duration of the call that received it.
     calls: Durations,
     repetitions: usize,
 }
@@ -82,7 +82,7 @@ async fn run(folder: &str, repetitions: usize, pause: Duration) -> scl::Result<V
         interval.tick().await?;
         for measurement in &mut measurements {
             let Message { payload, .. } = Message::sent_now(BYTES);
-            measurement.publisher.send(Frame::Bytes(payload)).await?;
+            measurement.publisher.send(&payload.into()).await?;
         }
         for measurement in &mut measurements {
             if measurement.repetitions < repetitions
@@ -96,8 +96,8 @@ async fn run(folder: &str, repetitions: usize, pause: Duration) -> scl::Result<V
 }
 
 impl Measurement {
-    /// Opens the publisher and starts the subscriber. The publishers of SCL wait for theirs; the others drop values
-    /// until they have connected.
+    /// Opens the publisher and starts the subscriber. A publisher of SCL waits for its subscriber; the others drop
+    /// values until a subscriber has connected.
     async fn start(variant: &Variant, folder: &str, subscriber: &[&str]) -> scl::Result<Self> {
         let paths = SocketPaths::new(folder, variant.id);
         let raw = match variant.id {

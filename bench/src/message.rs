@@ -18,10 +18,8 @@ pub(crate) struct Message {
     pub(crate) time: Option<u64>,
 }
 
-/// A message that a process sends or has received.
+/// A message in the form in which an end receives it.
 pub(crate) enum Frame<'a> {
-    /// One that this process made.
-    New(&'a Message),
     Bytes(Bytes),
     /// A payload after its length, as Unix sockets carry it.
     Unix(&'a [u8]),
@@ -57,20 +55,17 @@ impl Message {
     }
 }
 
-impl Frame<'_> {
-    /// The message as a gate of SCL takes it, without a copy.
-    pub(crate) fn bytes(&self) -> scl::Result<&Bytes> {
-        match self {
-            Self::New(message) => Ok(&message.payload),
-            Self::Bytes(bytes) => Ok(bytes),
-            _ => Err(foreign()),
-        }
+impl From<Bytes> for Message {
+    /// Not for Unix sockets, which need the length before the payload.
+    fn from(payload: Bytes) -> Self {
+        Self { payload, frame: Bytes::new(), time: None }
     }
+}
 
+impl Frame<'_> {
     /// The payload. Of iceoryx2 it is empty, because only the header is written.
     pub(crate) fn payload(&self) -> Cow<'_, [u8]> {
         match self {
-            Self::New(message) => Cow::Borrowed(&message.payload),
             Self::Bytes(bytes) => Cow::Borrowed(bytes),
             Self::Unix(frame) => Cow::Borrowed(&frame[PREFIX..]),
             Self::Zeromq(message) => Cow::Borrowed(message.get(0).map_or(&[][..], |frame| frame)),
@@ -93,11 +88,6 @@ impl Frame<'_> {
     }
 }
 
-/// The error of an end that is given the message of another transport or library.
-pub(crate) fn foreign() -> scl::Error {
-    scl::Error::message("an end sends only what it has received itself")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -108,7 +98,7 @@ mod tests {
         let message = Message::sent_now(20);
         assert_eq!(message.payload.len(), 20);
         assert_eq!(message.frame, [&[0, 0, 0, 20], &message.payload[..]].concat());
-        let time = Frame::New(&message).sent_time().unwrap();
+        let time = Frame::Bytes(message.payload.clone()).sent_time().unwrap();
         assert_eq!(message.time, Some(time));
         assert!((before..=now()).contains(&time));
         assert!(Frame::Bytes(Bytes::from_static(b"short")).sent_time().is_err());

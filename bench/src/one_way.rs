@@ -10,7 +10,7 @@ use crate::clock::now;
 #[cfg(feature = "libzmq")]
 use crate::ends::Sender;
 use crate::link::{Far, Near, Setup};
-use crate::message::{Frame, Message};
+use crate::message::Message;
 use crate::runtime::{run, start_runtime};
 use crate::variant::Variant;
 use crate::worker::{print_line, unknown_arguments};
@@ -24,7 +24,7 @@ pub(crate) const ZEROMQ_PUB: Variant = Variant { id: "zeromq-pub", name: "zeromq
 /// What a receiver reports about a batch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Timing {
-    /// The time of the whole batch. Its messages are all the same, and nothing is done for each of them.
+    /// The time of the whole batch. Its messages are identical, and no time is taken for each of them.
     Batch,
     /// Also the delay of each message.
     EachMessage,
@@ -62,7 +62,7 @@ impl Channel {
         let sender = &mut self.near.sender;
         run(runtime, self.id, async {
             for _ in 0..self.batch {
-                sender.send(Frame::New(&message)).await?;
+                sender.send(&message).await?;
             }
             Ok(())
         })
@@ -73,12 +73,12 @@ impl Channel {
         let mut interval = interval(period)?;
         for _ in 0..self.batch {
             interval.tick().await?;
-            self.near.sender.send(Frame::New(&Message::sent_now(self.bytes))).await?;
+            self.near.sender.send(&Message::sent_now(self.bytes)).await?;
         }
         Ok(())
     }
 
-    /// Waits until the whole batch has arrived.
+    /// Waits until the whole batch has arrived, and returns the receiver's report.
     pub(crate) async fn batch_report(&mut self) -> scl::Result<BatchReport> {
         BatchReport::parse(&self.near.worker.next_line().await?)
     }
@@ -95,26 +95,25 @@ pub(crate) fn run_receiver(arguments: &[&str]) -> scl::Result<()> {
         loop {
             // Measure from when the first message was sent, not received. Otherwise a sender that queues the whole
             // batch before it writes would look faster than one that writes at once.
-            let mut first_sent = None;
+            let first_sent = far.receiver.receive().await?.sent_time()?;
             let mut delays = Vec::with_capacity(if times_each { batch } else { 0 });
-            for _ in 0..batch {
-                let message = far.receiver.receive().await?;
-                if first_sent.is_none() {
-                    first_sent = Some(message.sent_time()?);
-                }
-                if times_each {
-                    delays.push(now().saturating_sub(message.sent_time()?));
+            if times_each {
+                delays.push(now().saturating_sub(first_sent));
+            }
+            for _ in 1..batch {
+                match times_each {
+                    true => delays.push(now().saturating_sub(far.receiver.receive().await?.sent_time()?)),
+                    false => far.receiver.skip().await?,
                 }
             }
-            let received = now();
-            let span = received.saturating_sub(first_sent.unwrap_or(received));
+            let span = now().saturating_sub(first_sent);
             print_line(&BatchReport { span, delays }.to_line())?;
         }
     })
 }
 
 impl Timing {
-    /// The name between the processes.
+    /// The word for this timing in the arguments of the receiver process.
     fn id(self) -> &'static str {
         match self {
             Self::Batch => "batch",

@@ -5,7 +5,6 @@ use crate::components::fanout::Publisher as Component;
 use crate::durations::Durations;
 use crate::ends::{Calls, Sender};
 use crate::link::{CONNECT_TIMEOUT, connect, open};
-use crate::message::Frame;
 use crate::one_way::BatchReport;
 use crate::raw::SocketPaths;
 use crate::worker::Worker;
@@ -16,7 +15,8 @@ use zeromq::PubSocket;
 /// The number of subscribers, as in the topology.
 pub(super) const SUBSCRIBERS: usize = 8;
 
-/// After this many messages without one arriving, a subscriber is given up: [`CONNECT_TIMEOUT`] of them.
+/// Number of messages to send before giving up on a subscriber that has received none; sending them takes
+/// [`CONNECT_TIMEOUT`].
 const MAX_UNRECEIVED: usize = 10_000;
 
 pub(super) struct Publisher {
@@ -58,7 +58,7 @@ impl Publisher {
             interval.tick().await?;
             let message = Message::new(self.batch, remaining).encode();
             let started = Instant::now();
-            self.socket.send(Frame::Bytes(message)).await?;
+            self.socket.send(&message.into()).await?;
             sends.record(started.elapsed().as_nanos().try_into()?);
         }
         Ok(())
@@ -107,14 +107,15 @@ impl Publisher {
                     return Err(scl::Error::message("a subscriber received nothing for 10 s"));
                 }
                 // A batch of one message, so each subscriber reports it at once.
-                self.socket.send(Frame::Bytes(Message::new(self.batch, 0).encode())).await?;
+                self.socket.send(&Message::new(self.batch, 0).encode().into()).await?;
             }
         }
         Ok(())
     }
 }
 
-/// Waits until a subscriber has received the last message of a batch, or of a later one.
+/// Waits until a subscriber has received the last message of this batch or of a later one, and returns the delays that
+/// it reports.
 async fn delays_of(subscriber: &mut Worker, batch: u32) -> scl::Result<Vec<u64>> {
     loop {
         let report = BatchReport::parse(&subscriber.next_line().await?)?;

@@ -3,7 +3,6 @@
 use super::PERIOD;
 use super::side::Side;
 use crate::clock::now;
-use crate::message::Frame;
 use crate::raw::SocketPaths;
 use crate::runtime::start_runtime;
 use crate::worker::{print_line, unknown_arguments};
@@ -29,7 +28,7 @@ pub(crate) fn run_restarted(arguments: &[&str]) -> scl::Result<()> {
             Side::Sends(sender) => {
                 let mut interval = interval(PERIOD)?;
                 loop {
-                    sender.send(Frame::Bytes(message.clone())).await?;
+                    sender.send(&message.clone().into()).await?;
                     interval.tick().await?;
                 }
             }

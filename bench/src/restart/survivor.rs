@@ -5,7 +5,6 @@ use super::side::Side;
 use crate::clock::now;
 #[cfg(feature = "libzmq")]
 use crate::ends::Receiver;
-use crate::message::Frame;
 use crate::raw::SocketPaths;
 use scl::bytes::{Buf, Bytes};
 use scl::time::interval;
@@ -18,7 +17,7 @@ pub(super) enum Survivor {
 }
 
 impl Survivor {
-    /// Opens the opposite of the side that a variant restarts.
+    /// Opens the side opposite to the one that a variant restarts.
     pub(super) async fn open(id: &str, folder: &str) -> scl::Result<Self> {
         Ok(match id {
             "unix" => Self::Unix(UnixListener::bind(SocketPaths::new(folder, id).path("stream"))?),
@@ -26,14 +25,15 @@ impl Survivor {
         })
     }
 
-    /// A side that receives: waits for the first message of a run of the restarted side, and returns when it arrived.
-    /// A side that sends does so until this is dropped: the restarted side notices the first message.
+    /// If this side receives, waits for the first message that the restarted side sends in this run, and returns the
+    /// time of its arrival. If this side sends, it does so until the future is dropped, because the restarted side
+    /// reports the first message.
     pub(super) async fn exchange(&mut self, run: u32) -> scl::Result<u64> {
         let mut interval = interval(PERIOD)?;
         match self {
             Self::Side(Side::Sends(sender)) => loop {
                 interval.tick().await?;
-                sender.send(Frame::Bytes(Bytes::new())).await?;
+                sender.send(&Bytes::new().into()).await?;
             },
             // A blocking receive could not be cancelled by dropping this future.
             #[cfg(feature = "libzmq")]

@@ -3,7 +3,7 @@
 use crate::components::roundtrip::Requester;
 use crate::engines::{NEAR, options};
 use crate::link::{CONNECT_TIMEOUT, Near, Setup, connect, open};
-use crate::message::{Frame, Message};
+use crate::message::Message;
 use crate::raw::SocketPaths;
 use crate::runtime::run;
 use crate::worker::Worker;
@@ -16,14 +16,14 @@ use zeromq::{DealerSocket, SocketRecv, SocketSend, ZmqMessage};
 /// The client of one variant.
 pub(super) struct Client<'a> {
     id: &'a str,
-    /// Dropped before the end, which then cleans up for both.
+    /// Dropped before `end`, which then cleans up for both.
     _echo: Option<Worker>,
     end: End,
 }
 
 enum End {
     Published(Box<Near>),
-    /// And whether calls block.
+    /// A gate, and whether its calls block.
     Scl(Req<Bytes, Bytes>, bool),
     Zeromq(DealerSocket),
     #[cfg(feature = "libzmq")]
@@ -87,7 +87,7 @@ impl End {
         match self {
             Self::Published(near) => {
                 let (sender, receiver) = near.both()?;
-                sender.send(Frame::New(message)).await?;
+                sender.send(message).await?;
                 receiver.receive().await?;
             }
             Self::Scl(gate, true) => drop(gate.call_blocking(&message.payload)?),

@@ -49,7 +49,7 @@ pub(crate) fn run_echo(arguments: &[&str]) -> scl::Result<()> {
                 let mut far = Far::open(Setup { id, folder, bytes, is_round_trip: true, batch: 0 }).await?;
                 let (receiver, sender) = far.both()?;
                 loop {
-                    sender.send(receiver.receive().await?).await?;
+                    sender.send_back(receiver.receive().await?).await?;
                 }
             }
         }
