@@ -1,4 +1,4 @@
-//! Encoding with memory that is used again.
+//! Encoding into reused memory.
 
 use super::foreign_texts::ForeignTexts;
 use crate::codec::{Codec, EncodeError};
@@ -7,7 +7,8 @@ use crate::state::ComponentState;
 use bytes::{Bytes, BytesMut};
 use std::any::TypeId;
 
-/// Memory for encoded messages is taken in pieces of this size; a piece is used again when all its messages are gone.
+/// Memory for encoded messages is allocated in pieces of this size; a piece is reused when all its messages are
+/// dropped.
 const PIECE: usize = 16 * 1024;
 
 /// How a gate turns messages into frames.
@@ -19,7 +20,7 @@ pub(crate) struct Encoding<T> {
 }
 
 impl<T> Encoding<T> {
-    /// For what a gate of this component sends.
+    /// Creates the encoding of the messages that a gate of this component sends.
     pub(crate) fn new<C: Codec<T>>(component: &ComponentState, gate: &'static GateSpec) -> Self {
         let texts = ForeignTexts::new(component, gate, C::NAME).map(Box::new);
         Self { to_frame: C::to_frame, memory: BytesMut::new(), codec: TypeId::of::<C>(), texts }
@@ -30,6 +31,7 @@ impl<T> Encoding<T> {
         self.codec == TypeId::of::<C>()
     }
 
+    #[inline]
     pub(crate) fn encode(&mut self, message: &T) -> Result<Bytes, EncodeError> {
         if self.memory.capacity() < PIECE / 16 {
             self.memory.reserve(PIECE);

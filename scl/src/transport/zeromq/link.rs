@@ -19,10 +19,10 @@ use std::time::{Duration, Instant};
 
 /// How many bytes of messages are written together at most; a longer message is written by itself.
 const BATCH: usize = 64 << 10;
-/// How often the socket is asked directly while messages are refused. A program that never waits in its runtime would
-/// otherwise never see an acknowledgement.
+/// Minimum interval between direct reads of the socket while messages are refused. A program that never waits in its
+/// runtime would otherwise never see an acknowledgement.
 const RAW_INTERVAL: Duration = Duration::from_micros(100);
-/// How many reads one call makes at most without a runtime, which would interrupt a peer that never stops sending.
+/// Maximum number of reads in one call without a runtime, where nothing else ends the loop while a peer keeps sending.
 const RAW_READS: usize = 64;
 
 pub(super) struct SendLink {
@@ -58,7 +58,7 @@ enum State {
     Open,
     /// The peer wants nothing more over this connection.
     Finishing,
-    /// It has been told that nothing follows.
+    /// The peer has been told that nothing follows.
     Finished,
     Broken,
 }
@@ -83,7 +83,8 @@ impl SendLink {
         }
     }
 
-    /// For a subscriber: only what it has subscribed to is sent, and it says where it was before.
+    /// Makes this a link to a subscriber: only messages that match its `topics` are sent, and `resumed` is what it has
+    /// reported about itself.
     pub(super) fn subscribed(self, topics: Topics, resumed: Option<Resumed>) -> Self {
         Self { topics: Some(topics), resumed, ..self }
     }
@@ -93,7 +94,8 @@ impl SendLink {
         self.session.is_written() && self.window_is_open()
     }
 
-    /// Returns true if a message is to be gathered with others. One of which only the newest matters never is.
+    /// Returns true if a message is to be gathered with others. Never true for a peer to which only the newest message
+    /// matters.
     fn is_gathered(&self, message: &[u8]) -> bool {
         !self.waiting_report.is_wanted() && !self.detached && self.burst.gathers(message.len())
     }
@@ -112,11 +114,16 @@ impl SendLink {
         self.topics.as_ref().is_none_or(Topics::match_everything)
     }
 
-    /// Returns true if the peer can take a message, perhaps after a look past what the runtime knows.
+    /// Returns true if the peer can take a message, if necessary after reading the socket without the runtime.
+    #[inline]
     fn find_room(&mut self, cx: &mut Context<'_>) -> bool {
-        if self.has_room() {
-            return true;
-        }
+        self.has_room() || self.make_room(cx)
+    }
+
+    /// Reads the socket without the runtime, unless that was done a moment ago. Returns true if the peer can now take
+    /// a message.
+    #[inline(never)]
+    fn make_room(&mut self, cx: &mut Context<'_>) -> bool {
         let now = Instant::now();
         if self.state == State::Broken || self.raw_read.is_some_and(|before| now - before < RAW_INTERVAL) {
             return false;
@@ -134,13 +141,13 @@ impl SendLink {
         cx.waker().wake_by_ref();
     }
 
-    /// The message of a call that failed.
+    /// Marks the link as broken and returns the message of the call that failed.
     fn gone(&mut self, cx: &mut Context<'_>, error: &Closed, message: Frame) -> Sent {
         self.fail(cx, error);
         Sent::Gone(message)
     }
 
-    /// The message that the peer cannot take.
+    /// Returns a message that the peer cannot take.
     fn refused(&self, message: Frame) -> Sent {
         if self.state == State::Broken { Sent::Gone(message) } else { Sent::Full(message) }
     }
@@ -180,8 +187,8 @@ impl SendLink {
         true
     }
 
-    /// Sends several messages from the front of a queue in one piece. Returns how many: 0 if there are none to be sent
-    /// together.
+    /// Sends several messages from the front of a queue in one piece. Returns their number, which is 0 if the first
+    /// messages cannot be sent together.
     fn send_batch(&mut self, cx: &mut Context<'_>, queue: &VecDeque<Frame>) -> Result<usize, Closed> {
         let fits = |message: &Frame| 9 + message.len() <= BATCH / 2 && !self.sharing.is_for(message.len());
         if !self.wants_everything() || !queue.iter().take(2).all(fits) {
@@ -331,8 +338,8 @@ impl Link for SendLink {
         self.credit.as_ref().map_or(0, SendCredit::not_received)
     }
 
-    /// A new link may replace this one before the task has looked at it, and a failed write is noticed earlier than the
-    /// last acknowledgements.
+    /// Needed because a new link may replace this one before the task polls it again, and because a failed write is
+    /// noticed before the last acknowledgements are read.
     fn read_last(&mut self) {
         for _ in 0..RAW_READS {
             while let Ok(Some(item)) = self.session.buffered_item() {
