@@ -5,12 +5,12 @@ use crate::recording::Recording;
 use bytes::Bytes;
 use scl_terminal::Problem;
 use scl_value::{MessageType, to_json};
-use std::collections::{HashMap, VecDeque};
+use std::collections::HashMap;
 
 /// A component and one of its gates.
 pub(super) type GateId = (String, String);
 
-/// The most memory for the requests and replies of a replay, in bytes.
+/// Maximum memory for the requests and replies of a replay, in bytes.
 const LIMIT: usize = 256 << 20;
 
 /// The recorded replies of one gate.
@@ -22,9 +22,9 @@ const LIMIT: usize = 256 << 20;
 pub(super) struct Answers {
     /// Requests are compared by what they mean: another program may write maps in another order.
     requests: MessageType,
-    /// Whether each was given.
+    /// The replies, and whether each was given.
     replies: Vec<(Bytes, bool)>,
-    /// By request in its canonical form, indices of its replies.
+    /// Indices of the replies, by the canonical form of their request.
     by_request: HashMap<Bytes, Vec<usize>>,
     /// All replies before this one were given.
     first: usize,
@@ -33,11 +33,11 @@ pub(super) struct Answers {
 /// The reply to a request.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Answer {
-    /// To an equal request.
+    /// The recorded reply to an equal request.
     Recorded(Bytes),
-    /// The oldest one left: no equal request was recorded.
+    /// The oldest reply not given yet, because no equal request was recorded.
     NextInOrder(Bytes),
-    /// The recording has none that could be meant.
+    /// The recording has no reply for this request.
     Missing,
 }
 
@@ -51,7 +51,7 @@ impl Answers {
         self.replies.push((reply, false));
     }
 
-    /// The reply to a request.
+    /// Returns the reply to a request, and marks it as given.
     pub(super) fn answer(&mut self, request: &[u8]) -> Answer {
         if let Some(own) = self.by_request.get(&self.requests.canonical(request)) {
             let chosen = own.iter().find(|&&index| !self.replies[index].1).or(own.last()).copied();
@@ -75,16 +75,16 @@ impl Answers {
     }
 }
 
-/// Reads the replies of all gates for which `wanted` returns true. Without wanted gates nothing is read.
+/// Reads the recorded replies of the `wanted` gates. Without wanted gates, nothing is read.
 ///
 /// # Errors
-/// The recording cannot be read, or has more of them than fit into memory.
+/// The recording cannot be read, or its requests and replies need more memory than [`LIMIT`].
 pub(super) fn read_answers(recording: &Recording, wanted: &[GateId]) -> Result<HashMap<GateId, Answers>, Problem> {
     let mut answers = HashMap::new();
     if wanted.is_empty() {
         return Ok(answers);
     }
-    let mut open = HashMap::<_, VecDeque<Bytes>>::new();
+    let mut open = HashMap::new();
     let mut messages = recording.messages();
     let mut bytes = 0;
     while let Some(message) = messages.read()? {
@@ -99,11 +99,12 @@ pub(super) fn read_answers(recording: &Recording, wanted: &[GateId]) -> Result<H
                 let answers = answers.entry(gate.clone()).or_insert_with(|| Answers::new(channel.message_type()));
                 let request = answers.requests.canonical(&message.payload);
                 bytes += request.len();
-                open.entry((gate, message.sequence)).or_default().push_back(request);
+                // A component that was started again numbers from the beginning: the last request counts.
+                open.insert((gate, message.sequence), request);
             }
             Part::Reply => {
                 // Its request may have been lost.
-                let asked = open.get_mut(&(gate.clone(), message.sequence)).and_then(VecDeque::pop_front);
+                let asked = open.remove(&(gate.clone(), message.sequence));
                 if let (Some(request), Some(answers)) = (asked, answers.get_mut(&gate)) {
                     bytes += message.payload.len();
                     answers.add(request, message.payload);
@@ -176,5 +177,23 @@ mod tests {
         let mut answers = read_answers(&recording, std::slice::from_ref(&gate)).unwrap().remove(&gate).unwrap();
         assert_eq!(["b", "a"].map(|request| answers.answer(request.as_bytes())), ["B", "A"].map(recorded));
         assert_eq!(answers.replies.len(), 2);
+    }
+
+    /// The first `a` got no reply before the replier was killed; the next one numbers its requests from 0 again.
+    #[test]
+    fn a_reply_belongs_to_the_last_request_with_its_number() {
+        let folder = tempfile::tempdir().unwrap();
+        let (request, reply) = ("/map/tiles/request", "/map/tiles/reply");
+        let recorder = Recorder::new().messages(&[(request, 0, "a")]).restart_numbers();
+        let path = recorder
+            .messages(&[(request, 1, "b")])
+            .restart_numbers()
+            .messages(&[(reply, 2, "B")])
+            .write_to(folder.path(), "map.mcap");
+        let gate = ("map".to_owned(), "tiles".to_owned());
+        let recording = Recording::open(&[path]).unwrap();
+        let mut answers = read_answers(&recording, std::slice::from_ref(&gate)).unwrap().remove(&gate).unwrap();
+        assert_eq!(answers.answer(b"b"), recorded("B"));
+        assert_eq!(answers.replies.len(), 1);
     }
 }
