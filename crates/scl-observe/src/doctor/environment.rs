@@ -9,8 +9,16 @@ use std::os::unix::ffi::OsStringExt;
 
 const CHECK: &str = "environment";
 
-/// Names that belong to SCL without being settings of a component.
-const OTHERS: [&str; 5] = ["SCL_CPP_INCLUDE_DIR", "SCL_EXECUTABLE", "SCL_INCLUDE_DIR", "SCL_LIBRARY", "SCL_TIMEOUT"];
+/// Variables of SCL that are not settings of a component: `scl run` and builds set them.
+const OTHERS: [&str; 7] = [
+    "SCL_COMPONENT",
+    "SCL_CPP_INCLUDE_DIR",
+    "SCL_EXECUTABLE",
+    "SCL_INCLUDE_DIR",
+    "SCL_LIBRARY",
+    "SCL_STARTED_BY",
+    "SCL_TIMEOUT",
+];
 
 pub(super) fn check(examined: &Examined<'_>) -> Vec<Finding> {
     let variable = |name: &str| examined.variable(name);
@@ -81,6 +89,16 @@ mod tests {
         assert_eq!(all[2].1, "this shell sets `SCL_TRANSPROT`, which nothing reads");
         assert_eq!(all[2].2, "did you mean `SCL_TRANSPORT`?");
         assert!(all[3].2.starts_with("components read `SCL_CPU`"), "{all:?}");
+    }
+
+    #[test]
+    fn every_documented_variable_is_known() {
+        let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/environment.md");
+        let page = std::fs::read_to_string(page).unwrap();
+        let names = page.split('`').filter(|word| word.starts_with("SCL_"));
+        let variables: Vec<_> = names.map(|name| (name.into(), "".into())).collect();
+        assert!(variables.len() > 8, "{variables:?}");
+        assert!(unknown_names(&variables, "this shell").is_empty(), "{variables:?}");
     }
 
     #[test]
