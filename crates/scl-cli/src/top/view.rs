@@ -8,6 +8,9 @@ use scl_observe::{GateRow, Snapshot};
 /// What the display shows.
 #[derive(Debug)]
 pub(super) struct View {
+    /// The latest snapshot, in the order of the topology file.
+    latest: Snapshot,
+    /// The same, as sorted by `order`.
     pub(super) snapshot: Snapshot,
     pub(super) order: Order,
     /// The chosen gate by its name, because its row moves.
@@ -31,16 +34,17 @@ const ORDERS: [Order; 6] = [Order::Name, Order::Cpu, Order::Memory, Order::Rate,
 
 impl View {
     pub(super) fn new(snapshot: Snapshot, order: Order, colours: bool) -> Self {
-        let mut view = Self { snapshot, order, selected: None, details: false, paused: false, colours };
-        sort(&mut view.snapshot, order);
+        let latest = snapshot.clone();
+        let mut view = Self { latest, snapshot, order, selected: None, details: false, paused: false, colours };
+        view.sort_by(order);
         view
     }
 
     /// Shows a new snapshot, unless the display is paused.
     pub(super) fn update(&mut self, snapshot: Snapshot) {
         if !self.paused {
-            self.snapshot = snapshot;
-            sort(&mut self.snapshot, self.order);
+            self.latest = snapshot;
+            self.sort_by(self.order);
         }
     }
 
@@ -96,9 +100,7 @@ impl View {
 
     fn sort_by(&mut self, order: Order) {
         self.order = order;
-        // Sort by name first, as in a new snapshot: the sort is stable, so equal rows stay ordered by name.
-        self.snapshot.gates.sort_by_key(GateRow::name);
-        self.snapshot.components.sort_by(|one, other| one.name.cmp(&other.name));
+        self.snapshot = self.latest.clone();
         sort(&mut self.snapshot, order);
     }
 
