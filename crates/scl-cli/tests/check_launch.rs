@@ -185,5 +185,5 @@ fn programs_get_the_same() {
         {"code":"SCL1202","severity":"error","message":"`restart` is `never`, `on_abnormal`, `on_failure` or `always`, not `allways`","file":"launch.yaml","line":1,"column":51,"end_line":1,"end_column":58,"labels":[{"file":"launch.yaml","line":1,"column":51,"end_line":1,"end_column":58,"text":""}],"helps":["did you mean `restart: always`?"],"notes":[],"fixes":[{"file":"launch.yaml","line":1,"column":51,"end_line":1,"end_column":58,"replacement":"always","sure":true}]}
     "#]].assert_eq(&out);
     let (out, _, _) = check(&system, &["--format", "sarif", "launch.yaml"]);
-    assert!(out.contains("\"text\": \"value that the key cannot have\""), "{out}");
+    assert!(out.contains("\"text\": \"value that the key does not accept\""), "{out}");
 }

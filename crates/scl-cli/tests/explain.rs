@@ -68,7 +68,7 @@ fn a_word_of_the_file_is_explained() {
 
         How many messages may wait for this gate; 1 means: only the newest.
 
-        Counted in messages, for each connection. What happens when it is full is `when_full`. A queue of 1 with `drop_oldest` always holds the newest value, also after a pause of the receiver: nothing older waits in a socket. At any other gate, up to 4096 messages or 1 MiB more may be on their way between the two programs.
+        Counted in messages, for each connection. `when_full` says what happens when it is full. A queue of 1 with `drop_oldest` always holds the newest value, even after the receiver paused: no older message waits in a socket. At any other gate, up to 4096 messages or 1 MiB more may be on their way between the two programs.
 
         Gates: `sub` and `pull`. Value: 1 to 1000000. Default: `100`.
 

@@ -1,5 +1,5 @@
-//! How long reading and checking takes, by the size of the file. Expected: linear, and under a second for 10,000
-//! components with 5 gates and 5 connections each.
+//! Measures how long parsing and checking take, by the size of the file. Expected: linear, and under a second for
+//! 10,000 components with 5 gates and 5 connections each.
 //!
 //! `cargo bench -p scl-topology` prints, for sound files and for files in which every connection is misspelt:
 //!
@@ -60,8 +60,8 @@ fn measure(text: &str, misspelt: bool) -> (Duration, Duration) {
     (parsed, checked)
 }
 
-/// A ring with 5 gates and 5 connections a component: each sends to the next three. The gates that wait make a chain,
-/// as a ring of them would be a deadlock.
+/// Generates a ring of components with 5 gates and 5 connections each, in which each sends to the next three. The
+/// waiting gates form a chain, as a ring of them would be a deadlock.
 fn topology(size: usize, misspelt: bool) -> String {
     let mut text = "system: bench\ncomponents:\n".to_owned();
     for at in 0..size {

@@ -1,4 +1,4 @@
-//! What files that are made to be costly cost: reading, checking and printing every problem, as `scl check` does.
+//! Measures the cost of hostile files: reading, checking and printing every problem, as `scl check` does.
 //!
 //! `cargo bench -p scl-topology --bench cost` prints:
 //!
@@ -15,7 +15,7 @@ use scl_topology::parse::parse;
 use scl_topology::source::Sources;
 use std::time::Instant;
 
-/// The default limit of a file.
+/// The default size limit of a file.
 const MEBIBYTE: usize = 1 << 20;
 
 fn main() {

@@ -1,4 +1,5 @@
-//! The variants of every check, as data in `tests/cases`: a text and what is found in it, in three spellings.
+//! Test cases for every check, as data in `tests/cases`: a text and the problems found in it. Each is tested in several
+//! spellings.
 //!
 //! ```text
 //! # SCL0505                          the check that the cases below are about
@@ -8,8 +9,8 @@
 //! => SCL0505 [a.x, b.x]              each problem and the text at its place; none if nothing is found
 //! ```
 //!
-//! `UPDATE_EXPECT=1` rewrites the last part. Lints, and the warnings that small files cannot but have, are left out
-//! where the case is not about them.
+//! `UPDATE_EXPECT=1` rewrites the problems. Lints, and the warnings that small files cannot avoid, are left out unless
+//! the case is about them.
 
 mod file;
 pub(crate) mod flow;
@@ -46,7 +47,7 @@ fn every_case_in_three_spellings() {
     assert!(cases >= FEWEST, "{cases}");
 }
 
-/// What a case finds does not depend on how it is spelt; says whether it can be spelt in flow style.
+/// Checks that a case yields the same problems in every spelling. Returns true if it can be written in flow style.
 fn compare_spellings(case: &Case, differences: &mut Vec<String>) -> bool {
     let plain = outcome(&case.code, &case.text);
     for other in [case.text.replace('\n', "\r\n"), case.text.trim_end_matches('\n').to_owned()] {

@@ -1,5 +1,5 @@
 //! Every rule with its code, its explanation and its examples. `scl explain SCL0511` prints an entry,
-//! `docs/diagnostics.md` is generated from it, and the tests hold each entry to what it says.
+//! `docs/diagnostics.md` is generated from all of them, and tests check their examples.
 
 mod page;
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The checks: a [`Model`] becomes a [`Topology`], or every reason why it cannot is told.
+//! The checks: a [`Model`] becomes a [`Topology`], or every reason why it cannot is reported.
 
 mod all_rules;
 mod backpressure;
@@ -130,28 +130,29 @@ pub(crate) const RULES: [&Rule; 63] = [
 /// What the checks need to know besides the file's text.
 #[derive(Debug, Clone, Default)]
 pub struct Facts {
-    /// The file's name without its ending: the system's name unless the file has one.
+    /// The file's name without its extension. The system's name is derived from it if the file has no `system:`.
     pub default_system: String,
     /// What the schemas declare, in the order of the file's `schemas`. `None` if the file names none or they could not
     /// be compiled: then types are not looked up.
     pub messages: Option<Vec<SchemaMessages>>,
-    /// How long names may be: they become paths of sockets.
+    /// The limits on the paths of sockets, which contain the names of components and gates.
     pub sockets: SocketPaths,
 }
 
 /// The messages of one schema file.
 #[derive(Debug, Clone, Default)]
 pub struct SchemaMessages {
-    /// Full names, for example `rover.Measurement`. A type whose first part is that of such a name must be one of them.
+    /// Full names, for example `rover.Measurement`. A type that starts with the first part of one of these names must
+    /// be one of them.
     pub names: Vec<String>,
-    /// The packages of the file and of the files that only it imports, also those without messages.
+    /// The packages of the file and of the files that only it imports, including packages without messages.
     pub packages: Vec<String>,
 }
 
-/// Checks everything and never stops at the first problem.
+/// Runs all checks; does not stop at the first problem.
 ///
-/// Gives `None` if `problems` holds an error in the end, be it from here or from the parser. A part that is wrong is
-/// left out of the later checks, so that each mistake is told once. Of a text that is no YAML nothing is checked.
+/// Returns `None` if `problems` then holds an error, whether from these checks or from the parser. A wrong part is left
+/// out of later checks, so that each mistake is reported once. A file of which a part could not be read is not checked.
 pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Diagnostics) -> Option<Topology> {
     // If only a part of the file could be read, what seems to be missing may be in the rest.
     if model.cut_off {

@@ -1,4 +1,4 @@
-//! Characters that look like ASCII ones and are others: marks of word processors, letters of other scripts.
+//! Characters that look like ASCII characters but are not: marks of word processors, letters of other scripts.
 
 /// What each character is called, and the mark it is taken for.
 const MARKS: [(char, &str, &str); 34] = [
@@ -56,13 +56,13 @@ pub(crate) fn twin(letter: char) -> Option<(&'static str, char)> {
     })
 }
 
-/// The first character of a text that looks like another.
+/// The first character in a text that looks like an ASCII character, with its place.
 pub(crate) fn first(text: &str) -> Option<(usize, char)> {
     let is_other = |letter: char| !letter.is_ascii() && (mark(letter).is_some() || twin(letter).is_some());
     text.char_indices().find(|(_, letter)| is_other(*letter))
 }
 
-/// A text with the characters that were meant.
+/// Replaces characters that look like ASCII characters by the ones that were meant.
 pub(crate) fn retyped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for letter in text.chars() {

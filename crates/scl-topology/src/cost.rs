@@ -1,5 +1,5 @@
-//! Files that are made to be costly cost no more than their size allows: the steps, the labels and the printed bytes
-//! are counted. `cargo bench -p scl-topology --bench cost` has the times.
+//! Checks that hostile files cost no more than their size allows, by counting steps, labels and printed bytes.
+//! `cargo bench -p scl-topology --bench cost` measures the times.
 
 #[path = "../tests/hostile/mod.rs"]
 mod hostile;

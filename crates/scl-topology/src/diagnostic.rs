@@ -1,4 +1,4 @@
-//! What the checker has to say: one [`Diagnostic`] a problem, gathered in [`Diagnostics`].
+//! What the checker reports: one [`Diagnostic`] for each problem, collected in [`Diagnostics`].
 
 mod fix;
 mod limit;
@@ -17,16 +17,16 @@ pub use limit::{MOST_SHOWN, limit};
 pub use render::{render, render_headless, render_styled};
 pub use rule::{Rule, Severity};
 
-/// A place with a word on it.
+/// A place with a short text about it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Label {
-    /// Where.
+    /// The place.
     pub span: Span,
-    /// What to see there; may be empty.
+    /// The text shown at the place; may be empty.
     pub text: String,
 }
 
-/// One problem: what is wrong, where, and the way out. Made by [`Rule::at`] and [`Rule::without_place`] only.
+/// One problem: what is wrong, where, and how to fix it. Made by [`Rule::at`] and [`Rule::without_place`] only.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Diagnostic {
@@ -36,19 +36,19 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// The headline: lower case, no full stop, names in backticks.
     pub message: String,
-    /// Why here. `None` only where no source text exists (the file is missing).
+    /// The place of the problem. `None` only if no source text exists, for example because the file is missing.
     pub primary: Option<Label>,
     /// Other places involved, for example declarations: the first [`MOST_LABELS`].
     pub secondary: Vec<Label>,
     /// Number of further places that are not in `secondary`.
     pub unlisted: usize,
-    /// What to write instead, one way a line; a help may hold several lines.
+    /// What to write instead: each help is one way to do so, and may have several lines.
     pub helps: Vec<String>,
     /// The rule, or the valid names.
     pub notes: Vec<String>,
-    /// What `helps` say, as replacements of text.
+    /// The corrections in `helps`, as replacements of text.
     pub fixes: Vec<Fix>,
-    /// The name that it is about, where problems of one rule about one name are one mistake.
+    /// The name that the problem is about, if all problems of its rule about this name are one mistake.
     pub(crate) subject: Option<String>,
 }
 
@@ -60,12 +60,12 @@ pub const MOST_LABELS: usize = 16;
 const LONGEST_TEXT: usize = 1_000;
 
 impl Rule {
-    /// A problem of this kind: its headline, its place and what to see there.
+    /// Creates a problem of this rule from its headline, its place and the text shown there.
     pub fn at(&'static self, message: impl Into<String>, at: Span, label: impl Into<String>) -> Diagnostic {
         Diagnostic { primary: Some(Label { span: at, text: clipped(label) }), ..self.without_place(message) }
     }
 
-    /// A problem of this kind that has no place in any text, for example because the file is missing.
+    /// Creates a problem of this rule that has no place in any text, for example because the file is missing.
     pub fn without_place(&'static self, message: impl Into<String>) -> Diagnostic {
         Diagnostic {
             rule: self,
@@ -94,7 +94,7 @@ impl Diagnostic {
         self
     }
 
-    /// Says that all problems of the rule about this name are one mistake.
+    /// Marks all problems of the rule about this name as one mistake.
     pub(crate) fn about(mut self, subject: impl Into<String>) -> Self {
         self.subject = Some(subject.into());
         self
@@ -124,13 +124,13 @@ impl Diagnostic {
         self.notes.iter().map(|note| Cow::from(note.as_str())).chain(rest.map(Cow::from))
     }
 
-    /// Adds a way out.
+    /// Adds a help: what to write instead.
     pub fn help(mut self, text: impl Into<String>) -> Self {
         self.helps.push(clipped(text));
         self
     }
 
-    /// Adds ways out: none, one or several.
+    /// Adds helps: none, one or several.
     pub fn helps<T: Into<String>>(self, texts: impl IntoIterator<Item = T>) -> Self {
         texts.into_iter().fold(self, Self::help)
     }
@@ -140,7 +140,7 @@ impl Diagnostic {
         if names.is_empty() { self } else { self.help(format!("did you mean {}?", either(names))) }
     }
 
-    /// Adds the rule behind it.
+    /// Adds a note, for example the rule behind the problem.
     pub fn note(mut self, text: impl Into<String>) -> Self {
         self.notes.push(clipped(text));
         self
@@ -163,19 +163,19 @@ fn clipped(text: impl Into<String>) -> String {
     text
 }
 
-/// The collector. Stages push into it and go on; its maker must read it.
+/// Collects problems. Stages push into it and continue; its creator must read it.
 ///
 /// # Panics
 ///
-/// In debug builds, dropping one with problems in it panics, unless the thread does so already: the maker of a
-/// collector ends with [`Diagnostics::into_sorted`], or hands its problems over with [`Diagnostics::append`].
+/// In debug builds, dropping a collector with problems in it panics, unless the thread is panicking already: its
+/// creator must end with [`Diagnostics::into_sorted`], or hand the problems over with [`Diagnostics::append`].
 #[derive(Debug, Default)]
 pub struct Diagnostics {
     items: Vec<Diagnostic>,
 }
 
 impl Diagnostics {
-    /// Nothing found yet.
+    /// Creates an empty collector.
     pub fn new() -> Self {
         Self::default()
     }
@@ -190,27 +190,28 @@ impl Diagnostics {
         self.items.extend(diagnostics);
     }
 
-    /// Takes all problems of another collector over.
+    /// Moves all problems of another collector into this one.
     pub fn append(&mut self, mut other: Diagnostics) {
         self.items.append(&mut other.items);
     }
 
-    /// Lets every problem be looked at and changed; those for which `keep` is false are taken out.
+    /// Calls `keep` for every problem, which may change it, and removes those for which it returns false.
     pub fn retain(&mut self, keep: impl FnMut(&mut Diagnostic) -> bool) {
         self.items.retain_mut(keep);
     }
 
-    /// Says that nobody needs these.
+    /// Discards all problems, so that dropping the collector does not panic.
     pub(crate) fn discard(mut self) {
         self.items.clear();
     }
 
-    /// Whether an error is among them.
+    /// Whether any of the problems is an error.
     pub fn has_errors(&self) -> bool {
         self.items.iter().any(|item| item.severity == Severity::Error)
     }
 
-    /// All of them, sorted by position, errors first at one position; those without a place come before all others.
+    /// Returns all problems, sorted by position, with errors first at the same position. Problems without a place come
+    /// before all others.
     pub fn into_sorted(mut self) -> Vec<Diagnostic> {
         let mut items = std::mem::take(&mut self.items);
         items.sort_by_key(|item| {

@@ -4,7 +4,7 @@
 use crate::diagnostic::{Rule, Severity};
 
 /// All of them, by their codes.
-pub(crate) const RULES: [&Rule; 22] = [
+pub(crate) const RULES: [&Rule; 21] = [
     &FILE_NOT_FOUND,
     &UNREADABLE_FILE,
     &NOT_UTF8,
@@ -20,7 +20,6 @@ pub(crate) const RULES: [&Rule; 22] = [
     &DIFFERENT_RUST_TYPES,
     &NOT_A_MESSAGE,
     &TYPE_NOT_FOUND,
-    &MESSAGE_TOO_LARGE,
     &WRONG_DIRECTION,
     &WRONG_TYPE_IN_CODE,
     &UNKNOWN_IN_CODE,
@@ -34,9 +33,9 @@ pub const FILE_NOT_FOUND: Rule = Rule {
     code: "SCL0001",
     severity: Severity::Error,
     title: "topology file not found",
-    explanation: "The path in the macro call names no file. It is looked for beside the source file that calls the \
-                  macro, then in the package's folder, then in the workspace's. Correct the path; the message lists \
-                  each place that was tried and files of similar names.",
+    explanation: "The file in the macro call does not exist. The macro looks for it beside the source file that \
+                  contains the call, then in the package's folder, then in the workspace's. Correct the path; the \
+                  message lists each place that was tried and files with similar names.",
     example: "-scl::topology!(\"topolgy.yaml\");
 +scl::topology!(\"topology.yaml\");
 ",
@@ -48,7 +47,7 @@ pub const UNREADABLE_FILE: Rule = Rule {
     severity: Severity::Error,
     title: "path is a directory or cannot be read",
     explanation: "The path exists, but it is a folder, a broken link, or a file that this user may not read. Name a \
-                  readable file; the text of the operating system stands at the end of the message.",
+                  readable file; the message ends with the operating system's error.",
     example: "-scl::topology!(\"config/\");
 +scl::topology!(\"config/topology.yaml\");
 ",
@@ -69,9 +68,9 @@ pub const FILE_TOO_LARGE: Rule = Rule {
     code: "SCL0004",
     severity: Severity::Error,
     title: "file too large",
-    explanation: "The file is larger than any topology has reason to be, so it is probably the wrong file. The limit \
-                  protects the compiler, inside of which the macro runs. A topology of 1000 components has some 200 \
-                  KiB; generated ones may raise the limit with `max_size`.",
+    explanation: "The file is larger than a topology usually is, so it is probably the wrong file. The limit protects \
+                  the compiler, in which the macro runs. A topology of 1000 components has about 200 KiB; for larger, \
+                  generated ones, raise the limit with `max_size`.",
     example: "",
 };
 
@@ -94,8 +93,8 @@ pub const PATH_OF_ONE_MACHINE: Rule = Rule {
     severity: Severity::Warning,
     title: "path works on this machine only",
     explanation: "An absolute path, or one that leaves the package, exists on this machine only: the crate will not \
-                  build elsewhere, and `cargo package` does not carry the file. Write the path relative to the source \
-                  file or to Cargo.toml.",
+                  build elsewhere, and `cargo package` does not include the file. Write the path relative to the \
+                  source file or to Cargo.toml.",
     example: "-scl::topology!(\"/home/u/uav/topology.yaml\");
 +scl::topology!(\"topology.yaml\");
 ",
@@ -106,8 +105,8 @@ pub const GENERATED_TWICE: Rule = Rule {
     code: "SCL0007",
     severity: Severity::Error,
     title: "the same names are generated twice",
-    explanation: "Two calls of the macro in one module generate the same names. A macro cannot see its neighbours, so \
-                  rustc reports it as E0428. Put one of the calls into a module of its own.",
+    explanation: "Two calls of the macro in one module generate the same names. The macro cannot see the other call, \
+                  so rustc reports E0428. Move one of the calls into a separate module.",
     example: " scl::topology!(\"a.yaml\");
 -scl::topology!(\"b.yaml\");
 +mod ground_station {
@@ -121,10 +120,10 @@ pub const SCHEMA: Rule = Rule {
     code: "SCL0406",
     severity: Severity::Error,
     title: "schema file cannot be read or compiled",
-    explanation: "A schema that the file names does not exist, cannot be read, or has a mistake in it. Schemas are \
-                  looked for beside the topology file, and what they import also beside each of them, or only in the \
-                  folders of `schema_roots`. An import that two different files can mean is refused. A mistake inside is \
-                  shown in its own file.",
+    explanation: "A file in `schemas` does not exist, cannot be read, or contains a mistake. Its path starts at the \
+                  folder of the topology file. Its imports are searched for in that folder and beside each of the \
+                  schemas, or, with `schema_roots`, only in the folders listed there. An import that could mean two \
+                  different files is an error. A mistake in a schema is shown in that schema.",
     example: "-schemas: [uav.prot]
 +schemas: [uav.proto]
  components:
@@ -140,8 +139,8 @@ pub const SCHEMA_ELSEWHERE: Rule = Rule {
     severity: Severity::Warning,
     title: "schema path works on this machine only",
     explanation: "An absolute path of a schema, or one that leaves the folder of the topology file, exists on this \
-                  machine only: the file will not be found elsewhere, and `cargo package` does not carry it. Keep the \
-                  schemas beside the topology file or below it.",
+                  machine only: the file will not be found elsewhere, and `cargo package` does not include it. Keep \
+                  the schemas beside the topology file or below it.",
     example: "",
 };
 
@@ -159,13 +158,14 @@ pub const SCHEMA_TWICE: Rule = Rule {
 pub const SCHEMA_NAME: Rule = Rule {
     code: "SCL0417",
     severity: Severity::Error,
-    title: "declaration of a schema has no Rust name of its own",
-    explanation: "Rust has other rules for names than protobuf, so two declarations of the schemas can become one name: \
-                  the messages `GPSFix` and `GpsFix` both become `GpsFix`, and the enum values `MODE_AUTO` and `AUTO` of \
-                  `Mode` both become `Mode::Auto`. What a message declares inside, its oneofs included, lies in a module: \
-                  `Status` becomes `status`, as the package `rover.status` does in `rover`. A message without a package \
-                  lies beside the components. A name of underscores only becomes nothing. Rename one; the bytes of \
-                  messages contain no names. docs/messages.md has the rules.",
+    title: "schema declaration without a unique Rust name",
+    explanation: "Rust names follow other rules than protobuf names, so two declarations of the schemas can become the \
+                  same name: the messages `GPSFix` and `GpsFix` both become `GpsFix`, and the enum values `MODE_AUTO` \
+                  and `AUTO` of `Mode` both become `Mode::Auto`. Declarations inside a message, including oneofs, go \
+                  into a module: in package `rover`, those of message `Status` go into `rover::status`, like those of \
+                  a package `rover.status`. A message without a package can collide with a component. A name that \
+                  consists only of underscores leaves no Rust name. Rename one; the protobuf bytes of messages contain \
+                  no names. docs/messages.md has the rules.",
     example: "",
 };
 
@@ -174,11 +174,11 @@ pub const HIDDEN_CRATE: Rule = Rule {
     code: "SCL0418",
     severity: Severity::Warning,
     title: "package of a schema hides a crate",
-    explanation: "The first part of a package becomes a Rust module where the macro is called. If a crate of the program \
-                  has this name, `log` or `std` for example, Rust code of that module means the package, or finds the \
-                  name ambiguous. Call the macro in a module of its own, as `mod wiring { ::scl::topology!(\"..\"); }`, \
-                  where nothing else is, and then allow this warning. `scl check` knows the crates `std`, `core`, `alloc` \
-                  and `scl`; the macro knows all that the program depends on.",
+    explanation: "The first part of a package becomes a Rust module where the macro is called. If the program uses a \
+                  crate with this name, such as `log` or `std`, code in the module that calls the macro gets the \
+                  package instead, or the name is ambiguous. Call the macro in a separate module that contains nothing \
+                  else, such as `mod wiring { ::scl::topology!(\"..\"); }`, and allow this warning. `scl check` knows \
+                  the crates `std`, `core`, `alloc` and `scl`; the macro knows all dependencies of the program.",
     example: "",
 };
 
@@ -187,8 +187,8 @@ pub const DIFFERENT_RUST_TYPES: Rule = Rule {
     code: "SCL0605",
     severity: Severity::Error,
     title: "same name, different Rust types",
-    explanation: "Two type names that the file cannot tell apart, such as `nav.Attitude` and `log.Attitude`, turn out \
-                  to be different Rust types. Only rustc knows that: the macro generates an assertion for each such \
+    explanation: "The two ends name types that may be the same, such as `nav.Attitude` and `log.Attitude`, but are \
+                  different Rust types. Only rustc can tell: the macro generates an assertion for each such \
                   connection, and the error shows the connection.",
     example: "",
 };
@@ -198,9 +198,9 @@ pub const NOT_A_MESSAGE: Rule = Rule {
     code: "SCL0606",
     severity: Severity::Error,
     title: "type is not a message",
-    explanation: "A type that the file names exists in Rust, but the gate's codec cannot carry it: for `protobuf` it \
-                  has to be a prost message, for the others a serde type. rustc reports it at an assertion that names \
-                  the gate.",
+    explanation: "A type that the file names exists in Rust, but the gate's codec cannot carry it: `protobuf` needs a \
+                  prost message, `raw` a type with zerocopy's traits, and the other built-in codecs a serde type. \
+                  rustc reports it at an assertion that names the gate.",
     example: "",
 };
 
@@ -209,20 +209,10 @@ pub const TYPE_NOT_FOUND: Rule = Rule {
     code: "SCL0609",
     severity: Severity::Error,
     title: "Rust type not found",
-    explanation: "A type or codec that the file names as a Rust path, such as `camera.Image`, cannot be found where the \
-                  macro is called. Only the programs that open the component need it, and only there rustc reports it. \
+    explanation: "A type or codec that the file names as a Rust path, such as `camera.Image`, cannot be found where \
+                  the macro is called. Only programs that open the component need it, so rustc reports it only there. \
                   Add the crate to the program's dependencies, bring the module into scope with `use`, or correct the \
                   path.",
-    example: "",
-};
-
-/// SCL0803.
-pub const MESSAGE_TOO_LARGE: Rule = Rule {
-    code: "SCL0803",
-    severity: Severity::Error,
-    title: "message larger than a slot",
-    explanation: "A message type is larger than the slots of a shared-memory transport. Shared memory is not part of \
-                  this version, so nothing reports this yet; the code is kept for it.",
     example: "",
 };
 
@@ -244,7 +234,7 @@ pub const WRONG_TYPE_IN_CODE: Rule = Rule {
     code: "SCL1002",
     severity: Severity::Error,
     title: "wrong message type in code",
-    explanation: "A program sends or expects another type than the file declares for the gate. rustc reports it as \
+    explanation: "A program sends or expects a different type than the file declares for the gate. rustc reports it as \
                   E0308; the documentation of the field says where the type is declared.",
     example: "-sensor.measurements.send(&status).await?;
 +sensor.measurements.send(&measurement).await?;
@@ -267,7 +257,7 @@ pub const UNKNOWN_IN_CODE: Rule = Rule {
 pub const MESSAGE_CLASH: Rule = Rule {
     code: "SCL1101",
     severity: Severity::Error,
-    title: "component and message become one name in another language",
+    title: "component and message get the same name in another language",
     explanation: "In generated code of some languages, components and messages share the namespace of the system: the \
                   component `sensor` and the message `rover.Sensor` would both become `rover::Sensor` in C++. Only \
                   `scl generate` and `scl check --for` report it; Rust keeps the two apart. Rename one of them.",
@@ -278,10 +268,10 @@ pub const MESSAGE_CLASH: Rule = Rule {
 pub const NAME_CLASH: Rule = Rule {
     code: "SCL1102",
     severity: Severity::Error,
-    title: "two names become one in another language",
-    explanation: "Different names of the topology become one name in generated code: C joins the names of system, \
-                  component and gate by `_`, so gate `b_c` of component `a` and gate `c` of component `a_b` become the \
-                  same functions. Only `scl generate` and `scl check --for` report it. Rename one of them.",
+    title: "two names become the same in another language",
+    explanation: "Different names of the topology become the same name in generated code: C joins the names of system, \
+                  component and gate with `_`, so gate `b_c` of component `a` and gate `c` of component `a_b` become \
+                  the same functions. Only `scl generate` and `scl check --for` report it. Rename one of them.",
     example: "",
 };
 
@@ -289,10 +279,10 @@ pub const NAME_CLASH: Rule = Rule {
 pub const UNWRITABLE_NAME: Rule = Rule {
     code: "SCL1103",
     severity: Severity::Error,
-    title: "message has no certain name in another language",
-    explanation: "A gate carries a message whose C++ name SCL cannot know or write. protoc does not escape keywords in \
-                  packages, so `package export;` gives a header that no compiler accepts; and keywords that are new in \
-                  C++20, such as `concept`, get an underscore from newer versions of protoc only. Only `scl generate` and \
-                  `scl check --for` report it. Rename the package or the message.",
+    title: "C++ name of a message is unknown or unusable",
+    explanation: "A gate carries a message whose C++ name SCL cannot determine or use. protoc does not escape keywords \
+                  in packages, so `package export;` gives a header that no compiler accepts. Keywords that are new in \
+                  C++20, such as `concept`, get an underscore only from newer versions of protoc. Only `scl generate` \
+                  and `scl check --for` report it. Rename the package or the message.",
     example: "",
 };

@@ -1,4 +1,4 @@
-//! The grammar of the topology file, told once: sections, keys, kinds of gate, options, queue policies, codecs.
+//! The grammar of the topology file, defined once: sections, keys, kinds of gate, options, queue policies, codecs.
 //!
 //! The parser, the checks, the suggestions, the JSON Schema of `scl schema`, the reference page `docs/topology.md`,
 //! `scl explain` and the macro read these tables. A new option is a row of [`OPTIONS`] and its meaning at run time; a

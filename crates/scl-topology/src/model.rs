@@ -1,7 +1,7 @@
 //! The topology as written: every leaf with its place, nothing resolved, nothing rejected yet.
 //!
-//! The parser makes it and drops what has no shape; the checks read it. A macro that meets a broken file still
-//! generates the structs that can be read from here, so that an editor keeps completing.
+//! The parser creates it and leaves out malformed parts; the checks read it. For a broken file, the macro still
+//! generates the structs that it can read from the model, so that completion in editors keeps working.
 
 use crate::source::{Span, Spanned};
 
@@ -25,11 +25,11 @@ pub struct Model {
     /// The section `connections` could not be read, perhaps because its key is misspelt; a problem says so.
     pub connections_unread: bool,
     /// Some components or sections could not be read, and a problem says so. A component that seems to be unknown may
-    /// be one of them, so that is no further problem.
+    /// be one of them, so it is not reported.
     pub components_unread: bool,
-    /// The comments that speak to the checker: `# scl: allow(SCL0701) reason`.
+    /// The comments for the checker: `# scl: allow(SCL0701) reason`.
     pub controls: Vec<ControlModel>,
-    /// The ends that stand in a connection without shape; a problem says so. Their gates count as connected.
+    /// The ends in malformed connections, which are reported. Their gates count as connected.
     pub broken_ends: Vec<Spanned<String>>,
     /// Part of the file could not be read at all, for example because the text is not valid YAML, so that anything may
     /// be missing; a problem is reported for it.
@@ -71,9 +71,9 @@ pub struct GateModel {
 /// One option of a gate.
 #[derive(Debug, Clone)]
 pub struct OptionModel {
-    /// For example `queue`.
+    /// The key, for example `queue`.
     pub key: Spanned<String>,
-    /// For example `16`.
+    /// The value, for example `16`.
     pub value: Spanned<String>,
     /// Whether the value was quoted, so that it cannot be a number or a boolean.
     pub quoted: bool,
@@ -88,7 +88,7 @@ pub struct ConnectionModel {
     pub span: Span,
 }
 
-/// A comment that speaks to the checker.
+/// A comment for the checker.
 #[derive(Debug, Clone)]
 pub struct ControlModel {
     /// The whole text from `scl:` to the end of the comment: `scl: allow(SCL0701) wired in phase 2`.

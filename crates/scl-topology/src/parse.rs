@@ -1,7 +1,7 @@
-//! Text in, [`Model`] out, and a problem for everything that has no shape.
+//! Turns a text into a [`Model`], and reports a problem for every malformed part.
 //!
-//! The parser never stops at a problem: a gate without a kind does not stop its component, and of a text that is no
-//! YAML the part before the error is kept.
+//! The parser never stops at a problem: a gate without a kind does not end its component, and if a text is not valid
+//! YAML, the part before the error is kept.
 
 mod component;
 mod connection;
@@ -40,8 +40,8 @@ use topology_dialect::TOPOLOGY;
 
 /// Reads a topology file as it is written.
 ///
-/// What has no shape is left out of the model, and each such place is a problem in `problems`: all of `SCL01xx` and
-/// `SCL02xx`. After a syntax error the model holds what stands before it, and only problems of the text itself are
+/// Malformed parts are left out of the model, and each of them is reported in `problems`: all of `SCL01xx` and
+/// `SCL02xx`. After a syntax error, the model holds what precedes it, and only problems of the text itself are
 /// reported, as the others may be its consequences. Takes linear time and does not panic, whatever the text.
 ///
 /// ```
@@ -133,7 +133,7 @@ impl<'s> Reader<'s> {
     }
 }
 
-/// The text of a scalar that is not "no value".
+/// The text of a scalar, with its place; `None` for "no value", lists and mappings.
 fn scalar(node: &Node) -> Option<Spanned<String>> {
     Some(Spanned { value: node.text()?.to_owned(), span: node.span })
 }

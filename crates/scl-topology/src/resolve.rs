@@ -1,8 +1,9 @@
 //! The plan of a component: everything its program needs to run, from the checked topology.
 //!
-//! Gates meet by names that this stage fixes: contracts and the names of sockets. A contract is a short mark of what
-//! two ends must agree on: pattern, types, codec. It stands in the name of the socket, so programs that were built from
-//! different contracts never meet. Names of gates, options and other parts of the file do not change it.
+//! Gates find each other by names that this stage determines: contracts and the names of sockets. A contract is a short
+//! hash of what two ends must agree on: pattern, types, codec. It is part of the name of the socket, so programs that
+//! were built from different contracts never connect. Names of gates, options and other parts of the file do not change
+//! it.
 
 mod contract;
 mod socket_name;
@@ -16,10 +17,10 @@ use contract::{contract, gate_contract};
 use scl_plan::{ConnectionPlan, GatePlan, Plan};
 use socket_name::{endpoint, gate_endpoint, tap_endpoint};
 
-/// The characters of a contract.
+/// Length of a contract, in characters.
 pub const CONTRACT_LENGTH: usize = fingerprint::SHORT_LENGTH;
 
-/// The end of the name of a tap.
+/// The ending of the socket name of a tap.
 pub(crate) const TAP: &str = ".tap";
 
 /// The plan of one component. `location` tells where a declaration stands, for example `topology.yaml:4:11`.

@@ -52,7 +52,7 @@ pub fn is_keyword(name: &str) -> bool {
     KEYWORDS.contains(&name)
 }
 
-/// Whether not even `r#` makes a name of it.
+/// Whether the word cannot be a name even with `r#`.
 pub fn is_unescapable(name: &str) -> bool {
     UNESCAPABLE.contains(&name)
 }

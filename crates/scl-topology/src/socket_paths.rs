@@ -1,15 +1,15 @@
-//! How long the names of sockets may be. Where sockets live is not known here; the caller says it.
+//! How long the names of sockets may be. The caller supplies the folder that sockets live in.
 
 use crate::resolve::CONTRACT_LENGTH;
 
-/// The paths of sockets, as far as the names of components and gates are limited by them.
+/// The limits that the paths of sockets set for the names of components and gates.
 ///
 /// All programs of a system must be built with the same values, because long names of connections are shortened to fit.
 /// The default has no limit.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SocketPaths {
-    /// The folder of all systems where its path is longest, without a slash at its end. Each system has a folder of its
-    /// own in it.
+    /// The longest path that the folder of all systems can have, without a slash at its end. Each system has its own
+    /// folder in it.
     pub longest_root: String,
     /// The longest path of a socket that the operating system accepts, in bytes.
     pub limit: usize,

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// Which of the [`Sources`] a [`Span`] lies in.
+/// The id of the file in [`Sources`] that a [`Span`] lies in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct FileId(pub(crate) u16);
 
@@ -45,10 +45,10 @@ pub struct SourceFile {
     characters_before: Vec<u32>,
 }
 
-/// Size of the blocks of a text that are counted once.
+/// Size of the blocks whose characters are counted in advance, in bytes.
 const BLOCK: usize = 512;
 
-/// A place as people count: line and column from 1, the column in characters.
+/// A place as people count it: line and column from 1, the column in characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LineColumn {
     /// The line, from 1.
@@ -58,7 +58,7 @@ pub struct LineColumn {
 }
 
 impl SourceFile {
-    /// Which of the sources it is.
+    /// The id of the file in its [`Sources`].
     pub(crate) fn id(&self) -> FileId {
         self.id
     }
@@ -159,12 +159,12 @@ pub struct Sources {
 }
 
 impl Sources {
-    /// No files yet.
+    /// Creates an empty collection.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Adds a text. A leading byte order mark is taken off, so that no position counts it.
+    /// Adds a text. A leading byte order mark is removed, so that no position counts it.
     pub fn add(&mut self, path: impl Into<String>, text: impl Into<String>) -> FileId {
         let mut text = text.into();
         let has_byte_order_mark = text.starts_with('\u{feff}');
@@ -183,7 +183,7 @@ impl Sources {
         id
     }
 
-    /// The file of this path, which is added if there is none.
+    /// Returns the file with this path. Adds it with `text` if there is none yet.
     pub fn add_once(&mut self, path: &str, text: &str) -> FileId {
         match self.files.iter().position(|file| file.path == path) {
             Some(index) => FileId(index as u16),
@@ -201,7 +201,7 @@ impl Sources {
         self.file(span.file).snippet(span)
     }
 
-    /// `text` in the quotes of what a span covers, if there are any: how to replace a scalar by another one.
+    /// Returns `text` in the same quotes as the scalar that a span covers, if it has any, to replace that scalar.
     pub fn quoted_as(&self, span: Span, text: &str) -> String {
         match self.snippet(span).chars().next().filter(|first| matches!(first, '"' | '\'')) {
             Some(quote) => format!("{quote}{text}{quote}"),

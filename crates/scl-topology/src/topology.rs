@@ -31,7 +31,7 @@ impl TypeName {
         &self.dotted
     }
 
-    /// Where it is written; of an inherited type, at the other end.
+    /// Where it is written; for a type taken over from another gate, the place in that gate.
     pub fn span(&self) -> Span {
         self.span
     }
@@ -51,9 +51,9 @@ pub enum Payload {
     Message(TypeName),
     /// A request and its reply, of `req`, `rep`.
     Exchange {
-        /// What is asked.
+        /// The type of the request.
         request: TypeName,
-        /// What is answered.
+        /// The type of the reply.
         reply: TypeName,
     },
 }
@@ -142,7 +142,7 @@ pub struct Gate {
 }
 
 impl Gate {
-    /// Whose gate it is.
+    /// The component that the gate belongs to.
     pub fn component(&self) -> ComponentId {
         self.component
     }
@@ -154,11 +154,11 @@ impl Gate {
     pub fn rust_name(&self) -> &str {
         &self.rust_name
     }
-    /// What it does.
+    /// The kind of the gate.
     pub fn kind(&self) -> GateKind {
         self.kind
     }
-    /// What it carries.
+    /// The types that it carries, or bytes.
     pub fn payload(&self) -> &Payload {
         &self.payload
     }
@@ -223,7 +223,7 @@ pub struct Topology {
 }
 
 impl Topology {
-    /// The system's name: `system:`, or the file's name without its ending.
+    /// The system's name: `system:`, or else derived from the file's name.
     pub fn system(&self) -> &str {
         &self.system
     }
@@ -235,15 +235,15 @@ impl Topology {
     pub fn connections(&self) -> impl ExactSizeIterator<Item = (ConnectionId, &Connection)> {
         self.connections.iter().enumerate().map(|(i, c)| (ConnectionId(i as u32), c))
     }
-    /// One component.
+    /// The component with this id.
     pub fn component(&self, id: ComponentId) -> &Component {
         &self.components[id.0 as usize]
     }
-    /// One gate.
+    /// The gate with this id.
     pub fn gate(&self, id: GateId) -> &Gate {
         &self.gates[id.0 as usize]
     }
-    /// One connection.
+    /// The connection with this id.
     pub fn connection(&self, id: ConnectionId) -> &Connection {
         &self.connections[id.0 as usize]
     }

@@ -1,7 +1,7 @@
 //! The text of a YAML file as a tree in which every node knows its place.
 //!
-//! Only this file and those below it know the YAML parser. A text with a syntax error gives the tree of what stands
-//! before it, and the error beside it.
+//! Only this file and those below it know the YAML parser. A text with a syntax error yields the tree of what precedes
+//! the error, together with the error.
 
 mod build;
 mod syntax_error;
@@ -11,7 +11,8 @@ use granit_parser::{Event, Parser};
 
 pub(crate) use syntax_error::{SyntaxError, SyntaxErrorKind};
 
-/// A deeper file is no topology; the limit keeps every walk over the tree from overflowing the stack.
+/// Maximum depth of the tree. A deeper file is no topology; the limit keeps every walk over the tree from overflowing
+/// the stack.
 pub(crate) const MAX_DEPTH: usize = 16;
 
 /// How many values all aliases of a file may stand for, so that a small text does not become an enormous tree.
@@ -20,9 +21,9 @@ pub(crate) const MOST_REPEATED: usize = 10_000;
 /// One value and its place.
 #[derive(Debug, Clone)]
 pub struct Node {
-    /// From the first to the last character that belongs to it; quotes and brackets belong.
+    /// From its first to its last character, including quotes and brackets.
     pub span: Span,
-    /// What it is.
+    /// The value.
     pub kind: NodeKind,
 }
 
@@ -33,7 +34,7 @@ pub enum NodeKind {
     Scalar {
         /// As written, without quotes and escapes.
         text: String,
-        /// How.
+        /// How it is written.
         style: Style,
     },
     /// A list.
@@ -62,7 +63,7 @@ pub enum Style {
 }
 
 impl Node {
-    /// The text of a scalar that is not "no value".
+    /// The text of a scalar; `None` for "no value", lists and mappings.
     pub fn text(&self) -> Option<&str> {
         match &self.kind {
             NodeKind::Scalar { text, .. } if !self.is_null() => Some(text),
@@ -107,7 +108,7 @@ pub(crate) struct Anchor {
     pub(crate) aliases: Vec<Span>,
 }
 
-/// What a text holds.
+/// What was read of a text.
 #[derive(Debug, Default)]
 pub(crate) struct Tree {
     /// The first document's value; none in a file without any.
@@ -120,7 +121,7 @@ pub(crate) struct Tree {
     pub(crate) tags: Vec<Span>,
     /// The `---` of a second document; what follows it is not read.
     pub(crate) second_document: Option<Span>,
-    /// The first value below [`MAX_DEPTH`].
+    /// The first value nested deeper than [`MAX_DEPTH`].
     pub(crate) too_deep: Option<Span>,
     /// The first alias past [`MOST_REPEATED`].
     pub(crate) too_much: Option<Span>,
@@ -133,8 +134,8 @@ impl Tree {
     }
 }
 
-/// Reads a text. Takes linear time and never fails: what is wrong is part of the answer. With `has_aliases`, a copy of
-/// the anchor's value stands in the place of an alias, else nothing that can be read.
+/// Reads a text. Takes linear time and never fails: errors are part of the result. With `has_aliases`, an alias becomes
+/// a copy of the anchor's value, otherwise [`NodeKind::Unread`].
 pub(crate) fn read(text: &str, file: FileId, has_aliases: bool) -> Tree {
     let mut builder = build::Builder::new(text, file, has_aliases);
     for next in Parser::new_from_str_with_options(text, options()) {

@@ -33,7 +33,7 @@ fn explained(key: &Key, what: &'static str) -> Entry {
     Entry { word: key.name, what, summary, text }
 }
 
-/// `[Hosts](#hosts)` as `Hosts`.
+/// Replaces links by their texts: `[Hosts](#hosts)` becomes `Hosts`.
 fn without_links(text: &str) -> String {
     let mut plain = String::new();
     let mut rest = text;
@@ -50,13 +50,13 @@ fn without_links(text: &str) -> String {
     plain + rest
 }
 
-/// The entry of a code of launch files, as Markdown; none if there is no such code.
+/// Returns the explanation of a rule about launch files as Markdown, or `None` if no rule has this code.
 pub fn explain_launch_rule(code: &str) -> Option<String> {
     let rule = LAUNCH_RULES.into_iter().find(|rule| rule.code == code)?;
     Some(format!("# {}", entry(rule, "yaml", told)))
 }
 
-/// What is said about an example.
+/// Returns the messages about an example, as they are shown to the user.
 fn told(text: &str) -> String {
     let document = LaunchDocument::parse("launch.yaml", text);
     let found = document.read(None).err().unwrap_or_default();
@@ -86,9 +86,9 @@ mod tests {
         assert!(LAUNCH_RULES.is_sorted_by_key(|rule| rule.code));
         let text = explain_launch_rule("SCL1202").unwrap();
         expect![[r#"
-            # SCL1202 value that the key cannot have (error)
+            # SCL1202 value that the key does not accept (error)
 
-            The value has another form than the key needs: a time without its unit, a word that the key does not know, a number out of range. The message says what the key takes.
+            The key does not accept this value: a time without its unit, an unknown word, or a number out of range. The message says what the key accepts.
 
             Wrong:
 

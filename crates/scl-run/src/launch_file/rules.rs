@@ -1,4 +1,4 @@
-//! The rules about launch files, `SCL12xx`. What is wrong with the YAML itself is found by the rules of topology files.
+//! The rules about launch files, `SCL12xx`. Mistakes in the YAML itself are covered by the rules of topology files.
 
 use scl_topology::diagnostic::{Rule, Severity};
 
@@ -7,9 +7,9 @@ const RULE: Rule = Rule { code: "", severity: Severity::Error, title: "", explan
 pub(super) const UNKNOWN_KEY: Rule = Rule {
     code: "SCL1201",
     title: "unknown key in a launch file",
-    explanation: "A launch file has no such key there, mostly because it is misspelt, or because another tool calls it so. It \
-                  would be ignored silently otherwise. Correct it; keys that start with `x-`, at the top of the file, are yours \
-                  to use.",
+    explanation: "A launch file has no such key at this place. It is probably misspelt, or has this name in another \
+                  tool; ignoring it would hide the mistake. Correct it; at the top of the file, keys that start with \
+                  `x-` are free for your own use.",
     example: " components:
    sensor:
      command: ./sensor
@@ -21,9 +21,9 @@ pub(super) const UNKNOWN_KEY: Rule = Rule {
 
 pub(super) const WRONG_VALUE: Rule = Rule {
     code: "SCL1202",
-    title: "value that the key cannot have",
-    explanation: "The value has another form than the key needs: a time without its unit, a word that the key does not know, a \
-                  number out of range. The message says what the key takes.",
+    title: "value that the key does not accept",
+    explanation: "The key does not accept this value: a time without its unit, an unknown word, or a number out of \
+                  range. The message says what the key accepts.",
     example: " components:
    sensor:
      command: ./sensor
@@ -36,8 +36,8 @@ pub(super) const WRONG_VALUE: Rule = Rule {
 pub(super) const WRONG_SHAPE: Rule = Rule {
     code: "SCL1203",
     title: "list, mapping or text in the wrong place",
-    explanation: "Something else than a mapping stands where the file needs one, for example a command in the place of the entry \
-                  of a component.",
+    explanation: "The file needs a mapping here, but has something else, for example a command in place of a \
+                  component's entry. Write a mapping, such as `{command: ./sensor}`.",
     example: " components:
 -  sensor: ./sensor
 +  sensor: {command: ./sensor}
@@ -48,8 +48,9 @@ pub(super) const WRONG_SHAPE: Rule = Rule {
 pub(super) const MISSING: Rule = Rule {
     code: "SCL1204",
     title: "missing key in a launch file",
-    explanation: "A launch file names its components, and says of each what runs it; with `hosts` it says where each can be \
-                  reached.",
+    explanation: "A launch file needs `components`, and each of them a `command` or a `replay`. With `hosts`, it also \
+                  needs `gateway`; each host needs an `address`, its `components`, and a `port` of its own or that of \
+                  `gateway`. Add the key that the message names.",
     example: " components:
    sensor:
 +    command: ./sensor
@@ -60,9 +61,9 @@ pub(super) const MISSING: Rule = Rule {
 
 pub(super) const UNKNOWN_NAME: Rule = Rule {
     code: "SCL1205",
-    title: "component or gate that the topology does not have",
-    explanation: "A launch file that belongs to a topology starts its components and no others, and names its gates. The message \
-                  lists those that there are.",
+    title: "component or gate that is not in the topology",
+    explanation: "A launch file that has a topology can name only that topology's components and gates. The message \
+                  lists them.",
     example: " hosts:
 -  board: {address: 127.0.0.1, port: 7447, components: [sensr]}
 +  board: {address: 127.0.0.1, port: 7447, components: [sensor]}
@@ -76,8 +77,8 @@ pub(super) const UNKNOWN_NAME: Rule = Rule {
 pub(super) const CONTRADICTION: Rule = Rule {
     code: "SCL1206",
     title: "keys that exclude each other",
-    explanation: "Two keys say different things about one component, or a key has no effect without another. Remove one, or put \
-                  one of them into a profile.",
+    explanation: "Two keys contradict each other, or a key has no effect without another. Remove one, or move one of \
+                  them into a profile.",
     example: " components:
    sensor:
      command: ./sensor
@@ -91,9 +92,9 @@ pub(super) const CONTRADICTION: Rule = Rule {
 
 pub(super) const WRONG_NAME: Rule = Rule {
     code: "SCL1207",
-    title: "text that cannot be such a name",
-    explanation: "Names of hosts stand in certificates and names of folders, names of gates and variables in the environment of \
-                  programs, so not every text can be one.",
+    title: "text that cannot be used as this name",
+    explanation: "This text cannot be the name of a host, a gate or a variable. Host names are used in certificates \
+                  and folder names; names of gates and variables are passed to programs in the environment.",
     example: " components:
    sensor: {command: ./sensor}
  transports:
@@ -106,8 +107,8 @@ pub(super) const WRONG_NAME: Rule = Rule {
 pub(super) const HOSTS: Rule = Rule {
     code: "SCL1208",
     title: "hosts that cannot work together",
-    explanation: "Each component runs on exactly one host, each host has an address of its own, and what is not on loopback is \
-                  encrypted.",
+    explanation: "Each component must run on exactly one host. Each host needs its own address, which the others can \
+                  connect to, and, if it is not on loopback, `certificates` or `insecure: true` in `gateway`.",
     example: " components:
    sensor: {command: ./sensor}
    controller: {command: ./controller}
@@ -124,12 +125,12 @@ pub(super) const UNCHECKED: Rule = Rule {
     code: "SCL1209",
     severity: Severity::Warning,
     title: "names that could not be checked",
-    explanation: "The topology of the launch file has errors, so it is not known which components and gates there are. Correct \
-                  the topology first; `scl run` starts nothing before.",
+    explanation: "The topology of the launch file has errors, so the names of components and gates cannot be checked. \
+                  Correct the topology first; until then, `scl run` starts nothing.",
     ..RULE
 };
 
-/// All of them, by their codes.
+/// All rules, in the order of their codes.
 pub const LAUNCH_RULES: [&Rule; 9] = [
     &UNKNOWN_KEY,
     &WRONG_VALUE,

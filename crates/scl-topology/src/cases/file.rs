@@ -7,7 +7,7 @@ pub(super) struct Case {
     pub(super) title: String,
     /// The lines as written.
     lines: Vec<String>,
-    /// The text that they stand for.
+    /// The topology that the lines expand to.
     pub(super) text: String,
     /// Whether it is the first of its check.
     is_first: bool,
@@ -43,7 +43,7 @@ impl Case {
     }
 }
 
-/// The text of a topology, with all that is short for something written out.
+/// Expands the shorthand of a case to the text of a topology.
 fn expanded(lines: &[String]) -> String {
     let mut text = String::new();
     for line in lines.iter().map(|line| shown(line)) {
@@ -67,7 +67,7 @@ fn section(head: &str, text: &mut String) {
     }
 }
 
-/// Characters that an editor would hide: `<TAB>`, `<U+00A0>`.
+/// Replaces escapes, such as `<TAB>` and `<U+00A0>`, by the characters that an editor would hide.
 fn shown(line: &str) -> String {
     let mut out = String::new();
     let mut rest = line;
@@ -89,7 +89,7 @@ fn shown(line: &str) -> String {
     out + rest
 }
 
-/// The other way round.
+/// Replaces hidden characters by escapes; the inverse of [`shown`].
 pub(super) fn hidden(line: &str) -> String {
     line.chars()
         .map(|character| match character {

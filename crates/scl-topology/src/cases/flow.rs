@@ -1,4 +1,4 @@
-//! A text in flow style, as JSON is written, if its mistake can be made there.
+//! Converts a text to flow style, as in JSON, if its mistake can be made there.
 
 use crate::source::Sources;
 use crate::yaml::{self, Node, NodeKind, Style, Tree};

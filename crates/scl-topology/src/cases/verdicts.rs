@@ -1,14 +1,14 @@
-//! Mistakes that people make, each with the whole text that they read: `tests/cases/verdicts.txt`.
+//! Common mistakes, each with the whole text of the messages about it: `tests/cases/verdicts.txt`.
 //!
-//! A case is a change of the sound file at the top, `old ==> new`, or a file of its own, each line after `| `. What
-//! follows is the text of every error and warning.
+//! A case is a change to the sound file at the top, `old ==> new`, or a separate file with each line after `| `. The
+//! text of every error and warning follows.
 
 use crate::check::testing::problems;
 use crate::diagnostic::{Severity, render};
 
 const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases/verdicts.txt");
 
-/// No mistake yields more errors.
+/// Maximum number of errors that one mistake yields.
 const MOST_ERRORS: usize = 3;
 
 struct Case {
@@ -64,7 +64,7 @@ fn own_line(line: &str) -> String {
     format!("{}\n", line.strip_prefix("| ").unwrap_or(""))
 }
 
-/// The errors and warnings as people read them.
+/// Renders the errors and warnings about a text as users see them.
 fn told(text: &str) -> String {
     let (found, sources) = problems(text, None);
     let shown = found.iter().filter(|found| found.severity != Severity::Lint);

@@ -7,10 +7,10 @@ use crate::parse::parse;
 use crate::socket_paths::SocketPaths;
 use crate::source::Sources;
 
-/// What the schema of the examples declares.
+/// The messages that the schema of the examples declares.
 const MESSAGES: [&str; 3] = ["uav.Command", "uav.Measurement", "uav.Status"];
 
-/// The entry of one code, as Markdown; none if there is no such code. Upper and lower case are the same.
+/// Returns the entry of one code as Markdown, or `None` if no rule has the code. Case is ignored.
 ///
 /// ```
 /// use scl_topology::catalogue::explain;
@@ -37,12 +37,12 @@ pub fn page() -> String {
 
 const INTRODUCTION: &str = "# Diagnostics
 
-What the checker of topology files finds. The macro `scl::topology!` and `scl check` print the same words.
+The mistakes that the checker of topology files finds. The macro `scl::topology!` and `scl check` print the same words.
 `scl explain SCL0502` prints an entry. This page is made from the checker itself; `UPDATE_EXPECT=1 cargo test -p
 scl-topology` rewrites it.
 
-A warning is allowed by a comment on its line or above it: `# scl: allow(SCL0701) reason`. So are the errors SCL0703 and
-SCL0707. A check that is off is turned on for a file by `# scl: warn(SCL0511)`.
+A comment on the line of a warning or above it allows the warning: `# scl: allow(SCL0701) reason`. The errors SCL0703
+and SCL0707 can be allowed in the same way. `# scl: warn(SCL0511)` turns on a check that is off, for the whole file.
 ";
 
 fn level(rule: &Rule) -> &'static str {
@@ -61,8 +61,8 @@ fn entry_of(rule: &Rule) -> String {
     }
 }
 
-/// The entry of a rule, as Markdown without the mark of a heading; `told` returns what is said about the wrong example,
-/// which is in `language`.
+/// Returns the entry of a rule as Markdown, without the `#` of its heading. `language` is the language of the examples;
+/// `told` returns the messages about the wrong example, or an empty text.
 pub fn entry(rule: &Rule, language: &str, told: impl Fn(&str) -> String) -> String {
     let level = if rule.severity == Severity::Lint { "lint, off unless asked for" } else { level(rule) };
     let mut text = format!("{} {} ({level})\n\n{}\n", rule.code, rule.title, rule.explanation);
@@ -79,12 +79,12 @@ pub fn entry(rule: &Rule, language: &str, told: impl Fn(&str) -> String) -> Stri
     text
 }
 
-/// Tabs and spaces that are none would be lost in a page.
+/// Makes tabs and no-break spaces visible, which would be lost in a page.
 fn visible(text: &str) -> String {
     text.replace('\t', "<TAB>").replace('\u{a0}', "<U+00A0>")
 }
 
-/// What the checker says about an example.
+/// Renders the problems with this code that the checker finds in an example.
 fn told(code: &str, text: &str) -> String {
     let mut sources = Sources::new();
     let file = sources.add("topology.yaml", text);

@@ -9,7 +9,7 @@ use crate::topology::{GateKind, WhenFull};
 pub(crate) const RULE: Rule = Rule {
     code: "SCL0410",
     severity: Severity::Error,
-    title: "delivery options of the two ends do not fit",
+    title: "delivery options of the two ends conflict",
     explanation: "A receiver with `when_full: wait` makes its sender wait while its queue is full. That must not \
                   happen to a sender by surprise, so the sender allows it with `backpressure: true`. Allow it, or let \
                   the receiver lose messages.",

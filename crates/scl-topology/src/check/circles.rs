@@ -9,7 +9,7 @@ use std::collections::{HashMap, HashSet, VecDeque};
 /// and breaking them breaks many others.
 const MOST_OF_A_KNOT: usize = 3;
 
-/// A headline names no more components.
+/// Maximum number of components that a headline names.
 const MOST_NAMES: usize = 8;
 
 /// One step from a component to another, with the connection that makes it.
@@ -30,7 +30,7 @@ pub(super) struct Circle {
 
 /// Components and the steps between them.
 pub(super) struct Graph {
-    /// By the component they leave, in file order.
+    /// The steps that leave each component, in file order.
     steps: Vec<Vec<Step>>,
 }
 
@@ -43,7 +43,8 @@ impl Graph {
         graph
     }
 
-    /// The shortest circles that together contain every wanted step of every knot, up to a number for each knot.
+    /// Returns the shortest circles that together contain every wanted step of each knot, but at most
+    /// [`MOST_OF_A_KNOT`] for a knot.
     pub(super) fn circles(&self, is_wanted: impl Fn(&Step) -> bool) -> Vec<Circle> {
         let knots = self.knots();
         let mut inner: HashMap<usize, Vec<Step>> = HashMap::new();
@@ -75,7 +76,7 @@ impl Graph {
         circles
     }
 
-    /// Breadth first, so that the first way back is the shortest; of two, one with steps that are in no circle yet.
+    /// Finds a shortest circle through `first`, breadth first. Prefers steps that are in no circle yet.
     fn circle_through(&self, first: Step, knots: &[usize], covered: &HashSet<Step>) -> Option<Vec<Step>> {
         let mut arrived: HashMap<usize, Step> = HashMap::from([(first.to, first)]);
         let mut waiting = VecDeque::from([first.to]);
@@ -97,8 +98,8 @@ impl Graph {
         None
     }
 
-    /// The knot of each component: all members of a knot reach each other. After Tarjan (1972), on a stack of its own:
-    /// a file may be one long chain.
+    /// Returns the knot of each component: all members of a knot reach each other. After Tarjan (1972), with an
+    /// explicit stack, because a file may be one long chain.
     pub(super) fn knots(&self) -> Vec<usize> {
         const NEW: usize = usize::MAX;
         let count = self.steps.len();
@@ -154,7 +155,7 @@ pub(super) fn round(draft: &Draft<'_>, steps: &[Step]) -> String {
     names.join(" -> ")
 }
 
-/// Takes a whole knot from the stack; it is named by its first component.
+/// Pops a whole knot from the stack. `root`, its first component, becomes its name.
 fn close(root: usize, open: &mut Vec<usize>, knot: &mut [usize]) {
     while let Some(member) = open.pop() {
         knot[member] = root;

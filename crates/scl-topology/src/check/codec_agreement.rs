@@ -9,8 +9,8 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0608",
     severity: Severity::Error,
     title: "codecs differ",
-    explanation: "The two ends turn messages into bytes in different ways, so neither could read the other. Give both \
-                  the same `codec`; an end without one takes that of the other.",
+    explanation: "The two ends encode messages in different ways, so neither could read the other's. Give both the \
+                  same `codec`; an end without one takes that of the other.",
     example: " components:
    - name: autopilot
      gates:

@@ -13,8 +13,8 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0407",
     severity: Severity::Error,
     title: "unknown codec",
-    explanation: "A codec turns messages into bytes; this one is unknown. The message lists those of the \
-                  framework; one of your own is named by its Rust path, such as `my_crate::Flat`.",
+    explanation: "A codec turns messages into bytes; this one is unknown. The message lists the codecs of the \
+                  framework. Name a codec of your own by its Rust path, such as `my_crate::Flat`.",
     example: " components:
    - name: sensor
      gates:
@@ -23,7 +23,7 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-/// Reads the codecs of the gates, and gives the one of the whole file.
+/// Reads the codecs of the gates, and returns the codec of the whole file.
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) -> Codec {
     for gate in &mut draft.gates {
         let Some(option) = gate.option("codec") else { continue };

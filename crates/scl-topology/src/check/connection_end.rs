@@ -1,4 +1,5 @@
-//! SCL0503: an end that is not `component.gate`. Finds the gates of all other ends, and hands on what it cannot find.
+//! SCL0503: an end that is not `component.gate`. Finds the gates of all other ends, and passes unknown names on to the
+//! rules about components and gates.
 
 use super::draft::Draft;
 use super::{unknown_component, unknown_gate};
@@ -12,7 +13,7 @@ pub(crate) const RULE: Rule = Rule {
     severity: Severity::Error,
     title: "end is not `component.gate`",
     explanation: "An end is written `component.gate`: two names with one dot and nothing else between them. Other \
-                  separators, spaces and wildcards are not understood.",
+                  separators, spaces and wildcards are not allowed.",
     example: " components:
    - name: sensor
      gates:
@@ -44,7 +45,7 @@ fn resolved(draft: &Draft<'_>, text: &str) -> Option<usize> {
     draft.gate(component, gate)
 }
 
-/// A gate that any connection names counts as connected, so that a broken connection is reported once.
+/// Marks every gate that a connection names as connected, so that a broken connection is reported once.
 fn name_all(draft: &mut Draft<'_>) {
     let whole = draft.links.iter().flat_map(|link| link.ends.into_iter().flatten());
     let broken = draft.model.broken_ends.iter().filter_map(|end| resolved(draft, &end.value));
@@ -68,7 +69,7 @@ fn report(draft: &mut Draft<'_>, link: usize, end: usize, problems: &mut Diagnos
     }
 }
 
-/// Component and gate, where the text has that shape.
+/// Splits an end into component and gate. Returns `None` if it has another shape.
 fn parts(text: &str) -> Option<(&str, &str)> {
     let (component, gate) = text.split_once('.')?;
     let is_name = |name: &str| {
@@ -137,7 +138,8 @@ fn without_component(
     }
 }
 
-/// An end with another separator, or with spaces, as it was meant.
+/// Corrects an end with another separator or with spaces. Returns the corrected end, and a label that names the
+/// mistake.
 fn respelt(text: &str) -> Option<(String, String)> {
     let separator = ["->", "::", "/", ":", " . ", " .", ". "].into_iter().find(|separator| text.contains(separator))?;
     let mended = text.split(separator).map(str::trim).collect::<Vec<_>>().join(".");
@@ -149,7 +151,7 @@ fn respelt(text: &str) -> Option<(String, String)> {
     Some((mended, label))
 }
 
-/// What is odd about an end that nothing else explains.
+/// Returns the label and the help for an end whose mistake nothing else explains.
 fn oddity(text: &str) -> (&'static str, &'static str) {
     let dots = text.matches('.').count();
     match text {

@@ -1,6 +1,6 @@
-//! What comments say to the checker. `# scl: allow(SCL0701) reason` takes back a warning about its line or the line
-//! below, `# scl: warn(SCL0511)` turns a lint on for the whole file. SCL0901: nobody knows the check. SCL0902: nothing
-//! is there to allow. SCL0903: the check cannot be allowed. SCL0904: no reason is given.
+//! Comments for the checker. `# scl: allow(SCL0701) reason` suppresses a warning about its line or the line below,
+//! `# scl: warn(SCL0511)` turns a lint on for the whole file. SCL0901: the check is unknown. SCL0902: the comment has
+//! no effect. SCL0903: the check cannot be allowed. SCL0904: no reason is given.
 
 mod command;
 
@@ -18,8 +18,9 @@ pub(crate) const NO_EFFECT: Rule = Rule {
     code: "SCL0902",
     severity: Severity::Warning,
     title: "comment for the checker without effect",
-    explanation: "An `allow` has nothing to allow: the problem has gone, the comment stands on another line, or it \
-                  names another check. It would hide the problem when it comes back. Remove or move it.",
+    explanation: "An `allow` has nothing to allow: the problem is gone, the comment is on the wrong line, or it names \
+                  another check. If the problem came back, the comment would hide it. A `warn` has no effect on a \
+                  check that is on in every file. Remove or move the comment.",
     example: " components:
    - name: controller
      gates:
@@ -33,7 +34,8 @@ pub(crate) const NO_REASON: Rule = Rule {
     code: "SCL0904",
     severity: Severity::Warning,
     title: "`allow` without a reason",
-    explanation: "Whoever reads an `allow` next year wants to know why. Write the reason after the bracket.",
+    explanation: "An `allow` gives no reason, so later readers cannot tell whether it is still needed. Write the \
+                  reason after the bracket.",
     example: " components:
    - name: ui
      gates:
@@ -42,7 +44,7 @@ pub(crate) const NO_REASON: Rule = Rule {
 ",
 };
 
-/// Applies the comments to all that was found so far, and says what is wrong with them.
+/// Applies the comments to all problems found so far, and reports what is wrong with the comments.
 pub(super) fn apply(model: &Model, sources: &Sources, problems: &mut Diagnostics) {
     if model.controls.is_empty() {
         return;
@@ -73,7 +75,7 @@ pub(super) fn threshold(model: &Model, of: &Rule) -> Option<u32> {
     })
 }
 
-/// The lines about which a comment allows a check.
+/// The lines for which a comment allows a check.
 pub(super) fn allowed_lines(model: &Model, of: &Rule) -> HashSet<u32> {
     let mut told_later = Vec::new();
     let allows = model.controls.iter().filter(|control| match read(control, &mut told_later) {
@@ -119,13 +121,13 @@ impl<'m> Requests<'m> {
         requests
     }
 
-    /// Whether a problem is allowed; notes that it occurred.
+    /// Returns true if a comment allows the problem, and marks that comment as used.
     fn allow(&mut self, rule: &'static Rule, line: u32) -> bool {
         self.allowed.get_mut(&(rule, line)).map(|allow| allow.used = true).is_some()
     }
 
-    /// What is wrong with comments that could be read. In a file with errors a warning may be missing because of them,
-    /// so nothing is said of its `allow`.
+    /// Reports each `allow` without a reason or without effect. In a file with errors, a warning may be missing because
+    /// of them, so an `allow` without effect is not reported.
     fn report(&self, left: &HashMap<u32, &'static Rule>, has_errors: bool, own: &mut Vec<Diagnostic>) {
         for (&(rule, line), allow) in &self.allowed {
             if allow.used && allow.reason.is_empty() {
@@ -137,7 +139,8 @@ impl<'m> Requests<'m> {
     }
 }
 
-/// The lines of a problem: that of its place; of a loop of messages, those of all its connections.
+/// The lines at which a problem can be allowed: the line of its place, or, for a loop of messages, the lines of all its
+/// connections.
 fn lines(problem: &Diagnostic, sources: &Sources) -> Vec<u32> {
     let is_loop = [&feedback::PUSHES, &feedback::LOOP].contains(&problem.rule);
     let others = problem.secondary.iter().filter(|_| is_loop);
@@ -163,7 +166,7 @@ fn without_effect(control: &ControlModel, rule: &Rule, other: Option<&Rule>) -> 
     let found = NO_EFFECT.at(headline, command_span(control), label);
     match other {
         Some(other) => found.help(format!("did you mean {}?", other.code)),
-        None => found.help("remove the comment, or move it to the line that it is about, or above that"),
+        None => found.help("remove the comment, or move it to the line of the problem or the line above"),
     }
 }
 

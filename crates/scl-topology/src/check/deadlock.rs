@@ -22,11 +22,11 @@ pub(crate) const RULE: Rule = Rule {
     severity: Severity::Error,
     title: "components wait for each other",
     explanation: "Each component of a circle can wait for the next one: for the answer to a request, or, with \
-                  `backpressure: true` and `when_full: wait`, for room in its queue. A component that waits answers \
-                  nothing and receives nothing, so once all of them wait, nothing moves until a request fails, or ever. \
-                  Let one queue of the circle drop messages, or publish what another component asks for. If a \
+                  `backpressure: true` and `when_full: wait`, for room in its queue. A waiting component neither \
+                  answers nor receives, so once all of them wait, they stay blocked until a request times out, or \
+                  forever. Let one queue of the circle drop messages, or publish what another component asks for. If a \
                   component never waits at a connection while another one waits for it, say so: `# scl: allow(SCL0707) \
-                  reason` above that connection. docs/deadlocks.md shows every shape and its ways out.",
+                  reason` above that connection. docs/deadlocks.md shows each kind of circle and how to break it.",
     example: " components:
    - name: arbiter
      gates:
@@ -44,7 +44,7 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-/// `allowed_lines` tells about which lines a comment allows a rule.
+/// Reports deadlocks. `allowed_lines` returns the lines for which a comment allows a rule.
 pub(super) fn check(draft: &Draft<'_>, allowed_lines: impl Fn(&Rule) -> HashSet<u32>, problems: &mut Diagnostics) {
     let waits: Vec<Wait> = waits::all(draft).into_iter().filter(|wait| !wait.is_for_itself()).collect();
     let allowed = Allowed { waiting: allowed_lines(&RULE), pushing: allowed_lines(&PUSHES) };
@@ -65,24 +65,27 @@ pub(super) fn check(draft: &Draft<'_>, allowed_lines: impl Fn(&Rule) -> HashSet<
     }
 }
 
-/// A request that is sent while answering one is never answered, however long its timeout.
+/// Selects the requests: in a circle, a request that is sent while answering one is never answered, however long its
+/// timeout.
 fn requests(waits: &[Wait]) -> Vec<Wait> {
     waits.iter().filter(|wait| wait.call != Call::Send).cloned().collect()
 }
 
-/// A full queue is emptied once a request has failed. Where the file says how long that takes, it is intended.
+/// Selects the waits without a declared timeout. A full queue is emptied once a request has failed, and a timeout in
+/// the file shows that this is intended.
 fn endless(waits: &[Wait]) -> Vec<Wait> {
     waits.iter().filter(|wait| wait.call != Call::Request { has_timeout: true }).cloned().collect()
 }
 
-/// The connections at which a comment allows to wait.
+/// The lines at which a comment allows waiting.
 struct Allowed {
     waiting: HashSet<u32>,
     pushing: HashSet<u32>,
 }
 
 impl Allowed {
-    /// The rule that is allowed. A comment that allows a circle of push gates allows it to wait, too.
+    /// Returns the rule that a comment allows for a step. A comment that allows a circle of push gates also allows it
+    /// to wait.
     fn rule(&self, draft: &Draft<'_>, step: &Step) -> Option<&'static Rule> {
         let span = place(draft, step);
         let line = draft.sources.file(span.file).line(span.start as usize);

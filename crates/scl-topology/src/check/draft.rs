@@ -29,7 +29,7 @@ pub(super) struct Draft<'m> {
     gate_by_name: HashMap<(&'m str, &'m str), usize>,
 }
 
-/// A component; one that is declared twice is here twice.
+/// A component. If it is declared twice, it occurs twice.
 pub(super) struct DraftComponent<'m> {
     pub(super) model: &'m ComponentModel,
     pub(super) gates: Vec<usize>,
@@ -39,11 +39,11 @@ pub(super) struct DraftComponent<'m> {
 pub(super) struct DraftGate<'m> {
     pub(super) component: usize,
     pub(super) model: &'m GateModel,
-    /// `None` if the word is no kind.
+    /// `None` if the word is not a kind.
     pub(super) kind: Option<GateKind>,
     /// `None` if the type is unusable; [`Payload::Bytes`] if there is none.
     pub(super) payload: Option<Payload>,
-    /// Whose type it is, where it was taken over.
+    /// The gate that the type was taken over from, if it was.
     pub(super) payload_from: Option<usize>,
     /// The gate's own codec, or the one taken over.
     pub(super) codec: Option<Spanned<Codec>>,
@@ -52,14 +52,14 @@ pub(super) struct DraftGate<'m> {
     pub(super) options: DeclaredOptions,
     /// Whether an earlier gate of the component has its name.
     pub(super) duplicate: bool,
-    /// Whether a connection names it, be the connection good or not.
+    /// Whether a connection names the gate, whether or not the connection is valid.
     pub(super) named: bool,
 }
 
 /// A connection.
 pub(super) struct Link<'m> {
     pub(super) model: &'m ConnectionModel,
-    /// The gates at its ends, where they were found.
+    /// The gates at its ends; `None` for an end whose gate was not found.
     pub(super) ends: [Option<usize>; 2],
     /// Source and sink, if the kinds fit and nothing else is wrong with the pair.
     pub(super) flow: Option<(usize, usize)>,
@@ -97,8 +97,8 @@ impl<'m> Draft<'m> {
         self.components.push(DraftComponent { model, gates: (first_gate..self.gates.len()).collect() });
     }
 
-    /// Whether the names that an unknown one resembles should be looked for, and the known ones be listed. That takes a
-    /// look at all names, so in a file with very many mistakes the later ones go without: time stays linear, and nobody
+    /// Returns true if a message about an unknown name may search for similar names and list the known ones. Both read
+    /// all names, so in a file with very many mistakes the later messages do without: time stays linear, and nobody
     /// reads that many.
     pub(super) fn may_search(&mut self) -> bool {
         let may_search = self.searches_left > 0;
@@ -176,7 +176,7 @@ impl<'m> Draft<'m> {
         }
     }
 
-    /// Where a connection writes a gate.
+    /// The place at which a connection names a gate.
     pub(super) fn end_span(&self, link: usize, gate: usize) -> Span {
         let link = &self.links[link];
         let at = usize::from(link.ends[0] != Some(gate));
@@ -185,7 +185,7 @@ impl<'m> Draft<'m> {
 
     /// The place of a part of a longer text, for example of a gate in `component.gate`.
     ///
-    /// A text that is written with escapes does not contain its parts as they are; then the whole place is given.
+    /// A text that is written with escapes does not contain its parts verbatim; then the whole place is returned.
     pub(super) fn part(&self, whole: Span, part: &str, last: bool) -> Span {
         let text = self.sources.snippet(whole);
         let found = if last { text.rfind(part) } else { text.find(part) };

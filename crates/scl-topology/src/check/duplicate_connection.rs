@@ -1,4 +1,5 @@
-//! SCL0510: the same two gates connected twice. Takes the second out, so that it is not counted as another peer.
+//! SCL0510: the same two gates connected twice. Removes the second connection, so that it does not count as another
+//! peer.
 
 use super::draft::Draft;
 use crate::diagnostic::{Diagnostics, Rule, Severity};

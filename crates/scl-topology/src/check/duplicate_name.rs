@@ -10,8 +10,8 @@ pub(crate) const COMPONENT: Rule = Rule {
     code: "SCL0301",
     severity: Severity::Error,
     title: "duplicate component",
-    explanation: "Two components have one name, so no connection could say which it means, and two programs would \
-                  fight for one place. Rename one, or merge their gates.",
+    explanation: "Two components have the same name, so a connection could not say which one it means, and their \
+                  programs could not run at the same time. Rename one, or merge their gates.",
     example: " components:
    - name: sensor
      gates: []
@@ -26,8 +26,8 @@ pub(crate) const GATE: Rule = Rule {
     code: "SCL0302",
     severity: Severity::Error,
     title: "duplicate gate",
-    explanation: "Two gates of a component have one name, be their kinds equal or not. A connection could not say \
-                  which it means, nor could a program. Rename one.",
+    explanation: "Two gates of a component have the same name. Even if their kinds differ, neither a connection nor a \
+                  program could say which one it means. Rename one.",
     example: " components:
    - name: controller
      gates:
@@ -52,7 +52,7 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     }
 }
 
-/// The names that an earlier one equals, each after the first.
+/// Returns each repeated name, preceded by its first occurrence.
 fn repeated<'m>(names: impl Iterator<Item = &'m Name>) -> impl Iterator<Item = (&'m Name, &'m Name)> {
     // Compare addresses: `with_first` pairs the first declaration with itself.
     with_first(names, |name| name).filter(|(first, name)| !std::ptr::eq(*first, *name))

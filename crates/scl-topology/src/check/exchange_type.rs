@@ -1,5 +1,5 @@
 //! A requester and a replier of different types. SCL0602: the requests differ. SCL0603: the replies differ. SCL0604:
-//! one end has the two the wrong way round.
+//! one end has request and reply swapped.
 
 use super::draft::Draft;
 use super::message_type::differ;
@@ -12,8 +12,8 @@ pub(crate) const REQUESTS_DIFFER: Rule = Rule {
     code: "SCL0602",
     severity: Severity::Error,
     title: "request types differ",
-    explanation: "The requester asks with another type than the replier understands. Use one request type at both \
-                  ends; the message says whether the replies agree.",
+    explanation: "The requester sends a different type than the replier expects. Use one request type at both ends; \
+                  the message says whether the reply types agree.",
     example: " components:
    - name: controller
      gates:
@@ -32,7 +32,8 @@ pub(crate) const REPLIES_DIFFER: Rule = Rule {
     code: "SCL0603",
     severity: Severity::Error,
     title: "reply types differ",
-    explanation: "The replier answers with another type than the requester expects. Use one reply type at both ends.",
+    explanation: "The replier answers with a different type than the requester expects. Use one reply type at both \
+                  ends.",
     example: " components:
    - name: controller
      gates:
@@ -51,8 +52,8 @@ pub(crate) const SWAPPED_TYPES: Rule = Rule {
     code: "SCL0604",
     severity: Severity::Error,
     title: "request and reply swapped",
-    explanation: "Both ends name the same two types in opposite order. On both ends the left type is what the `req` \
-                  gate sends and the right one what comes back. Swap them on one end.",
+    explanation: "Both ends name the same two types in opposite order. On both ends, the left type is the request that \
+                  the `req` gate sends, and the right type is the reply. Swap them on one end.",
     example: " components:
    - name: controller
      gates:
@@ -111,7 +112,7 @@ fn reply(span: Span, asked: Exchange<'_>, answered: Exchange<'_>) -> Diagnostic 
         .help(format!("the request types agree (`{}`)", asked.0.dotted()))
 }
 
-/// How the replies differ, in the label of their own report and in that of the requests.
+/// Says how the replies differ, both for their own report and for the report about the requests.
 fn replies(asked: Exchange<'_>, answered: Exchange<'_>) -> String {
     format!("`{}` is answered, `{}` is expected", answered.1.dotted(), asked.1.dotted())
 }

@@ -1,4 +1,5 @@
-//! Messages that come back to the component that sent them. SCL0708: work that is lost on the way. SCL0709, a lint.
+//! Messages that come back to the component that sent them. SCL0708: a circle of push gates that may lose work.
+//! SCL0709, a lint: a loop with a `pub` gate in it.
 
 use super::circles::{self, Circle, Graph, Step, place};
 use super::draft::Draft;
@@ -11,8 +12,8 @@ pub(crate) const PUSHES: Rule = Rule {
     code: "SCL0708",
     severity: Severity::Warning,
     title: "cycle of push gates",
-    explanation: "Work is pushed round in a circle, and nothing says what happens when a queue of it is full: the \
-                  default is to drop the oldest message, which loses work. Make one of the links `pub` and `sub`, or \
+    explanation: "Push gates form a circle, and the file does not say what happens when one of its queues is full: by \
+                  default the oldest message is dropped, which loses work. Make one of the links `pub` and `sub`, or \
                   write `when_full` at one of the `pull` gates.",
     example: " components:
    - name: a
@@ -36,9 +37,9 @@ pub(crate) const LOOP: Rule = Rule {
     code: "SCL0709",
     severity: Severity::Lint,
     title: "feedback loop",
-    explanation: "Messages come back to the component that caused them. A control loop is built so on purpose. A \
-                  component that sends at once for each message it receives would flood the system, and lose \
-                  messages where a queue is full; the lint is there to look for such.",
+    explanation: "Messages come back to the component that caused them. Control loops are built like this on purpose. \
+                  But a component that immediately sends a message for each one it receives would flood the system, \
+                  and messages would be lost when a queue is full. The lint helps to find such components.",
     example: " components:
    - name: a
      gates:

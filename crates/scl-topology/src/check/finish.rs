@@ -1,10 +1,10 @@
-//! From a draft without errors to the topology.
+//! Turns a draft without errors into the topology.
 
 use super::draft::{Draft, DraftGate};
 use crate::rust_name::{component_type, gate_field};
 use crate::topology::{Codec, Component, ComponentId, Connection, ConnectionId, Gate, GateId, Payload, Topology};
 
-/// `None` if a part of the draft has been rejected, of which a problem speaks.
+/// Creates the topology. Returns `None` if a part of the draft has been rejected, which is reported already.
 pub(super) fn finish(draft: &Draft<'_>, system: String, codec: &Codec, connection_room: usize) -> Option<Topology> {
     let connections: Vec<Connection> = draft.links.iter().map(connection).collect::<Option<_>>()?;
     let mut gates: Vec<Gate> = draft.gates.iter().map(|gate| finish_gate(gate, codec)).collect::<Option<_>>()?;

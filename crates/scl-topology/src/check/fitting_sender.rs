@@ -4,7 +4,7 @@ use super::draft::Draft;
 use crate::topology::{GateKind, Payload};
 use std::collections::HashMap;
 
-/// No help names more senders than this, and no search looks at more candidates than [`SEARCHED`].
+/// Maximum number of senders that a help names. A search looks at no more than [`SEARCHED`] candidates of each list.
 const MOST: usize = 3;
 const SEARCHED: usize = 32;
 
@@ -34,7 +34,8 @@ impl<'m> FittingSenders<'m> {
         senders
     }
 
-    /// At most three: namesakes first, then gates of a component of the receiver's name, then equal types.
+    /// Returns at most three senders that fit a receiver: first those with its name, then gates of a component with its
+    /// name, then those with its type, then any if the file has no more than three.
     pub(super) fn for_gate(&self, draft: &Draft<'m>, gate: usize) -> Vec<usize> {
         let name = draft.gates[gate].model.name.value.as_str();
         let payload = draft.gates[gate].model.payload.as_ref().map(|payload| payload.value.trim());

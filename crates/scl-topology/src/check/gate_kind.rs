@@ -12,8 +12,8 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0401",
     severity: Severity::Error,
     title: "unknown gate kind",
-    explanation: "The word is no kind of gate. The kinds come in pairs: `pub` and `sub`, `req` and `rep`, `push` and \
-                  `pull`. The message translates words that other frameworks use.",
+    explanation: "This word is not a kind of gate. The kinds come in pairs: `pub` and `sub`, `req` and `rep`, `push` \
+                  and `pull`. If the word is used by other frameworks, the message names the kind that it stands for.",
     example: " components:
    - name: controller
      gates:
@@ -34,7 +34,8 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     poison_contradictions(draft);
 }
 
-/// A gate that is declared twice, with two kinds, has none: nobody knows which is meant.
+/// Clears the type of each gate that is declared twice, and its kind too if the two kinds differ, as it is unknown
+/// which declaration is meant.
 fn poison_contradictions(draft: &mut Draft<'_>) {
     for at in 0..draft.gates.len() {
         if !draft.gates[at].duplicate {

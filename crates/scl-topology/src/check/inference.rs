@@ -12,9 +12,9 @@ pub(crate) const UNTYPED: Rule = Rule {
     code: "SCL0402",
     severity: Severity::Lint,
     title: "connection without a message type",
-    explanation: "Neither end of the connection names a message type, so it carries bytes and no compiler checks what \
-                  is in them. That is allowed, and the paper's first listing is written so. One typed end is enough; \
-                  the other takes it over.",
+    explanation: "Neither end of the connection names a message type, so it carries bytes, and no compiler checks \
+                  their content. That is allowed; the paper's first listing does it. One typed end is enough; the \
+                  other takes over its type.",
     example: " components:
    - name: sensor
      gates:
@@ -33,7 +33,7 @@ pub(crate) const TAKEN_OVER: Rule = Rule {
     code: "SCL0607",
     severity: Severity::Lint,
     title: "type taken over from the other end",
-    explanation: "One end has no type and takes that of the other. That is meant to be convenient; the lint is for \
+    explanation: "One end has no type and takes that of the other. This is allowed for convenience; the lint is for \
                   teams that want the contract written at both ends.",
     example: " components:
    - name: sensor
@@ -64,8 +64,8 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     }
 }
 
-/// Types spread from the gates that have one, breadth first, so that each gate gets that of its nearest peer, and of
-/// several the first in the file.
+/// Spreads types from the gates that have one, breadth first, so that each gate gets the type of the nearest typed
+/// gate, or of the first in the file if several are equally near.
 fn take_over_types(draft: &mut Draft<'_>, peers: &[Vec<(usize, usize)>]) {
     let is_typed = |gate: &usize| !matches!(draft.gates[*gate].payload, None | Some(Payload::Bytes));
     let mut reached: VecDeque<usize> = (0..draft.gates.len()).filter(is_typed).collect();

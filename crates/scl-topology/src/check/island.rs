@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 pub(crate) const RULE: Rule = Rule {
     code: "SCL0706",
     severity: Severity::Lint,
-    title: "the system falls apart into islands",
-    explanation: "The components fall into groups with no connection between them, so the file may describe two \
-                  systems, or a connection was forgotten. Two systems are better kept in two files.",
+    title: "system consists of unconnected groups",
+    explanation: "The components form groups with no connection between them. Either the file describes several \
+                  systems, or a connection is missing. Put separate systems into separate files.",
     example: " components:
    - name: a
      gates:
@@ -33,7 +33,7 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-/// No more groups are shown.
+/// Maximum number of groups shown.
 const MOST: usize = 8;
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
@@ -45,7 +45,7 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     }
 }
 
-/// The connected components in groups, each in file order. Those without any connection are another rule's.
+/// The connected components in groups, each in file order. Another rule reports components without any connection.
 fn groups(draft: &Draft<'_>) -> Vec<Vec<usize>> {
     let mut parent: Vec<usize> = (0..draft.components.len()).collect();
     let mut connected = vec![false; parent.len()];
@@ -62,7 +62,7 @@ fn groups(draft: &Draft<'_>) -> Vec<Vec<usize>> {
     groups.into_values().collect()
 }
 
-/// The first component of a group; halves the way to it for the next who asks.
+/// Returns the first component of a group, and halves the path to it for later calls.
 fn root(parent: &mut [usize], mut at: usize) -> usize {
     while parent[at] != at {
         parent[at] = parent[parent[at]];

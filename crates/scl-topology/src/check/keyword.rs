@@ -38,7 +38,7 @@ pub(crate) const UNUSABLE: Rule = Rule {
 ",
 };
 
-/// Other words for the keywords that name a thing in a real system.
+/// Replacements for keywords that are plausible names in a real system.
 const ALTERNATIVES: [(&str, &str); 12] = [
     ("type", "kind"),
     ("loop", "cycle"),

@@ -12,9 +12,9 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0601",
     severity: Severity::Error,
     title: "published and subscribed types differ",
-    explanation: "The sender's message type is not the one that the receiver expects, so it would read nonsense. \
-                  Connections of one gate are reported together. Use one type at both ends, or put a component between \
-                  them that converts.",
+    explanation: "The sender's message type is not the one that the receiver expects, so the receiver would misread \
+                  every message. Such connections of one gate are reported together. Use one type at both ends, or put \
+                  a component between them that converts.",
     example: " components:
    - name: autopilot
      gates:
@@ -111,7 +111,7 @@ fn with_peers(draft: &Draft<'_>, found: Diagnostic, peers: &[Peer]) -> Diagnosti
     peers.iter().fold(found, |found, &(_, peer)| with_type(draft, found, peer))
 }
 
-/// Shows the type of a gate, once for gates that have it from one place.
+/// Adds a label to the type of a gate, unless it has one already: several gates may take their type from one place.
 fn with_type(draft: &Draft<'_>, found: Diagnostic, gate: usize) -> Diagnostic {
     let Some(name) = message(draft, gate) else { return found };
     if found.secondary.iter().any(|label| label.span == name.span()) {

@@ -1,5 +1,5 @@
-//! A word that YAML reads as a number or a boolean, or that has an invisible character in it, is told once: what else
-//! is wrong with it follows from that, or goes when it is mended.
+//! A word that YAML reads as a number or a boolean, or that has an invisible character in it, is reported once: its
+//! other problems follow from that, or disappear when it is fixed.
 
 use crate::diagnostic::Diagnostics;
 use crate::parse::MISREAD;
@@ -28,7 +28,7 @@ pub(super) fn tell_once(problems: &mut Diagnostics) {
     });
 }
 
-/// Whether a place overlaps with one of these, which do not overlap with each other.
+/// Whether a place overlaps one of `spans`, which are sorted and do not overlap each other.
 fn meets(span: Span, spans: &[Span]) -> bool {
     let next = spans.partition_point(|other| other.start < span.end);
     next > 0 && spans[next - 1].file == span.file && spans[next - 1].end > span.start

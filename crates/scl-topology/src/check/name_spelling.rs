@@ -76,13 +76,13 @@ fn wrong_character(noun: Noun, name: &Spanned<String>, what: &str) -> Diagnostic
     }
 }
 
-/// The name with `_` for whatever is not allowed, none of them twice in a row or at an end.
+/// Joins the runs of ASCII letters and digits of a name with single `_`.
 fn mended(name: &str) -> String {
     let words = name.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     words.collect::<Vec<_>>().join("_")
 }
 
-/// How people write these letters where a keyboard lacks them.
+/// The usual ASCII replacements of letters that a keyboard may lack.
 const TRANSLITERATIONS: [(&str, &str); 19] = [
     ("äæ", "ae"),
     ("öø", "oe"),
@@ -171,7 +171,7 @@ fn wrong_start(noun: Noun, name: &Spanned<String>, first: char) -> Diagnostic {
         .help(ways.map_or("put a word before it".to_owned(), |it| format!("for example {it}")))
 }
 
-/// `2nd_sensor` could be `second_sensor` or `sensor_2`.
+/// Suggests other names: `2nd_sensor` could be `second_sensor` or `sensor_2`.
 fn alternatives(name: &str) -> Option<String> {
     let digits: String = name.chars().take_while(char::is_ascii_digit).collect();
     let ordinal = ORDINALS.iter().find(|(short, _)| name.starts_with(short));

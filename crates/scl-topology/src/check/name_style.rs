@@ -11,9 +11,8 @@ pub(crate) const HIDES_PRELUDE: Rule = Rule {
     code: "SCL0313",
     severity: Severity::Lint,
     title: "type name hides a prelude type",
-    explanation: "The component's Rust type has the name of a type that every Rust file knows, such as `Result`. A \
-                  program that imports it by name hides the other. Choose a name that says more, or import it under \
-                  another.",
+    explanation: "The component's Rust type has the same name as a type of Rust's prelude, such as `Result`. Importing \
+                  it by name hides the prelude's type. Choose a name that says more, or import it under another name.",
     example: " components:
 -  - name: result
 +  - name: match_result
@@ -21,7 +20,7 @@ pub(crate) const HIDES_PRELUDE: Rule = Rule {
 ",
 };
 
-/// Types and where they come from.
+/// Names that Rust imports by default, and where they come from.
 const PRELUDE: [(&str, &str); 15] = [
     ("Result", "core::result::Result"),
     ("Option", "core::option::Option"),
@@ -65,8 +64,8 @@ pub(crate) const NOT_SNAKE_CASE: Rule = Rule {
     code: "SCL0314",
     severity: Severity::Lint,
     title: "name is not snake_case",
-    explanation: "By convention names are snake_case, as the Rust fields and modules are that they become. Other \
-                  styles work; the lint is for teams that want one style.",
+    explanation: "By convention, names are snake_case, like the Rust fields and modules that they become. Other styles \
+                  work; the lint is for teams that want one style.",
     example: " components:
 -  - name: UserInterface
 +  - name: user_interface

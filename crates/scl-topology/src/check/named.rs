@@ -11,7 +11,7 @@ pub(super) type Name = Spanned<String>;
 /// The longest name of a component or gate, in characters.
 pub(super) const LONGEST_NAME: usize = 64;
 
-/// What a name names, as messages say it.
+/// What a name stands for, in the words of messages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Noun {
     System,
@@ -39,7 +39,7 @@ pub(super) fn names(model: &Model) -> impl Iterator<Item = (Noun, &Name)> {
     system.chain(declared)
 }
 
-/// Whether the rules of spelling hold, so that the rules of meaning may look at the name.
+/// Whether a name follows the rules of spelling, so that the rules about its meaning can check it.
 pub(super) fn is_well_formed(name: &str) -> bool {
     name.chars().all(is_allowed) && !name.contains("--") && name.starts_with(may_start)
 }

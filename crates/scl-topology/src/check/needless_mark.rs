@@ -1,4 +1,5 @@
-//! SCL0711: `unconnected: ok` on a gate that is connected. The mark would hide the loss of the connection one day.
+//! SCL0711: `unconnected: ok` on a gate that is connected. If the connection were removed later, the mark would hide
+//! it.
 
 use super::draft::Draft;
 use crate::diagnostic::{Diagnostics, Rule, Severity};
@@ -8,8 +9,8 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0711",
     severity: Severity::Warning,
     title: "`unconnected: ok` on a connected gate",
-    explanation: "The gate says that it is meant to have no peer, and has one. The mark would hide the loss of the \
-                  connection one day. Remove it.",
+    explanation: "The gate is marked as one without a peer, but it has one. If the connection is removed later, the \
+                  mark would hide that. Remove the mark.",
     example: " components:
    - name: controller
      gates:

@@ -12,8 +12,8 @@ pub(crate) const RULE: Rule = Rule {
     severity: Severity::Warning,
     title: "option without effect",
     explanation: "The option changes nothing in this system: no receiver of a gate with `backpressure: true` waits, a \
-                  gate with `share: true` has one puller, or a gate with a `codec` carries bytes of no type. The \
-                  system does not do what the file seems to say. Remove the option, or change the other end.",
+                  gate with `share: true` has one puller, or a gate with a `codec` has no type. The system does not do \
+                  what the file seems to say. Remove the option, or change the other end.",
     example: " components:
    - name: sensor
      gates:
@@ -27,7 +27,8 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-/// Looks at sound files only: what is missing may be an option or a connection that could not be read.
+/// Checks only files without errors: otherwise, the option or connection that seems to be missing may be one that could
+/// not be read.
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     if problems.has_errors() || draft.model.connections_unread {
         return;

@@ -12,9 +12,10 @@ pub(crate) const VALUE: Rule = Rule {
     code: "SCL0409",
     severity: Severity::Error,
     title: "option value out of range",
-    explanation: "The value is outside of what can work: a queue has room for at least one message, a timeout is more \
-                  than nothing, and a message is held in memory as a whole. The message names the range; so does \
-                  `scl explain queue`. Correct the value, or leave it out to get the default.",
+    explanation: "The value is outside the option's range: a queue holds at least one message, a timeout is longer \
+                  than zero, and a message has to fit in memory. The message names the range; so does `scl explain` \
+                  with the option's name, as in `scl explain queue`. Correct the value, or leave it out to get the \
+                  default.",
     example: " components:
    - name: sensor
      gates:
@@ -53,8 +54,8 @@ pub(crate) const MISFIT: Rule = Rule {
     code: "SCL0408",
     severity: Severity::Error,
     title: "option does not fit the kind",
-    explanation: "The option exists, but not for this kind of gate: `queue` and `max_size` belong to the receiving end, \
-                  `timeout` to the asking one. Move it to the other end, or remove it.",
+    explanation: "The option exists, but not for this kind of gate: `queue` and `max_size` belong to the receiving \
+                  end, `timeout` to the requester. Move it to the other end, or remove it.",
     example: " components:
    - name: ui
      gates:
@@ -74,7 +75,7 @@ fn check_fit(kind: Option<GateKind>, option: &OptionModel) -> Option<Diagnostic>
     Some(MISFIT.at(headline, option.key.span, "").help("remove it").helps(at_other_end).note(rule))
 }
 
-/// Why a kind has no such option, if it has none.
+/// Returns why a kind does not have the option, or `None` if it does.
 fn misfit(kind: Option<GateKind>, key: &str) -> Option<String> {
     let kind = kind.filter(|&kind| !fits(kind, key))?;
     let option = grammar::option(key)?;
@@ -167,7 +168,7 @@ mod tests {
               |                                            ^^^^^
               |
               = help: remove it
-              = note: `req` and `rep` take turns, so there is never more than one message waiting; `queue` is for `sub` and `pull`
+              = note: a requester limits its unanswered calls with `in_flight` and `timeout`; `queue` is for `sub` and `pull`
         "#]],
         );
     }

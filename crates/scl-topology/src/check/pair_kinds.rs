@@ -11,7 +11,7 @@ pub(crate) const SAME_DIRECTION: Rule = Rule {
     severity: Severity::Error,
     title: "both ends send, or both receive",
     explanation: "A connection has one end that sends and one that receives. Here both send, or both receive, so \
-                  nothing would ever arrive. Mostly one of the kinds is wrong, or another gate was meant.",
+                  nothing would ever arrive. Usually one of the kinds is wrong, or another gate was meant.",
     example: " components:
    - name: gps
      gates:
@@ -30,9 +30,9 @@ pub(crate) const OTHER_PATTERN: Rule = Rule {
     code: "SCL0506",
     severity: Severity::Error,
     title: "ends of different patterns",
-    explanation: "The two gates belong to different patterns: one publishes, the other wants an answer. `pub` meets \
-                  `sub`, `req` meets `rep`, `push` meets `pull`. The message shows which gates of the two components \
-                  would fit.",
+    explanation: "The two gates belong to different patterns: for example, one publishes and the other expects an \
+                  answer. `pub` connects to `sub`, `req` to `rep`, `push` to `pull`. The message shows which gates of \
+                  the two components would fit.",
     example: " components:
    - name: controller
      gates:

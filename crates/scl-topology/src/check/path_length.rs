@@ -13,9 +13,9 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0801",
     severity: Severity::Error,
     title: "socket path too long",
-    explanation: "Names become paths of sockets, and the kernel allows 107 bytes for one. The check takes the longest \
-                  usual runtime folder, so that the file works for every user. Shorten the names; long names of whole \
-                  connections are cut by themselves.",
+    explanation: "Names become parts of socket paths, which the kernel limits to 107 bytes. The check assumes the \
+                  longest usual runtime folder, so that the file works for every user. Shorten the names; the names of \
+                  whole connections are shortened automatically.",
     example: " components:
    - name: navigation_and_guidance_supervisor
      gates:

@@ -29,7 +29,7 @@ pub(crate) const WRONG_NUMBER_OF_TYPES: Rule = Rule {
     severity: Severity::Error,
     title: "types do not fit the kind",
     explanation: "`req` and `rep` carry a question and its answer, `A -> B`; the other kinds carry one type. This gate \
-                  has too many types or too few. Write what the message says, or another kind.",
+                  has too many types or too few. Write the types as the message shows, or use another kind.",
     example: " components:
    - name: ui
      gates:
@@ -134,7 +134,7 @@ fn fault(text: &str) -> Option<(&'static str, String)> {
     let owned = text.trim_start_matches('&').trim_start_matches("mut ").trim();
     let owned = if owned == "str" { "String" } else { owned };
     Some(match text {
-        "" => ("nothing stands here", "write a type, for example `Status`".to_owned()),
+        "" => ("nothing here", "write a type, for example `Status`".to_owned()),
         _ if text.starts_with('&') => ("a reference", format!("use an owned type: `{owned}`")),
         _ if dotted != text && dotted.split('.').all(is_word) => ("a Rust path", format!("write `{dotted}`")),
         _ if text.contains('<') => ("a type with parameters", "give it a name in Rust: `type Name = ...;`".to_owned()),

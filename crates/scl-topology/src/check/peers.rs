@@ -15,7 +15,8 @@ pub(crate) const SEVERAL_PUBLISHERS: Rule = Rule {
     title: "subscriber with several publishers",
     explanation: "Several publishers send to one subscribing gate, and their messages arrive mixed, in the order of \
                   arrival. That is allowed; the lint is for systems in which each gate has one source. If the \
-                  publishers are implementations of one thing, declare one component that several programs can play.",
+                  publishers are implementations of one component, declare that component once and start one of the \
+                  programs.",
     example: " components:
    - name: gps
      gates:
@@ -39,8 +40,9 @@ pub(crate) const SEVERAL_REPLIERS: Rule = Rule {
     code: "SCL0512",
     severity: Severity::Error,
     title: "requester with two repliers",
-    explanation: "A requester has two repliers, and nothing says who answers; plain ZeroMQ would ask them in turn. \
-                  Declare one `req` gate for each. The other way round, many requesters of one replier, is fine.",
+    explanation: "A requester is connected to two repliers, and it is not defined which one answers; plain ZeroMQ \
+                  would ask them in turn. Declare one `req` gate for each. The opposite is fine: many requesters of \
+                  one replier.",
     example: " components:
    - name: ui
      gates:
@@ -64,8 +66,9 @@ pub(crate) const SEVERAL_PULLERS: Rule = Rule {
     code: "SCL0513",
     severity: Severity::Error,
     title: "pusher with several pullers",
-    explanation: "A `push` gate hands each message to one of its pullers, so with two of them each gets only a part. \
-                  If both need everything, use `pub` and `sub`; if the work is to be shared, say `share: true`.",
+    explanation: "A `push` gate sends each message to one of its pullers, so several pullers each get only a part of \
+                  the messages. If all of them need every message, use `pub` and `sub`; if they share the work, write \
+                  `share: true`.",
     example: " components:
    - name: camera
      gates:
@@ -89,7 +92,7 @@ pub(crate) const MANY_PEERS: Rule = Rule {
     severity: Severity::Lint,
     title: "very many connections at one gate",
     explanation: "A gate has very many peers, and each costs time and memory for each message. The threshold is 32; `# \
-                  scl: warn(SCL0710, 64)` turns the check on for the file and sets another.",
+                  scl: warn(SCL0710, 64)` turns the check on for the file and sets the threshold to 64.",
     example: "-# scl: warn(SCL0710, 1)
 +# scl: warn(SCL0710, 64)
  components:
@@ -106,7 +109,7 @@ pub(crate) const MANY_PEERS: Rule = Rule {
 ",
 };
 
-/// More peers than this are many, unless the file says another number.
+/// Default threshold of SCL0710: more peers than this are many. The file can set another one.
 const MANY: u32 = 32;
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {

@@ -1,13 +1,13 @@
-//! Mistakes that show at several places and are made once: an unknown name that several connections use is most often
-//! that of its declaration, and a gate of the wrong kind fits none of its connections. They are told at the first
-//! place, and the others are shown there.
+//! Mistakes that are made once and show at several places: an unknown name that several connections use is most often
+//! misspelt in its declaration, and a gate of the wrong kind fits none of its connections. They are reported at the
+//! first place, with the other places as labels.
 
 use super::{backpressure, codec_agreement, exchange_type, message_type, pair_kinds, unknown_component, unknown_gate};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule};
 use crate::source::Span;
 use std::collections::HashMap;
 
-/// One problem shows no more places.
+/// Maximum number of further places that one problem shows.
 const MOST: usize = 8;
 
 pub(super) fn tell_once(problems: &mut Diagnostics) {
@@ -46,7 +46,8 @@ const PAIRS: [&Rule; 8] = [
     &codec_agreement::RULE,
 ];
 
-/// Connections that do not fit because of the same gate: the gate that most of them share is the one at fault.
+/// Merges the reports of connections that do not fit because of the same gate. The gate that most of them share is
+/// taken to be at fault.
 fn gates_that_do_not_fit(problems: &mut Diagnostics) {
     let mut counts: HashMap<(&Rule, Span), usize> = HashMap::new();
     problems.retain(|found| {

@@ -1,4 +1,4 @@
-//! SCL0403 for a Rust path that Rust cannot name. Which types are Rust paths, `schema_type` decides.
+//! SCL0403 for a path that is not valid in Rust. `schema_type` decides which types are Rust paths.
 
 use super::Facts;
 use super::draft::Draft;

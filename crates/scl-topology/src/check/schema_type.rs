@@ -11,7 +11,7 @@ use crate::topology::TypeName;
 use scl_text::list::listed;
 use std::collections::{BTreeSet, HashMap};
 
-/// No message offers more names than this.
+/// Maximum number of names that a message suggests.
 const MOST: usize = 3;
 
 /// SCL0405.
@@ -19,9 +19,9 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0405",
     severity: Severity::Error,
     title: "unknown message type",
-    explanation: "The first part of this type is a package of the `schemas`, or nearly one, but no schema declares such \
-                  a message. It is mostly misspelt, or its package is missing before the dot. A type whose first part \
-                  is no package is a Rust path, which rustc looks up where the macro is called.",
+    explanation: "The first part of this type is a package of the `schemas`, or almost one, but no schema declares \
+                  such a message. The type is probably misspelt, or lacks its package. If the first part is not a \
+                  package, the type is a Rust path, which rustc looks up where the macro is called.",
     example: " schemas: [uav.proto]
  components:
    - name: sensor
@@ -82,7 +82,7 @@ impl<'s> Known<'s> {
     /// The messages that an unknown type may mean. For a type outside of the schemas' packages, only those whose
     /// package is misspelt or missing: any other is a Rust path.
     ///
-    /// `may_search` is asked before a search that takes long in a file with very many types.
+    /// Calls `may_search` before a search that takes long in a file with very many types.
     fn nearest(&self, dotted: &str, mut may_search: impl FnMut() -> bool) -> Vec<&'s str> {
         let all = || self.all.iter().copied();
         if self.has_root(dotted) {

@@ -13,8 +13,8 @@ pub(crate) const ITSELF: Rule = Rule {
     code: "SCL0507",
     severity: Severity::Error,
     title: "gate connected to itself",
-    explanation: "Both ends of the connection are one gate. A gate either sends or receives, so it cannot talk to \
-                  itself; another gate was meant.",
+    explanation: "Both ends of the connection are the same gate. A gate either sends or receives, so it cannot be \
+                  connected to itself; another gate was meant.",
     example: " components:
    - name: controller
      gates:
@@ -33,9 +33,9 @@ pub(crate) const WAITS_FOR_ITSELF: Rule = Rule {
     code: "SCL0508",
     severity: Severity::Error,
     title: "component waits for itself",
-    explanation: "A component that asks itself waits for an answer that only it can give; one that sends itself \
-                  messages with `backpressure: true` and `when_full: wait` waits for room in a queue that only it can \
-                  empty. Call a function inside the component, or keep the value in it.",
+    explanation: "A component that sends a request to itself waits for an answer that only it can give; one that sends \
+                  itself messages with `backpressure: true` and `when_full: wait` waits for room in a queue that only \
+                  it can empty. Call a function inside the component, or keep the value in it.",
     example: " components:
    - name: planner
      gates:
@@ -54,8 +54,8 @@ pub(crate) const HEARS_ITSELF: Rule = Rule {
     code: "SCL0509",
     severity: Severity::Warning,
     title: "component subscribes to itself",
-    explanation: "A component receives what it sends itself: the message leaves the process and comes back. Keeping \
-                  the value in the component is faster and simpler. Some designs want it; then allow it with a reason.",
+    explanation: "A component receives its own messages: each leaves the process and comes back. Keeping the value in \
+                  the component is faster and simpler. If the design needs it, allow the warning with a reason.",
     example: " components:
    - name: planner
      gates:

@@ -14,9 +14,9 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0802",
     severity: Severity::Error,
     title: "two gates share one socket path",
-    explanation: "Two connections would have one socket. The names of gates and connections are built so that they \
-                  cannot meet, as long as they need not be cut; those that are cut carry a fingerprint. This check \
-                  holds that down as an assertion, and no file is known that it rejects.",
+    explanation: "Two connections would use the same socket. Socket names are unique, except that long names of \
+                  connections are cut and end with a fingerprint; two fingerprints could be equal by chance. This \
+                  check guards against that, and no file is known that it rejects. Shorten the names.",
     example: "",
 };
 
@@ -40,7 +40,7 @@ pub(super) fn check(draft: &Draft<'_>, room: usize, problems: &mut Diagnostics) 
     }
 }
 
-/// The numbers that share a name with an earlier one.
+/// Returns each name that occurs again, with the numbers of its first and its later occurrence.
 fn twins(names: Vec<(String, usize)>) -> Vec<(String, usize, usize)> {
     let mut first: HashMap<String, usize> = HashMap::new();
     let pairs = names.into_iter().map(|(name, number)| (*first.entry(name.clone()).or_insert(number), name, number));

@@ -9,11 +9,11 @@ use scl_text::duration;
 pub(crate) const RULE: Rule = Rule {
     code: "SCL0414",
     severity: Severity::Warning,
-    title: "timeout shorter than that of a call behind it",
-    explanation: "The replier makes requests of its own, and one of them may take longer than the requester waits. If \
-                  the replier makes it while it answers, the requester gives up although the reply is still possible, \
-                  and never learns which call was late. Make the outer timeout longer, or the inner one shorter. If \
-                  the two requests have nothing to do with each other, allow the warning.",
+    title: "timeout shorter than that of a nested call",
+    explanation: "The replier also makes requests, and one of them may take longer than the requester waits. If the \
+                  replier makes it before it answers, the requester gives up while the reply is still possible, and \
+                  never learns which call was late. Make the outer timeout longer, or the inner one shorter. If the \
+                  two requests are unrelated, allow the warning.",
     example: " components:
    - name: user_interface
      gates:
@@ -32,7 +32,7 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-/// Looks at sound files only: what is missing may be a timeout that could not be read.
+/// Checks only files without errors: otherwise, a timeout that seems to be missing may be one that could not be read.
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     if problems.has_errors() {
         return;

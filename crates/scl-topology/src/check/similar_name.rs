@@ -12,9 +12,9 @@ pub(crate) const SAME_TYPE: Rule = Rule {
     code: "SCL0308",
     severity: Severity::Error,
     title: "two components become the same Rust type",
-    explanation: "Different names in the file become one Rust type: `user-interface` and `user_interface` both become \
-                  `UserInterface`. A component may not be named like the counterpart that is generated for tests of \
-                  another either, which is its name with `Peer`. Rename one.",
+    explanation: "Different names in the file become the same Rust type: `user-interface` and `user_interface` both \
+                  become `UserInterface`. If there is a component `sensor`, the type `SensorPeer` is taken, too: it is \
+                  the counterpart that is generated for tests of `sensor`. Rename one.",
     example: " components:
 -  - name: user-interface
 +  - name: operator
@@ -29,7 +29,7 @@ pub(crate) const SAME_FIELD: Rule = Rule {
     code: "SCL0309",
     severity: Severity::Error,
     title: "two gates become the same Rust field",
-    explanation: "Different names of gates become one Rust field: `set-point` and `setPoint` both become `set_point`. \
+    explanation: "Two gate names become the same Rust field: `set-point` and `setPoint` both become `set_point`. \
                   Rename one.",
     example: " components:
    - name: actuator
@@ -60,7 +60,8 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     }
 }
 
-/// Beside each component, the macro generates its counterpart for tests: `ControllerPeer` for `Controller`.
+/// Reports components named like a counterpart for tests, which the macro generates beside each component:
+/// `ControllerPeer` for `Controller`.
 fn check_peers(model: &Model, problems: &mut Diagnostics) {
     let names = model.components.iter().map(|component| &component.name).filter(|name| is_well_formed(&name.value));
     let by_type: HashMap<String, &Name> = names.rev().map(|name| (component_type(&name.value), name)).collect();
@@ -80,7 +81,7 @@ fn check_peers(model: &Model, problems: &mut Diagnostics) {
     }
 }
 
-/// The names that meet an earlier, different name in Rust. Equal names are another rule's.
+/// The names that collide with an earlier, different name in Rust. Another rule reports equal names.
 fn collisions<'m>(
     names: impl Iterator<Item = &'m Name>,
     rust: fn(&str) -> String,
@@ -99,9 +100,9 @@ pub(crate) const LETTER_CASE: Rule = Rule {
     code: "SCL0310",
     severity: Severity::Warning,
     title: "names that differ only in letter case",
-    explanation: "Two names differ only in capitals, `_` or `-`. People mix them up, a language that writes names in \
-                  another case makes one name of them, and on file systems that ignore case their socket files would \
-                  be one. Rename one.",
+    explanation: "Two names differ only in letter case, `_` or `-`. They are easily mixed up, become the same name in \
+                  a language that spells names in another case, and would share a socket file on file systems that \
+                  ignore case. Rename one.",
     example: " components:
    - name: gps
      gates: []

@@ -1,11 +1,12 @@
-//! The system's name: `system:`, else what the file's name makes.
+//! The system's name: `system:`, or else derived from the file's name.
 
 use super::Facts;
 use super::named::is_allowed;
 use crate::fingerprint;
 use crate::model::Model;
 
-/// A file's name is not chosen to become a part of socket paths, so a long one is cut.
+/// Maximum length of a name that is derived from the file's name. Longer ones are cut: a file's name is not chosen to
+/// be part of socket paths.
 const LONGEST_DEFAULT: usize = 24;
 
 pub(super) fn system_name(model: &Model, facts: &Facts) -> String {

@@ -1,4 +1,4 @@
-//! What the tests of the rules share: a text goes in, the words that users read come out.
+//! Helpers for the tests of the rules: a text goes in, the messages that users read come out.
 
 use super::{Facts, SchemaMessages, check};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity, render};
@@ -8,22 +8,22 @@ use crate::source::Sources;
 use crate::topology::Topology;
 use expect_test::Expect;
 
-/// The warnings that small examples cannot but have: no connections, and gates without a peer.
+/// The warnings that small examples cannot avoid: no connections, and gates without a peer.
 pub(crate) const USUAL: [&str; 7] = ["SCL0206", "SCL0209", "SCL0701", "SCL0702", "SCL0703", "SCL0704", "SCL0705"];
 
-/// The one problem of an example, as text; the same with the line ends of Windows.
+/// Checks the text of an example's problems, with either line end.
 #[track_caller]
 pub(super) fn example(code: &str, yaml: &str, expected: Expect) {
     example_with(code, yaml, None, expected);
 }
 
-/// The bad example of a rule, which is its problem.
+/// Checks the text of the problems in the bad example of a rule.
 #[track_caller]
 pub(super) fn rule_example(rule: &Rule, expected: Expect) {
     example(rule.code, &bad(rule), expected);
 }
 
-/// The same for an example whose schemas declare these messages.
+/// As [`rule_example`], for an example whose schemas declare these messages.
 #[track_caller]
 pub(super) fn rule_example_with(rule: &Rule, messages: Option<&[&str]>, expected: Expect) {
     example_with(rule.code, &bad(rule), messages, expected);
@@ -35,7 +35,7 @@ fn bad(rule: &Rule) -> String {
     rule.bad_example()
 }
 
-/// The same for a file whose schemas declare these messages.
+/// As [`example`], for a file whose schemas declare these messages.
 #[track_caller]
 pub(super) fn example_with(code: &str, yaml: &str, messages: Option<&[&str]>, expected: Expect) {
     let text = told(code, yaml, messages);
@@ -65,7 +65,7 @@ pub(super) fn advice(yaml: &str) -> String {
     told.collect::<Vec<_>>().join("; ")
 }
 
-/// Every problem.
+/// All problems of a text, and its sources.
 pub(crate) fn problems(yaml: &str, messages: Option<&[&str]>) -> (Vec<Diagnostic>, Sources) {
     let (_, found, sources) = run(yaml, messages);
     (found, sources)

@@ -1,4 +1,4 @@
-//! Several mistakes at once: all are told, and nothing that only follows from them.
+//! Several mistakes at once: all are reported, and nothing that only follows from them.
 
 use super::testing::{codes, problems};
 use crate::diagnostic::Severity;
@@ -87,7 +87,7 @@ fn sound_files_are_silent() {
     }
 }
 
-/// Every word of this file matters: without it, doubled or misspelt, it is another file.
+/// A sound file whose words the tests remove, double or misspell, one at a time.
 const TYPED: &str = "system: rover
 schemas: [rover.proto]
 codec: protobuf
@@ -114,7 +114,7 @@ connections:
   - [pilot.jobs, sensor.jobs]
 ";
 
-/// The places of words, with `.` and `-` as ends of words.
+/// The ranges of the words in a text; `.` and `-` separate words.
 fn words(text: &str) -> Vec<std::ops::Range<usize>> {
     let mut words = Vec::new();
     let mut start = 0;

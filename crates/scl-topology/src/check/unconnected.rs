@@ -1,6 +1,6 @@
-//! Gates without a peer. SCL0701: nobody receives what a gate sends. SCL0702: a gate never receives anything. SCL0703:
-//! nobody answers. SCL0704: nobody asks. SCL0705: a whole component hangs in the air, which says more than a warning
-//! for each of its gates.
+//! Gates without a peer. SCL0701: a sender without receivers. SCL0702: a receiver without senders. SCL0703: a requester
+//! without a replier. SCL0704: a replier without requesters. SCL0705: a component without any connection, which says
+//! more than a warning for each of its gates.
 
 use super::draft::{Draft, DraftComponent};
 use super::fitting_sender::FittingSenders;
@@ -13,8 +13,8 @@ pub(crate) const NO_RECEIVER: Rule = Rule {
     code: "SCL0701",
     severity: Severity::Warning,
     title: "publisher without subscribers",
-    explanation: "A gate sends, and nobody receives: its messages are dropped. Connect it, or remove it. If that is \
-                  meant, write `unconnected: ok`, which works for a gate without a type too: `events: {pub: , \
+    explanation: "A sending gate has no receiver, so its messages are dropped. Connect it, or remove it. If that is \
+                  intended, write `unconnected: ok`, which works for a gate without a type too: `events: {pub: , \
                   unconnected: ok}`.",
     example: " components:
    - name: controller
@@ -29,8 +29,8 @@ pub(crate) const NO_SENDER: Rule = Rule {
     code: "SCL0702",
     severity: Severity::Warning,
     title: "subscriber without a publisher",
-    explanation: "A receiving gate is in no connection, so a program that waits at it never gets anything. Connect it; the \
-                  message offers senders that fit. If that is meant, write `unconnected: ok`.",
+    explanation: "A receiving gate is not connected, so a program that waits for its messages never gets one. Connect \
+                  it; the message suggests senders that fit. If that is intended, write `unconnected: ok`.",
     example: " components:
    - name: controller
      gates:
@@ -44,9 +44,8 @@ pub(crate) const NO_REPLIER: Rule = Rule {
     code: "SCL0703",
     severity: Severity::Error,
     title: "requester without a replier",
-    explanation: "A requester has nobody to ask: every call would end with a timeout. Connect it, or write \
-                  `unconnected: ok`. Where the replier is a program outside of SCL, the error can be allowed with a \
-                  reason.",
+    explanation: "A requester has no replier, so every call would time out. Connect it, or write `unconnected: ok`. If \
+                  the replier is a program outside of SCL, allow the error with a reason.",
     example: " components:
    - name: ui
      gates:
@@ -60,7 +59,8 @@ pub(crate) const NO_REQUESTER: Rule = Rule {
     code: "SCL0704",
     severity: Severity::Warning,
     title: "replier without requesters",
-    explanation: "A replier is never asked. Connect it, or write `unconnected: ok` if requesters come from outside.",
+    explanation: "A replier has no requester, so it never gets a request. Connect it, or write `unconnected: ok` if \
+                  requesters connect from outside the system.",
     example: " components:
    - name: controller
      gates:
@@ -74,8 +74,8 @@ pub(crate) const LONELY_COMPONENT: Rule = Rule {
     code: "SCL0705",
     severity: Severity::Warning,
     title: "component without any connection",
-    explanation: "None of the component's gates is connected. One warning says so for all of them. Connect it, or \
-                  remove it.",
+    explanation: "None of the component's gates is connected. This is one warning for all of them. Connect the \
+                  component, or remove it.",
     example: " components:
    - name: logger
      gates:
@@ -89,7 +89,8 @@ pub(crate) const LONELY_COMPONENT: Rule = Rule {
 ",
 };
 
-/// In a file without the section `connections`, more warnings than this say no more than that the section is missing.
+/// In a file without the section `connections`, more problems than this add nothing to the report that the section is
+/// missing.
 const MOST_WITHOUT_SECTION: usize = 2;
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
@@ -101,7 +102,8 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     }
 }
 
-/// What is left to say where the section is reported as missing: requesters without a replier stay an error, told once.
+/// Returns what remains to be reported if the section is reported as missing: all requesters without a replier, as one
+/// error.
 fn without_section(found: Vec<Diagnostic>) -> Option<Diagnostic> {
     let mut requesters = found.into_iter().filter(|problem| *problem.rule == NO_REPLIER);
     let mut first = requesters.next()?;
@@ -189,7 +191,7 @@ fn ways_out(draft: &Draft<'_>, gate: usize) -> String {
     format!("connect it, remove it, or write `{name}: {{{kind}: {types}, unconnected: ok}}`")
 }
 
-/// The type of a gate as one would write it; nothing for a gate without one.
+/// The type of a gate as written in the file; empty for a gate without one.
 pub(super) fn type_text(draft: &Draft<'_>, gate: usize) -> String {
     let from = draft.gates[gate].payload_from.unwrap_or(gate);
     draft.gates[from].model.payload.as_ref().map_or_else(String::new, |payload| payload.value.trim().to_owned())

@@ -11,8 +11,8 @@ pub const UNKNOWN: Rule = Rule {
     code: "SCL0501",
     severity: Severity::Error,
     title: "unknown component",
-    explanation: "An end of a connection names a component that is not declared, mostly because it is misspelt. The \
-                  message offers the declared ones that resemble it and have such a gate.",
+    explanation: "An end of a connection names a component that is not declared; the name is probably misspelt. The \
+                  message suggests components with a similar name that have such a gate.",
     example: " components:
    - name: sensor
      gates:
@@ -31,7 +31,7 @@ pub(crate) const SWAPPED: Rule = Rule {
     code: "SCL0504",
     severity: Severity::Error,
     title: "component and gate swapped",
-    explanation: "Component and gate stand in the wrong order. Written the other way round, they name a gate that \
+    explanation: "Component and gate are in the wrong order. Written the other way round, they name a gate that \
                   exists.",
     example: " components:
    - name: sensor
@@ -91,8 +91,8 @@ pub(super) fn swap(draft: &Draft<'_>, headline: String, span: Span, [component, 
         .fix(span, draft.sources.quoted_as(span, &meant))
 }
 
-/// Similar components that have the gate; without such, those that have a similar gate. Of equally similar ones those
-/// whose gate fits the other end and is unconnected.
+/// Returns similar components that have the gate, or else those that have a similar gate. Of equally similar ones,
+/// prefers those whose gate fits the other end and is unconnected.
 fn meant(draft: &Draft<'_>, link: usize, end: usize, [component, gate]: [&str; 2]) -> Vec<String> {
     let near = nearest(component, draft.component_names.iter().copied());
     let has_similar = |other: &str| {
@@ -108,7 +108,7 @@ fn meant(draft: &Draft<'_>, link: usize, end: usize, [component, gate]: [&str; 2
     best.into_iter().take(MOST).map(str::to_owned).collect()
 }
 
-/// Leaves those that pass, unless none does.
+/// Keeps only the names that pass, unless none does.
 fn keep_if_any(names: &mut Vec<&str>, passes: impl Fn(&str) -> bool) {
     if names.iter().any(|name| passes(name)) {
         names.retain(|name| passes(name));

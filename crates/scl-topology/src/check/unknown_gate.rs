@@ -12,8 +12,8 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0502",
     severity: Severity::Error,
     title: "unknown gate",
-    explanation: "The component exists, but has no gate of this name. The message lists its gates, and offers those \
-                  that resemble it and would fit the other end.",
+    explanation: "The component exists, but has no gate of this name. The message lists its gates, and suggests those \
+                  with a similar name that would fit the other end.",
     example: " components:
    - name: sensor
      gates:
@@ -71,7 +71,7 @@ fn meant(draft: &Draft<'_>, link: usize, end: usize, component: &str, gate: &str
     best.into_iter().take(MOST).collect()
 }
 
-/// The gate that fits and has no connection, if there is one only.
+/// The gate that fits and has no connection, if there is exactly one.
 fn only_left(draft: &Draft<'_>, link: usize, end: usize, component: &str) -> Option<usize> {
     draft.links[link].ends[1 - end]?;
     let mut open = draft.gates_of(component).filter(|at| !draft.gates[*at].named && draft.fits([link, end], *at));

@@ -1,4 +1,4 @@
-//! Which component can wait for which, and where. `docs/deadlocks.md` tells users the same.
+//! Which component can wait for which, and where. `docs/deadlocks.md` explains the same to users.
 //!
 //! A call that sends may wait; a call that receives waits for a message, which says nothing about its sender. A reply
 //! never waits.
@@ -7,14 +7,14 @@ use super::circles::Step;
 use super::draft::Draft;
 use crate::topology::{GateKind, WhenFull};
 
-/// What kind of call waits.
+/// The kind of call that waits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Call {
     /// A message for a queue that is full. Waits until there is room, however long that takes.
     Send,
     /// A request. Its timeout ends the wait, but the call has failed then.
     Request {
-        /// Whether the file says how long it may wait.
+        /// Whether the file sets the timeout.
         has_timeout: bool,
     },
 }
@@ -23,8 +23,8 @@ pub(super) enum Call {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Wait {
     pub(super) call: Call,
-    /// Whom it waits for. Several for a `push` gate that shares its work: it waits only while the queues of all its
-    /// pullers are full.
+    /// The steps to the components that it waits for. A `push` gate that shares its work has several: it waits only
+    /// while the queues of all its pullers are full.
     pub(super) steps: Vec<Step>,
 }
 
@@ -81,7 +81,8 @@ pub(super) fn receivers_that_wait(draft: &Draft<'_>) -> Vec<usize> {
     receivers
 }
 
-/// The step of a connection from its sending to its receiving component; one that is declared twice is one.
+/// The step of a connection from its sending to its receiving component. A component that is declared twice counts as
+/// one.
 pub(super) fn step(draft: &Draft<'_>, link: usize, source: usize, sink: usize) -> Step {
     let component = |gate| draft.component(draft.component_name(gate)).unwrap_or(draft.gates[gate].component);
     Step { link, from: component(source), to: component(sink) }

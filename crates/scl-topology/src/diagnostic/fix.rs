@@ -13,7 +13,7 @@ pub struct Fix {
     pub span: Span,
     /// The new text; empty to remove the old one. Line breaks are `\n`, whatever the file has.
     pub replacement: String,
-    /// Whether nothing else can have been meant.
+    /// Whether this is certainly what was meant.
     pub sure: bool,
 }
 
@@ -34,8 +34,8 @@ impl Diagnostic {
         replacements.iter().fold(self, |found, replacement| found.with_fix(span, replacement.as_ref(), sure))
     }
 
-    /// As [`fix_if_single`](Self::fix_if_single), for a word at the primary place, which may be in quotes; nothing if
-    /// it is written in another way, with escapes for example.
+    /// As [`fix_if_single`](Self::fix_if_single), for a word at the primary place, which may be in quotes. Adds nothing
+    /// if the word is written in another way, for example with escapes.
     pub fn fix_word<S: AsRef<str>>(self, word: &str, replacements: &[S]) -> Self {
         let Some(span) = self.primary.as_ref().map(|label| label.span) else { return self };
         let length = (span.end - span.start) as usize;
@@ -57,8 +57,8 @@ impl Diagnostic {
     }
 }
 
-/// What to remove so that an item or an entry is gone with its comma, or with its line; `None` if it shares its line
-/// with something else.
+/// Returns what to remove so that an item or an entry disappears with its comma, or with its line. `None` if it shares
+/// its line with something else.
 fn removal(source: &SourceFile, span: Span) -> Option<Span> {
     let text = source.text();
     let (before, after) = (text.get(..span.start as usize)?, text.get(span.end as usize..)?);

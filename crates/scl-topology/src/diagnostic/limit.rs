@@ -1,4 +1,4 @@
-//! SCL0008: no more problems than somebody reads.
+//! SCL0008: limits the number of problems shown.
 
 use super::{Diagnostic, Rule, Severity};
 
@@ -7,16 +7,16 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0008",
     severity: Severity::Error,
     title: "too many problems",
-    explanation: "More problems were found than anybody reads at once; the macro shows the first 20, errors first. \
-                  `scl check` shows all of them. Mending the first often makes many others go.",
+    explanation: "The macro shows only the first 20 problems, errors first. `scl check` shows all of them. Fixing the \
+                  first ones often resolves many others.",
     example: "",
 };
 
-/// How many problems the macro shows.
+/// Maximum number of problems that the macro shows.
 pub const MOST_SHOWN: usize = 20;
 
-/// The first [`MOST_SHOWN`] problems, errors before all others, in the order given; then one that says how many are
-/// missing. `path` is the file as messages name it.
+/// Returns at most [`MOST_SHOWN`] problems in the order given, with warnings left out before errors, followed by one
+/// that says how many are not shown. `path` is the file as messages name it.
 pub fn limit(problems: Vec<Diagnostic>, path: &str) -> Vec<Diagnostic> {
     let total = problems.len();
     let errors = problems.iter().filter(|problem| problem.severity == Severity::Error).count();
@@ -36,7 +36,7 @@ pub fn limit(problems: Vec<Diagnostic>, path: &str) -> Vec<Diagnostic> {
     shown
 }
 
-/// Where only warnings are missing, the file stays usable.
+/// The problem that says how many are not shown. A warning if no error is among them, so that the file stays usable.
 fn missing(count: usize, has_errors: bool, path: &str) -> Diagnostic {
     let message = match count {
         1 => format!("1 more problem in {path} is not shown"),

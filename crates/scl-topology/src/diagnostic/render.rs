@@ -56,7 +56,7 @@ fn render_with(renderer: &Renderer, diagnostic: &Diagnostic, sources: &Sources) 
     joined(&text, excerpts.iter().map(|excerpt| excerpt.chunks.len()))
 }
 
-/// One excerpt a file, that of the primary label first.
+/// One excerpt for each file, starting with the file of the primary label.
 fn excerpts<'s>(diagnostic: &Diagnostic, sources: &'s Sources) -> Vec<Excerpt<'s>> {
     let primary = diagnostic.primary.iter().map(|label| (label, true));
     let labels: Vec<_> = primary.chain(diagnostic.secondary.iter().map(|label| (label, false))).collect();
@@ -69,8 +69,8 @@ fn excerpts<'s>(diagnostic: &Diagnostic, sources: &'s Sources) -> Vec<Excerpt<'s
     files.into_iter().map(|file| Excerpt::new(sources.file(file), file, &labels)).collect()
 }
 
-/// Each file with its path and position, then its chunks as snippets without a path: only so can the position be one in
-/// the file, although the snippet is cut.
+/// Each file with its path and position, followed by its chunks as snippets without a path: only then can the position
+/// refer to the whole file, although the snippets are cut.
 fn elements<'e>(excerpts: &'e [Excerpt<'_>]) -> Vec<Element<'e>> {
     let mut elements: Vec<Element<'e>> = Vec::new();
     for (number, excerpt) in excerpts.iter().enumerate() {
@@ -93,8 +93,8 @@ fn snippet(chunk: &Chunk) -> Snippet<'_, Annotation<'_>> {
     Snippet::source(chunk.text.as_str()).line_start(chunk.first_line as usize).annotations(annotations)
 }
 
-/// Makes one excerpt of the chunks of a file. The renderer writes `|` and `:::` before each snippet without a path:
-/// after the path, only `|` is needed; between two chunks `...` stands for the lines that are not shown.
+/// Joins the chunks of a file to one excerpt. The renderer writes `|` and `:::` before each snippet without a path.
+/// After the path only `|` is kept; between two chunks, `...` stands for the lines that are not shown.
 fn joined(text: &str, chunks: impl Iterator<Item = usize>) -> String {
     let mut is_first = chunks.flat_map(|count| (0..count).map(|chunk| chunk == 0));
     let mut out: Vec<Cow<'_, str>> = Vec::new();
@@ -123,12 +123,12 @@ fn is_blank(text: &str) -> bool {
     })
 }
 
-/// Text of one line in which nothing moves the cursor.
+/// Escapes what would move the cursor or reorder text, including line breaks.
 fn one_line(text: &str) -> String {
     escape(text, |_| false)
 }
 
-/// Text of several lines.
+/// As [`one_line`], but keeps line breaks.
 fn lines(text: &str) -> String {
     escape(text, |character| character == '\n')
 }

@@ -10,7 +10,7 @@ pub enum Severity {
     Error,
     /// The file can be used, but is probably not what was meant.
     Warning,
-    /// Off unless asked for.
+    /// Off by default.
     Lint,
 }
 
@@ -46,8 +46,8 @@ impl Rule {
         lines.filter_map(|line| line.get(1..)).collect()
     }
 
-    /// Returns true if there is an example and it is a topology. Those of the families SCL00 (calls of the macro) and
-    /// SCL10 (code that uses gates) are Rust.
+    /// Returns true if there is an example and it is a topology. The examples of the families SCL00 (calls of the
+    /// macro) and SCL10 (code that uses gates) are Rust.
     pub fn has_topology(&self) -> bool {
         !(self.example.is_empty() || self.code.starts_with("SCL00") || self.code.starts_with("SCL10"))
     }

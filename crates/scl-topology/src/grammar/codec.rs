@@ -36,7 +36,7 @@ pub struct CodecRow {
     pub summary: &'static str,
     /// What to do about a Rust type that it does not support.
     pub remedy: &'static str,
-    /// What people write for it, in lower case.
+    /// Other words that people write for it, in lower case.
     pub synonyms: &'static [&'static str],
 }
 
@@ -51,7 +51,7 @@ impl Codec {
     /// The codec of typed gates in a file that names none.
     pub const DEFAULT: Codec = Codec::Protobuf;
 
-    /// The row of the table; none for a codec of the user's own.
+    /// The row of the table; `None` for a codec of the user's own.
     pub const fn row(&self) -> Option<&'static CodecRow> {
         Some(match self {
             Codec::Protobuf => &CodecRow {
@@ -111,7 +111,8 @@ impl Codec {
                 is_default_feature: true,
                 carries_schema_types: false,
                 messages: "Types of fixed layout that derive the traits of `zerocopy`.",
-                summary: "The bytes of the type as they lie in memory: the fastest, for one kind of processor.",
+                summary: "The bytes of the type as they are in memory: the fastest, but only between processors of the \
+                          same kind.",
                 remedy: "derive the traits of `zerocopy` for it; it must have a fixed layout",
                 synonyms: &["bytes", "none"],
             },
@@ -119,7 +120,7 @@ impl Codec {
         })
     }
 
-    /// Whether it can carry the messages of `schemas`; a codec of the user's own is taken to.
+    /// Whether it can carry the messages of `schemas`; a codec of the user's own is assumed to.
     pub fn carries_schema_types(&self) -> bool {
         self.row().is_none_or(|row| row.carries_schema_types)
     }

@@ -16,7 +16,7 @@ pub struct KindRow {
 /// Two kinds that connect to each other.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Pattern {
-    /// The kind that starts.
+    /// The kind that sends first: `pub`, `req` or `push`.
     pub source: GateKind,
     /// Who talks to whom, in a few words.
     pub summary: &'static str,

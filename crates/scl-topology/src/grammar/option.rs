@@ -1,6 +1,5 @@
 //! The options of a gate: one row each. The checks, the schema, the reference page and the generated documentation read
-//! the row; what the option does at run time reads the field of the plan's options with the key
-//! of the row.
+//! the row. At run time, the value is read from the field of the plan's options that has the same key.
 
 use super::queue_policy::POLICIES;
 use super::shape::{self, OutOfRange, Shape, Word};
@@ -10,11 +9,11 @@ use scl_text::{duration, size};
 use std::ops::Deref;
 use std::time::Duration;
 
-/// The options of a gate, defaults filled in: those of its program, which read as if they were here, and those of the
-/// checker alone.
+/// The options of a gate, defaults filled in: those of its program, which can be read as fields of this struct, and
+/// those that only the checker needs.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct DeclaredOptions {
-    /// Those that the program needs.
+    /// The options that the program needs.
     pub program: scl_plan::GateOptions,
     /// `share`.
     pub share: bool,
@@ -35,18 +34,20 @@ impl DeclaredOptions {
     pub const LARGEST_MAX_SIZE: u64 = 1 << 30;
 }
 
-/// The longest queue, in messages. Memory is reserved for what a queue may hold, so a typing error is refused.
+/// The longest queue, in messages. Memory is reserved for what a queue may hold, so a longer one is rejected as a
+/// typing error.
 const LONGEST_QUEUE: u32 = 1_000_000;
 
 /// The longest wait for a reply: a day.
 const LONGEST_TIMEOUT: Duration = Duration::from_secs(24 * 60 * 60);
 
-/// The most calls that a gate may have in progress: as many unread replies as a replier keeps for a requester.
+/// Maximum number of calls that a gate may have in progress: equal to the number of unread replies that a replier keeps
+/// for a requester.
 const MOST_IN_FLIGHT: u32 = 64;
 
 /// Why other kinds have no queue.
 const NO_QUEUE: &[(&[GateKind], &str)] = &[
-    (&[Req, Rep], "`req` and `rep` take turns, so there is never more than one message waiting"),
+    (&[Req, Rep], "a requester limits its unanswered calls with `in_flight` and `timeout`"),
     (&[Pub, Push], "each receiver says how many messages may wait for it"),
 ];
 
@@ -65,9 +66,9 @@ pub static OPTIONS: [GateOption; 12] = [
         key: "codec",
         shape: Shape::Codec,
         kinds: &GateKind::ALL,
-        summary: "How messages become bytes; without it, the codec of the other end, or that of the file.",
-        text: "Both ends of a connection have the same codec, so one of them is enough to say it. A gate without a type \
-               carries bytes as they are, whatever its `codec`. See [codecs](#codecs).",
+        summary: "How messages become bytes; if not set, the codec of the other end or of the file is used.",
+        text: "Both ends of a connection use the same codec, so it is enough to name it at one of them. A gate without \
+               a type carries bytes as they are, whatever its `codec`. See [codecs](#codecs).",
         examples: &["attitude: {pub: Attitude, codec: json}", "position: {pub: Position, codec: my_crate::Flat}"],
         absent: &[],
     },
@@ -76,10 +77,10 @@ pub static OPTIONS: [GateOption; 12] = [
         shape: Shape::Number { least: 1, most: LONGEST_QUEUE },
         kinds: &[Sub, Pull],
         summary: "How many messages may wait for this gate; 1 means: only the newest.",
-        text: "Counted in messages, for each connection. What happens when it is full is `when_full`. A queue of 1 with \
-               `drop_oldest` always holds the newest value, also after a pause of the receiver: nothing older waits in \
-               a socket. At any other gate, up to 4096 messages or 1 MiB more may be on their way between the two \
-               programs.",
+        text: "Counted in messages, for each connection. `when_full` says what happens when it is full. A queue of 1 \
+               with `drop_oldest` always holds the newest value, even after the receiver paused: no older message \
+               waits in a socket. At any other gate, up to 4096 messages or 1 MiB more may be on their way between the \
+               two programs.",
         examples: &["attitude: {sub: Attitude, queue: 1}"],
         absent: NO_QUEUE,
     },
@@ -97,9 +98,9 @@ pub static OPTIONS: [GateOption; 12] = [
         shape: Shape::Boolean,
         kinds: &[Pub, Push],
         summary: "Allows a receiver with `when_full: wait` to make this gate wait.",
-        text: "Both ends agree to it, so that no sender waits by surprise. Receivers with another `when_full` are not \
-               affected. For a receiver in an `optional` component the gate waits only while it is connected; without \
-               it, a full queue drops its oldest message, which is counted.",
+        text: "Both ends must agree, so that no sender waits by surprise. Receivers with another `when_full` are not \
+               affected. For a receiver in an `optional` component, the gate waits only while that component is \
+               connected; while it is not, a full queue drops its oldest message, and the drop is counted.",
         examples: &["samples: {pub: Sample, backpressure: true}"],
         absent: &[(&[Sub, Pull], "a receiver asks for it with `when_full: wait`")],
     },
@@ -108,14 +109,14 @@ pub static OPTIONS: [GateOption; 12] = [
         shape: Shape::Boolean,
         kinds: &[Pub],
         summary: "A subscriber that joins or restarts gets the last message at once.",
-        text: "For state that seldom changes, such as a mode or a configuration, so that nobody has to send it again and \
-               again, or wait for its first subscriber. This holds over every transport, between hosts, and in every language. \
-               The last message comes after those that wait in the queue, whatever `when_full` says. The subscriber can ask \
-               how old it is (`latched_age`), by the publisher's clock; between hosts, the time on the network is not part of \
-               that. One that stays connected, or reconnects, gets each message once, unless a gateway between them restarts. \
-               A plain ZeroMQ subscriber gets the last message each time that it connects, or subscribes to its topic later, \
-               and does not learn its age. The publisher's memory holds a copy of the message, so a publisher that restarts \
-               has none until it sends one.",
+        text: "For state that seldom changes, such as a mode or a configuration: the publisher need not send it again \
+               and again, or wait for its first subscriber. This works over every transport, between hosts, and in \
+               every language. The last message comes after those that wait in the queue, whatever `when_full` says. \
+               The subscriber can ask how old it is (`latched_age`), by the publisher's clock; between hosts, the time \
+               on the network is not included. A subscriber that stays connected, or reconnects, gets each message \
+               once, unless a gateway between them restarts. A plain ZeroMQ subscriber gets the last message each time \
+               it connects, or subscribes to its topic later, and does not learn its age. The publisher's memory holds \
+               a copy of the message, so a publisher that restarts has none until it sends one.",
         examples: &["mode: {pub: Mode, latched: true}"],
         absent: &[
             (&[Sub], "the publisher keeps its last message, for all of its subscribers"),
@@ -139,8 +140,8 @@ pub static OPTIONS: [GateOption; 12] = [
         shape: Shape::Duration { most: LONGEST_TIMEOUT },
         kinds: &[Req],
         summary: "How long a call may take.",
-        text: "Counted from the call until the reply. A reply that arrives later is dropped. If the replier makes calls \
-               of its own before it answers, this timeout has to be longer than theirs.",
+        text: "Measured from the call to the reply. A reply that arrives later is dropped. If the replier itself makes \
+               calls before it answers, this timeout must be longer than theirs.",
         examples: &["set_mode: {req: Mode -> Accepted, timeout: 500ms}"],
         absent: &[(&[Rep], "each requester says how long it waits")],
     },
@@ -149,9 +150,9 @@ pub static OPTIONS: [GateOption; 12] = [
         shape: Shape::Number { least: 1, most: MOST_IN_FLIGHT },
         kinds: &[Req],
         summary: "How many calls may be in progress at once.",
-        text: "For programs that call from several tasks. A call beyond the limit waits, within its timeout, until another one \
-               ends. Each reply is matched with its request; a replier may answer in any order, or take one request after \
-               the other.",
+        text: "For programs that call from several tasks. A call beyond the limit waits, within its timeout, until \
+               another one ends. Each reply is matched with its request; a replier may answer in any order, or handle \
+               one request after the other.",
         examples: &["tiles: {req: Area -> Tile, in_flight: 8}"],
         absent: &[(&[Rep], "a replier may hold any number of requests")],
     },
@@ -161,15 +162,16 @@ pub static OPTIONS: [GateOption; 12] = [
             Word {
                 word: Undecodable::Skip.word(),
                 summary: "the message is counted and skipped",
-                text: "The call goes on with the next message.",
+                text: "The call continues with the next message.",
             },
-            Word { word: Undecodable::Fail.word(), summary: "the call fails", text: "The next call goes on." },
+            Word { word: Undecodable::Fail.word(), summary: "the call fails", text: "Later calls are not affected." },
         ]),
         kinds: &[Sub, Pull, Rep],
         summary: "What a receiving call does with a message that the codec cannot read: skip it, or fail.",
         text: "With `skip`, the message is counted as `undecodable`, the first one of each peer is logged with the \
-               reason, and the call goes on with the next message within its time. With `fail`, the call returns the \
-               error. Either way the sender of an undecodable request is told at once, so its call fails before its timeout.",
+               reason, and the call continues with the next message within its time limit. With `fail`, the call \
+               returns the error. Either way the sender of an undecodable request is notified at once, so its call \
+               fails before its timeout.",
         examples: &["commands: {pull: Command, undecodable: fail}"],
         absent: &[
             (&[Pub, Push], "each receiving gate says what it does with messages that it cannot read"),
@@ -190,8 +192,8 @@ pub static OPTIONS: [GateOption; 12] = [
         shape: Shape::Word(&[Word { word: "ok", summary: "no peer is needed", text: "" }]),
         kinds: &GateKind::ALL,
         summary: "`ok`: this gate is meant to have no peer, so nothing warns about it.",
-        text: "Without it, a gate without a connection is a warning, and an error at a `req` gate, whose calls could only \
-               fail.",
+        text: "Without it, a gate that is not connected is a warning, or an error for a `req` gate, whose calls could \
+               only fail.",
         examples: &["debug: {pub: Trace, unconnected: ok}"],
         absent: &[],
     },
@@ -200,19 +202,19 @@ pub static OPTIONS: [GateOption; 12] = [
 /// An option: what it looks like, which kinds of gate have it, where its value goes.
 #[derive(Debug)]
 pub struct GateOption {
-    /// As in the file.
+    /// The key as written in the file.
     pub key: &'static str,
     /// What its value looks like.
     pub shape: Shape,
     /// The kinds of gate that have it.
     pub kinds: &'static [GateKind],
-    /// What it says, in one sentence.
+    /// What the option means, in one sentence.
     pub summary: &'static str,
-    /// The rest of what there is to know, as Markdown.
+    /// The rest of its documentation, as Markdown.
     pub text: &'static str,
-    /// Entries of `gates`.
+    /// Examples, as entries of `gates`.
     pub examples: &'static [&'static str],
-    /// Why other kinds do not have it, where there is more to say than that.
+    /// Reasons why some other kinds do not have the option.
     absent: &'static [(&'static [GateKind], &'static str)],
 }
 
@@ -220,7 +222,7 @@ pub struct GateOption {
 enum Home {
     /// Into the gate itself: `doc` and `codec`.
     Gate,
-    /// Into the options of the program, which the plan tells.
+    /// Into the options of the program, which the plan contains.
     Program(OptionAccess),
     Share,
     Unconnected,
@@ -237,12 +239,12 @@ impl GateOption {
         self.kinds.contains(&kind)
     }
 
-    /// Why a kind does not have it, if there is more to say than that.
+    /// Returns the reason why a kind does not have the option, if `absent` gives one.
     pub fn reason(&self, kind: GateKind) -> Option<&'static str> {
         self.absent.iter().find(|(kinds, _)| kinds.contains(&kind)).map(|(_, reason)| *reason)
     }
 
-    /// Stores a value that looks right; the parser has seen to that.
+    /// Stores a value whose form the parser has checked already.
     ///
     /// # Errors
     ///
@@ -273,8 +275,8 @@ impl GateOption {
         Ok(())
     }
 
-    /// The value as in the file. None for `doc` and `codec`, whose values are not among [`DeclaredOptions`], and where
-    /// no word stands for the value.
+    /// Returns the value as written in the file. `None` for `doc` and `codec`, whose values are not among
+    /// [`DeclaredOptions`], and if no word stands for the value.
     pub fn get(&self, options: &DeclaredOptions) -> Option<String> {
         let mut program = options.program.clone();
         Some(match self.home() {
@@ -299,7 +301,7 @@ impl GateOption {
         }
     }
 
-    /// Whether the gate has the value itself, not its [`DeclaredOptions`]: `doc` and `codec`.
+    /// Whether the value is stored in the gate itself, not in its [`DeclaredOptions`]: `doc` and `codec`.
     pub fn is_text(&self) -> bool {
         matches!(self.home(), Home::Gate)
     }
@@ -309,7 +311,7 @@ impl GateOption {
         self.get(&DeclaredOptions::default())
     }
 
-    /// A value, for messages.
+    /// An example of a value, for messages.
     pub fn example(&self) -> &'static str {
         let text = self.examples.first().copied().unwrap_or("");
         let value = text.split_once(&format!("{}: ", self.key)).map_or("", |(_, value)| value);

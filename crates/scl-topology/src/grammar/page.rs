@@ -8,13 +8,13 @@ use scl_text::{duration, size};
 /// A word of the grammar with its documentation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Entry {
-    /// As in the file.
+    /// The word as written in the file.
     pub word: &'static str,
-    /// What it is: `option`.
+    /// The kind of word, for example `option`.
     pub what: &'static str,
-    /// What it says, in one sentence.
+    /// What the word means, in one sentence.
     pub summary: &'static str,
-    /// Everything there is to know, as Markdown, without a heading.
+    /// The full documentation, as Markdown, without a heading.
     pub text: String,
 }
 
@@ -29,7 +29,7 @@ pub fn entries() -> Vec<Entry> {
     all
 }
 
-/// What there is to say about a word of the grammar, as Markdown; none if it is not one.
+/// Returns the documentation of a word of the grammar as Markdown, or `None` if the grammar does not have the word.
 ///
 /// ```
 /// use scl_topology::grammar::explain;

@@ -5,15 +5,15 @@ use super::shape::{Item, Shape};
 /// A section of the file, or a key of a component.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Key {
-    /// As in the file.
+    /// The key as written in the file.
     pub key: &'static str,
     /// What its value looks like.
     pub shape: Shape,
-    /// What holds without it, as text; empty if it is required.
+    /// The default, in words; empty if the key is required.
     pub default: &'static str,
-    /// What it says, in one sentence.
+    /// What the key means, in one sentence.
     pub summary: &'static str,
-    /// The rest of what there is to know, as Markdown; may be empty.
+    /// The rest of its documentation, as Markdown; may be empty.
     pub text: &'static str,
     /// Lines of a topology file that show it.
     pub example: &'static str,
@@ -29,7 +29,7 @@ impl Key {
 /// The only version of the format so far.
 pub const FORMAT: u32 = 1;
 
-/// What the keys start with that belong to the users; they are ignored.
+/// Prefix of the keys that belong to users and are ignored.
 pub const OWN_PREFIX: &str = "x-";
 
 /// The sections, in the order in which messages list them.
@@ -47,7 +47,7 @@ pub static SECTIONS: [Key; 7] = [
         shape: Shape::List(Item::Connection),
         default: "none",
         summary: "Which gates are connected: pairs `[component.gate, component.gate]`.",
-        text: "The order of the two ends is free: their kinds say which one sends.",
+        text: "The two ends may be in either order: their kinds say which one sends.",
         example: "components:
   - name: sensor
     gates:
@@ -62,10 +62,10 @@ connections:
     Key {
         key: "system",
         shape: Shape::Name,
-        default: "the file's name without its ending",
+        default: "the file's name without its extension",
         summary: "The name of the system.",
-        text: "It names the folder in which the system's sockets live. Two systems of one name on one machine meet \
-               there; `$SCL_SYSTEM` overrides it when a program starts.",
+        text: "It names the folder in which the system's sockets live. Two systems with the same name on one machine \
+               share that folder; `$SCL_SYSTEM` overrides the name when a program starts.",
         example: "system: rover\n",
     },
     Key {
@@ -73,23 +73,23 @@ connections:
         shape: Shape::List(Item::File),
         default: "none",
         summary: "Protobuf files beside this one, from which the macro generates Rust types.",
-        text: "A gate names their messages with their package: `rover.Measurement`.",
+        text: "A gate names one of their messages with its package: `rover.Measurement`.",
         example: "schemas: [rover.proto]\n",
     },
     Key {
         key: "schema_roots",
         shape: Shape::List(Item::Folder),
         default: "this folder, and those of the `schemas`",
-        summary: "The folders in which the `import` statements of the `schemas` begin, as protoc's `-I`.",
-        text: "Paths from this file's folder, `.` for itself. Each of the `schemas` must be in one of them. See \
-               [imports](messages.md#imports).",
+        summary: "The folders in which `import` statements of the `schemas` are looked up, like protoc's `-I`.",
+        text: "Paths are relative to this file's folder, which is `.`. Each of the `schemas` must be in one of the \
+               folders. See [imports](messages.md#imports).",
         example: "schemas: [proto/nav/fix.proto]\nschema_roots: [proto]\n",
     },
     Key {
         key: "codec",
         shape: Shape::Codec,
         default: "`protobuf`",
-        summary: "The codec of typed gates that name none.",
+        summary: "The codec of gates that have a type but name no codec.",
         text: "A gate without a type carries bytes as they are. See [codecs](#codecs).",
         example: "codec: json\n",
     },
@@ -150,7 +150,7 @@ pub fn section(key: &str) -> Option<&'static Key> {
     SECTIONS.iter().find(|section| section.key == key)
 }
 
-/// The keys alone.
+/// The keys without their documentation.
 pub const fn words<const N: usize>(keys: &[Key; N]) -> [&'static str; N] {
     let mut words = [""; N];
     let mut at = 0;

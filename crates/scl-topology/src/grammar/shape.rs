@@ -5,7 +5,8 @@ use scl_text::list::{either, listed};
 use scl_text::size::{self, SizeError};
 use std::time::Duration;
 
-/// What a value looks like, and its range. The parser refuses another look, the checks another range.
+/// The form of a value, and its range. The parser rejects values of another form, the checks reject values out of
+/// range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
     /// A paragraph.
@@ -21,7 +22,7 @@ pub enum Shape {
         /// The largest.
         most: u32,
     },
-    /// A number and a unit of [`duration`]: more than nothing.
+    /// A number and a unit of [`duration`]: at least 1us.
     Duration {
         /// The longest.
         most: Duration,
@@ -33,16 +34,16 @@ pub enum Shape {
     },
     /// `true` or `false`.
     Boolean,
-    /// One of some words.
+    /// One word of a fixed set.
     Word(&'static [Word]),
     /// A list.
     List(Item),
 }
 
-/// A word that an option knows.
+/// A word that an option accepts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Word {
-    /// As in the file.
+    /// The word as written in the file.
     pub word: &'static str,
     /// What it does, in a few words.
     pub summary: &'static str,
@@ -65,17 +66,17 @@ pub enum Item {
     Gate,
 }
 
-/// A value that looks right and is out of its range.
+/// A value that has the right form, but is out of its range.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OutOfRange {
-    /// What it must be: `at least 1`.
+    /// What the value must be: `at least 1`.
     pub rule: String,
-    /// Why another value cannot work, if there is more to say than the range.
+    /// Why a value out of this range cannot work, if there is more to say than the range.
     pub reason: Option<&'static str>,
 }
 
 impl Shape {
-    /// What a value must be, as a sentence goes on after `must be`.
+    /// Describes the form of a value in words that follow `must be`: `a whole number`.
     pub fn rule(self) -> String {
         match self {
             Shape::Text | Shape::Name | Shape::Codec => "text".to_owned(),
@@ -90,7 +91,7 @@ impl Shape {
         }
     }
 
-    /// The shape and the range, for tables: `1 to 1000000`.
+    /// Describes the form and the range of a value, for tables: `1 to 1000000`.
     pub fn values(self) -> String {
         match self {
             Shape::Text => "text".to_owned(),
@@ -114,7 +115,8 @@ impl Shape {
         }
     }
 
-    /// Whether a scalar looks right; `is_plain` if it stands without quotes. The range is another matter.
+    /// Returns true if a scalar has the right form; does not check the range. `is_plain` is true for a scalar without
+    /// quotes.
     pub fn fits(self, text: &str, is_plain: bool) -> bool {
         match self {
             Shape::Number { .. } => is_plain && is_whole_number(text),
@@ -128,13 +130,13 @@ impl Shape {
     }
 }
 
-/// Digits, perhaps with a sign; the sign is a matter of range.
+/// Returns true for digits with an optional sign. The sign is checked with the range.
 pub(crate) fn is_whole_number(text: &str) -> bool {
     let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
     !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
 }
 
-/// A whole number in its range.
+/// Reads a whole number and checks its range.
 pub(super) fn number(text: &str, least: u32, most: u32) -> Result<u32, OutOfRange> {
     let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
     let is_negative = text.starts_with('-') && digits.bytes().any(|digit| digit != b'0');
@@ -147,10 +149,10 @@ pub(super) fn number(text: &str, least: u32, most: u32) -> Result<u32, OutOfRang
     }
 }
 
-/// A shorter duration cannot be measured.
+/// The shortest duration; shorter ones cannot be measured.
 const SHORTEST: Duration = Duration::from_micros(1);
 
-/// A duration in its range.
+/// Reads a duration and checks its range.
 pub(super) fn duration(text: &str, most: Duration) -> Result<Duration, OutOfRange> {
     match duration::parse(text) {
         Ok(duration) if (SHORTEST..=most).contains(&duration) => Ok(duration),
@@ -160,7 +162,7 @@ pub(super) fn duration(text: &str, most: Duration) -> Result<Duration, OutOfRang
     }
 }
 
-/// A number of bytes in its range.
+/// Reads a number of bytes and checks its range.
 pub(super) fn size(text: &str, most: u64) -> Result<u64, OutOfRange> {
     match size::parse(text) {
         Ok(0) | Err(SizeError::Negative | SizeError::Malformed) => Err(OutOfRange {

@@ -151,8 +151,8 @@ impl Reader<'_> {
         self.model.components.push(component);
     }
 
-    /// The gates, and those of a repeated list. Two lists with gates in them belong to two components, of which the
-    /// second has lost its name.
+    /// Reads the gates, also those of a repeated list. If two lists have gates in them, the second one belongs to a
+    /// component that has lost its name, so only the first is read.
     fn read_all_gates(&mut self, fields: &Fields<'_>, component: &mut ComponentModel) {
         let has_items =
             |gates: &Field<'_>| matches!(&gates.value.kind, NodeKind::Sequence { items } if !items.is_empty());
@@ -179,7 +179,7 @@ impl Reader<'_> {
         self.report(problem);
     }
 
-    /// A paragraph for the documentation.
+    /// Reads a paragraph for the documentation.
     pub(super) fn text(&mut self, field: Field<'_>) -> Option<Spanned<String>> {
         match &field.value.kind {
             NodeKind::Unread => None,
@@ -195,13 +195,13 @@ impl Reader<'_> {
         }
     }
 
-    /// What explains why a list or mapping is missing, else `otherwise`.
+    /// Returns the problem that explains why a list or mapping is missing, or else `otherwise`.
     pub(super) fn glued_or(&self, node: &Node, otherwise: Diagnostic) -> Diagnostic {
         glued(node, self.source, &TOPOLOGY).unwrap_or(otherwise)
     }
 }
 
-/// Where a second component starts in the keys of one: at a second `name`, if other keys come again too.
+/// Returns where a second component starts among the keys of one: at a second `name`, if other keys are repeated too.
 fn second_component(entries: &[(Node, Node)]) -> Option<usize> {
     let keys: Vec<Option<String>> = entries.iter().map(|(key, _)| scalar(key).map(|key| key.value)).collect();
     let is_name = |key: &Option<String>| key.as_deref() == Some("name");

@@ -61,7 +61,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A list of one, in which two ends may stand without a comma between them.
+    /// Reads a list of one item, which may be two ends without a comma between them.
     fn read_one_end(&mut self, span: Span, item: &Node) {
         let look_alike =
             scalar(item).and_then(|text| pitfall::look_alike::in_word(item, &text.value, "a connection", self.source));
@@ -99,7 +99,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A pair in the wrong clothes, such as `a.b -> c.d` or `a.b: c.d`, is a connection for all later checks.
+    /// Reads a pair in another notation, such as `a.b -> c.d` or `a.b: c.d`, as a connection for all later checks.
     fn recover_pair(&mut self, item: &Node) {
         let words = words_of(item);
         match <[Spanned<String>; 2]>::try_from(words) {
@@ -114,7 +114,7 @@ impl Reader<'_> {
     }
 }
 
-/// Every word in a value, in file order. The depth of the tree is limited, so that of the recursion is.
+/// Every word in a value, in file order. The depth of the tree bounds the recursion.
 fn words_of(node: &Node) -> Vec<Spanned<String>> {
     match &node.kind {
         NodeKind::Unread => Vec::new(),

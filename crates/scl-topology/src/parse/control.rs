@@ -1,4 +1,4 @@
-//! Comments that speak to the checker, such as `# scl: allow(SCL0701) reason`.
+//! Comments for the checker, such as `# scl: allow(SCL0701) reason`.
 
 use super::Reader;
 use crate::model::ControlModel;
@@ -11,7 +11,7 @@ const MARK: &str = "scl:";
 const MOST_BETWEEN: usize = 32;
 
 impl Reader<'_> {
-    /// Finds them in the text itself; what lies in quotes or in a text block is no comment.
+    /// Finds the comments in the text itself, but not in quotes or text blocks.
     pub(super) fn read_controls(&mut self, root: Option<&Node>) {
         let text = self.source.text();
         let mut candidates = text.match_indices(MARK).filter_map(|(at, _)| comment_before(text, at)).peekable();

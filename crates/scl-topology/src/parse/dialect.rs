@@ -1,4 +1,4 @@
-//! What the rules about YAML itself need to know of the kind of file that they read.
+//! What the rules about YAML itself need to know about the kind of file that they check.
 
 use super::document::Document;
 use crate::source::SourceFile;
@@ -8,7 +8,7 @@ use crate::source::SourceFile;
 pub struct Dialect {
     /// What messages call such a file: `topology`.
     pub noun: &'static str,
-    /// A small one, for the message about an empty file.
+    /// A minimal file, for the message about an empty one.
     pub minimal: &'static str,
     /// How many levels of lists and mappings it needs.
     pub levels: usize,
@@ -18,7 +18,7 @@ pub struct Dialect {
     pub instead_of_merge: &'static str,
     /// Whether a word is a key that may stand alone in its line, before its value.
     pub is_key: fn(&str) -> bool,
-    /// The word of the format that this is, as key or value.
+    /// Looks a word up among the keys and values that the format knows.
     pub word: fn(&str) -> Option<&'static str>,
     /// The number of mistakes in a text without syntax errors: of several ways to correct one, the best leaves the
     /// fewest.

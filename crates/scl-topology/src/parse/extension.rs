@@ -1,5 +1,5 @@
-//! Sections of the user's own, such as `x-notes`: their content is theirs, but a key that is written twice is not read
-//! alike by all YAML tools, there as elsewhere.
+//! Sections of the user's own, such as `x-notes`: their content is not checked, except for keys that are written twice,
+//! as YAML tools disagree about these.
 
 use super::field::Field;
 use super::{Reader, pitfall};

@@ -24,7 +24,7 @@ pub struct Fields<'n> {
     pub list: Vec<Field<'n>>,
     /// The second and later fields of the same key; a problem says so.
     pub repeated: Vec<Field<'n>>,
-    /// A key could not be read, and a problem says so: whatever seems to be missing may be behind it.
+    /// A key could not be read, and a problem says so. A key that seems to be missing may be this one.
     pub damaged: bool,
 }
 
@@ -40,7 +40,7 @@ impl<'n> Fields<'n> {
     }
 }
 
-/// A word of the file, with its place.
+/// The key with its place.
 pub(super) fn spanned_key(field: Field<'_>) -> Spanned<String> {
     Spanned { value: field.key.to_owned(), span: field.key_span }
 }

@@ -1,4 +1,4 @@
-//! Reads a mapping as the keys that we can read, each once.
+//! Reads the keys of a mapping, each once.
 
 use super::dialect::Dialect;
 use super::field::{Field, Fields};
@@ -18,8 +18,8 @@ impl Reader<'_> {
     }
 }
 
-/// Reads the keys of a mapping, and reports those that stand there twice, are no words, or are damaged; `owner` says
-/// whose they are in messages, for example `this component`.
+/// Reads the keys of a mapping, and reports those that are repeated, are no words, or are damaged; `owner` says in
+/// messages whose they are, for example `this component`.
 pub fn fields<'n>(
     entries: &'n [(Node, Node)],
     owner: &str,
@@ -61,7 +61,8 @@ pub fn fields<'n>(
     fields
 }
 
-/// Several repeated keys are one mistake, mostly a piece that was copied, or two that have run into one.
+/// Joins the reports of repeated keys: they are one mistake, mostly a part that was copied, or two parts that were
+/// merged.
 fn joined(mut repeated: Vec<Diagnostic>) -> Option<Diagnostic> {
     repeated.sort_by_key(|problem| problem.primary.as_ref().map(|label| label.span));
     let mut repeated = repeated.into_iter();

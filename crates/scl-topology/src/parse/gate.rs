@@ -225,7 +225,7 @@ impl Reader<'_> {
         fields.list.iter().find(second).filter(|_| asks && has_one).copied()
     }
 
-    /// The key that says the kind: one of the six words, else the first that is no option.
+    /// The key that names the kind: one of the six words, or else the first that is no option.
     fn gate_kind<'n>(&mut self, gate: Field<'_>, fields: &Fields<'n>) -> Option<Field<'n>> {
         let kinds: Vec<_> = fields.list.iter().copied().filter(|field| is_kind(field.key)).collect();
         if let [first, second, ..] = kinds.as_slice() {

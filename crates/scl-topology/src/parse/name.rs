@@ -43,7 +43,8 @@ impl Reader<'_> {
         scalar(node).map(|word| self.in_ascii(node, word, what))
     }
 
-    /// The word with the characters that were meant, where some only look like them.
+    /// Reports characters of a word that only look like ASCII characters, and returns the word with the ones that were
+    /// meant.
     pub(super) fn in_ascii(&mut self, node: &Node, word: Spanned<String>, what: &str) -> Spanned<String> {
         // Files may have any name.
         if word.value.is_ascii() || matches!(what, "schema file" | "folder of schemas") {

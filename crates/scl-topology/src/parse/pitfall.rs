@@ -1,4 +1,4 @@
-//! `SCL01xx`: where YAML is not YAML, or means something else than it seems to.
+//! `SCL01xx`: text that is not valid YAML, or means something else than it seems to.
 
 pub(super) mod bracket;
 mod conflict_marker;
@@ -64,17 +64,18 @@ pub(crate) const RULES: [&Rule; 29] = [
 pub(crate) const MISREAD: [&Rule; 4] =
     [&misread_name::BOOLEAN, &misread_name::NUMBER, &invisible::RULE, &misread_name::TEXT_BLOCK];
 
-/// The text as the parser shall see it.
+/// The text that the parser reads.
 pub(super) struct CheckedText {
     /// Of the same length as the file, with spaces where a reported character stood.
     pub(super) text: String,
-    /// Tabs or invisible characters became spaces, so that what the parser says of the structure means nothing.
+    /// Tabs, invisible characters or one of two conflicting versions were replaced by spaces, so a syntax error that
+    /// the parser reports means nothing.
     pub(super) is_mended: bool,
-    /// Two versions of the file stand in it, of which the text has the first.
+    /// The file holds two versions, left by a merge; `text` has the first one.
     pub(super) has_conflict: bool,
 }
 
-/// The rules that need no parser.
+/// Checks the rules that need no parser.
 pub(super) fn check_text(source: &SourceFile, dialect: &Dialect, problems: &mut Diagnostics) -> CheckedText {
     let mut text = source.text().to_owned();
     let conflict = conflict_marker::check(source, &mut text);
@@ -88,7 +89,7 @@ pub(super) fn check_text(source: &SourceFile, dialect: &Dialect, problems: &mut 
     CheckedText { text, is_mended: is_cleaned || has_tabs || has_conflict, has_conflict }
 }
 
-/// The rules about what the parser found, but not about what it means.
+/// Checks the rules about what the parser found, but not about what it means.
 pub(super) fn check_tree(tree: &Tree, source: &SourceFile, dialect: &Dialect, problems: &mut Diagnostics) {
     match dialect.has_aliases {
         true => unsupported::check_aliases(tree, problems),

@@ -1,8 +1,8 @@
-//! What single change would make a text readable: the way from "the parser stops here" to what was meant.
+//! Finds the single change that would make a text readable: the way from "the parser stops here" to what was meant.
 //!
 //! A parser stops where it can no longer go on, often lines after the mistake. So every small change near that place is
-//! tried (a comma, a bracket, a column, a word less), and the change that leaves the least to complain about is taken
-//! for what is missing. Bounded in the text that is read again, and in the number of changes.
+//! tried (a comma, a bracket, a column, a word less), and the change that leaves the fewest problems is taken to be the
+//! correction. Both the text that is read again and the number of changes are bounded.
 
 mod candidates;
 mod line;
@@ -22,9 +22,9 @@ use window::Window;
 #[derive(Debug, Clone)]
 struct Edit {
     kind: Kind,
-    /// What is replaced by what; in file order, without overlap.
+    /// The replacements, in file order, without overlap.
     changes: Vec<(Range<usize>, String)>,
-    /// How far-fetched it is; among changes that mend as much, the smallest is taken.
+    /// How far-fetched the change is; among changes that fix equally much, the one of the lowest cost is taken.
     cost: usize,
 }
 
@@ -74,7 +74,7 @@ enum Kind {
 }
 
 impl Edit {
-    /// Whether a tool may apply the change: it adds a mark or moves a line, and takes no word of anybody away.
+    /// Whether a tool may apply the change: it adds a mark or moves a line, and removes no word.
     fn is_meant(&self) -> bool {
         let is_removal =
             matches!(self.kind, Kind::Surplus(_) | Kind::ArrayType(_) | Kind::Quote(_) | Kind::Nameless(_));
@@ -82,26 +82,27 @@ impl Edit {
     }
 }
 
-/// A change of this cost is told, but left to people.
+/// Changes of this cost or more are reported, but no tool applies them by itself.
 const DOUBTFUL: usize = 4;
 
-/// Changes that leave more to complain about than this explain nothing.
+/// Changes that leave more problems than this explain nothing.
 const MOST_PROBLEMS: usize = 2;
 
-/// No text is read again more often.
+/// Maximum number of changes that are tried.
 const MOST_TRIES: usize = 100;
 
 /// What the best change explains.
 pub(super) struct Repair {
     pub(super) problem: Diagnostic,
-    /// Nothing is left to complain about, so this is what was meant.
+    /// The change leaves no problem, so it is what was meant.
     pub(super) is_sure: bool,
 }
 
-/// How many changes of the same size are compared with the best; a second way leaves the choice to people.
+/// Maximum number of changes of the same cost that are compared with the best. If another one also leaves no problem,
+/// no tool applies the change by itself.
 const MOST_RIVALS: usize = 16;
 
-/// The problem that the best change stands for, if any change makes the text readable.
+/// Returns the problem that the best change stands for, if any change makes the text readable.
 pub(super) fn find(error: &SyntaxError, text: &CheckedText, source: &SourceFile, dialect: &Dialect) -> Option<Repair> {
     let text = &text.text;
     let window = window::around(error, text, source)?;
@@ -112,7 +113,8 @@ pub(super) fn find(error: &SyntaxError, text: &CheckedText, source: &SourceFile,
     })
 }
 
-/// The same for a part of the text. Fixes are sure only if that is all of what belongs together.
+/// As [`find`], for a part of the text. Fixes can be sure only if the part `is_complete`: it holds all that belongs
+/// together.
 fn find_in(
     window: &Window,
     is_complete: bool,
@@ -156,7 +158,7 @@ fn find_in(
     Some(Repair { problem, is_sure: left == 0 })
 }
 
-/// How much there is to complain about in a text; none if it cannot be read.
+/// Number of problems in a text; `None` if it cannot be read.
 fn problems_left(text: &str, dialect: &Dialect) -> Option<usize> {
     let mut sources = Sources::new();
     let file = sources.add("", text);

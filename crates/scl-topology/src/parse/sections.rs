@@ -1,4 +1,4 @@
-//! The top level: which sections exist, and the small ones.
+//! Reads the top level: which sections exist, and the content of the small ones.
 
 use super::field::{Field, Fields};
 use super::words::SECTIONS;

@@ -1,4 +1,4 @@
-//! `SCL02xx`: good YAML that has not the shape of a topology.
+//! `SCL02xx`: valid YAML that does not have the shape of a topology.
 
 pub(super) mod ends;
 pub(super) mod gate;

@@ -9,7 +9,7 @@ use crate::diagnostic::Diagnostic;
 use crate::source::SourceFile;
 use crate::yaml::{SyntaxErrorKind, Tree};
 
-/// `None` where the parser did not stop, or a problem says so already.
+/// Explains why the parser stopped. Returns `None` if it did not, or if a problem that is already reported explains it.
 pub(super) fn explain(tree: &Tree, text: &CheckedText, source: &SourceFile, dialect: &Dialect) -> Option<Diagnostic> {
     let error = tree.error.as_ref()?;
     if error.kind == SyntaxErrorKind::Limit {

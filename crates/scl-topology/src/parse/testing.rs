@@ -1,4 +1,4 @@
-//! What the tests of the rules share.
+//! Helpers for the tests of the rules.
 
 use super::parse;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity, render};

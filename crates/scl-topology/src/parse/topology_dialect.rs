@@ -31,7 +31,7 @@ fn mistakes(document: &Document, source: &SourceFile) -> usize {
     found.iter().filter(counts).count() + implausible(&model)
 }
 
-/// Words that have a shape and yet no meaning.
+/// Number of gates, components and ends that have the right shape, but implausible words in it.
 fn implausible(model: &Model) -> usize {
     let is_name = |name: &str| {
         let is_letter = |letter: char| letter.is_alphanumeric() || matches!(letter, '_' | '-');

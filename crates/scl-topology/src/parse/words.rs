@@ -9,7 +9,7 @@ pub(super) const SECTIONS: [&str; grammar::SECTIONS.len()] = grammar::words(&gra
 /// The keys of a component, in the order in which messages list them.
 pub(super) const COMPONENT_KEYS: [&str; grammar::COMPONENT_KEYS.len()] = grammar::words(&grammar::COMPONENT_KEYS);
 
-/// One of the words that the format knows as keys.
+/// Returns the key, kind or option of this name, if the format knows one.
 pub(super) fn known_word(word: &str) -> Option<&'static str> {
     let keys = grammar::SECTIONS.iter().chain(&grammar::COMPONENT_KEYS).map(|key| key.key);
     let kinds = GateKind::ALL.into_iter().map(GateKind::word);

@@ -1,4 +1,4 @@
-//! Contracts: a short mark of what two ends must agree on.
+//! Contracts: short hashes of what two ends must agree on.
 
 use crate::fingerprint;
 use crate::topology::{ConnectionId, GateId, GateKind, Topology, TypeName};

@@ -34,7 +34,8 @@ pub(super) fn tap_endpoint(topology: &Topology, gate: GateId) -> Option<String> 
     topology.gate(gate).kind().listens().then(|| format!("{}{TAP}", topology.gate_path(gate)))
 }
 
-/// Names are ASCII once they are checked, so any byte is the end of a character.
+/// Shortens the names of a connection's gates to `room` bytes, with a fingerprint at their end. Checked names are
+/// ASCII, so they can be cut after any byte.
 pub(crate) fn shortened(pair: &str, room: usize) -> String {
     if pair.len() <= room {
         return pair.to_owned();

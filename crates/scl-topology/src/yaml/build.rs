@@ -1,4 +1,4 @@
-//! The parser's events, put together to a tree. Works on a stack of its own, never on the program's.
+//! Builds the tree from the parser's events, with an explicit stack instead of recursion.
 
 use super::{Anchor, MAX_DEPTH, MOST_REPEATED, Node, NodeKind, Style, SyntaxError, Tree};
 use crate::source::{FileId, Span};
@@ -27,7 +27,7 @@ pub(super) struct Builder<'t> {
     /// How many collections are open below the deepest that is kept.
     skipped: usize,
     documents: usize,
-    /// The place in `tree.anchors` of each of the parser's anchor numbers.
+    /// The index in `tree.anchors` of each of the parser's anchor numbers.
     anchors: HashMap<usize, usize>,
     has_aliases: bool,
     /// What each anchor stands for, with its number of values and its depth, if there are aliases.
@@ -110,7 +110,7 @@ impl<'t> Builder<'t> {
         self.attach_value(Node { span, kind: NodeKind::Scalar { text, style } }, anchor);
     }
 
-    /// The parser counts the empty lines after a text block to it.
+    /// Cuts off the empty lines after a text block, which the parser counts as part of it.
     fn without_blank_end(&self, span: Span) -> Span {
         let content = self.text.get(span.start as usize..span.end as usize).unwrap_or("");
         Span { end: span.start + content.trim_end().len() as u32, ..span }
@@ -152,7 +152,7 @@ impl<'t> Builder<'t> {
         self.attach_value(Node { span, kind }, anchor);
     }
 
-    /// Attaches what is written in the text, and keeps it for the aliases of its anchor.
+    /// Attaches a value that is written in the text, and keeps it for the aliases of its anchor.
     fn attach_value(&mut self, node: Node, anchor: usize) {
         if anchor != 0 && self.has_aliases && self.skipped == 0 {
             let (values, depth) = size(&node);
@@ -209,8 +209,8 @@ impl<'t> Builder<'t> {
     }
 }
 
-/// The number of values in a node, itself included, and how many collections are in each other. The depth of the tree
-/// bounds the recursion.
+/// The number of values in a node, itself included, and how many levels deep its collections are nested. The depth of
+/// the tree bounds the recursion.
 fn size(node: &Node) -> (usize, usize) {
     let below: Vec<(usize, usize)> = match &node.kind {
         NodeKind::Scalar { .. } | NodeKind::Unread => return (1, 0),

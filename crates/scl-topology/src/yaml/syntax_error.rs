@@ -2,18 +2,18 @@
 
 use granit_parser::{ErrorKind, ScanError};
 
-/// Where and why a text is not valid YAML any more.
+/// Where and why a text stops being valid YAML.
 #[derive(Debug, Clone)]
 pub(crate) struct SyntaxError {
     /// The byte at which the parser noticed it, often after the place of the mistake.
     pub(crate) at: usize,
     /// The group.
     pub(crate) kind: SyntaxErrorKind,
-    /// The parser's own words.
+    /// The parser's message.
     pub(crate) words: String,
 }
 
-/// Which rule has a say.
+/// The groups of syntax errors, by the rules that may explain them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SyntaxErrorKind {
     /// A quoted text does not end, or goes on after its end.

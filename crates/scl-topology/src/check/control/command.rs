@@ -1,4 +1,5 @@
-//! Reads one comment for the checker. SCL0901: nobody knows what it says. SCL0903: it wants to allow what cannot be.
+//! Reads one comment for the checker. SCL0901: an unknown command or code. SCL0903: it allows an error that cannot be
+//! allowed.
 
 use crate::check::{ALL, deadlock, find, unconnected};
 use crate::diagnostic::{Diagnostic, Rule, Severity};
@@ -25,22 +26,22 @@ pub(crate) const FIXED: Rule = Rule {
     code: "SCL0903",
     severity: Severity::Error,
     title: "check that cannot be allowed",
-    explanation: "The check is an error that no reason can make right: a system with it could never work. Only SCL0703 \
-                  and SCL0707 are errors that somebody may know better about. Mend the cause instead.",
+    explanation: "No reason can justify this error: a system with it could never work. Only the errors SCL0703 and \
+                  SCL0707 can be allowed, where you may know more than the checker. Fix the cause instead.",
     example: "-# scl: allow(SCL0601)
  components: []
 ",
 };
 
-/// Errors that somebody may know better than the checker.
+/// The errors that a comment may allow, because its author may know better than the checker.
 const ALLOWED_ERRORS: [&Rule; 2] = [&unconnected::NO_REPLIER, &deadlock::RULE];
 
 /// The number of unknown codes for which similar ones are looked up.
 const MOST_SEARCHES: usize = 20;
 
-/// A comment as understood.
+/// A parsed comment.
 pub(super) enum Command<'m> {
-    /// `allow(CODE, CODE) reason`, without those that cannot be allowed.
+    /// `allow(CODE, CODE) reason`, without the codes that cannot be allowed.
     Allow { rules: Vec<&'static Rule>, reason: &'m str },
     /// `warn(CODE)`, or with a threshold `warn(CODE, 64)`.
     Warn { rule: &'static Rule, threshold: Option<u32> },
@@ -49,7 +50,7 @@ pub(super) enum Command<'m> {
 /// A word and its place in the text of the comment.
 type Word<'m> = (&'m str, usize);
 
-/// What a comment says, as far as it can be understood; `own` gets the rest.
+/// Parses a comment. Its mistakes are added to `own`; unknown codes and codes that cannot be allowed are left out.
 pub(super) fn read<'m>(control: &'m ControlModel, own: &mut Vec<Diagnostic>) -> Option<Command<'m>> {
     let Some((command, words, reason)) = split(&control.text.value) else {
         own.push(unreadable(control));
@@ -79,7 +80,7 @@ pub(super) fn command_span(control: &ControlModel) -> Span {
     Span { end: control.text.span.start + length as u32, ..control.text.span }
 }
 
-/// Command, words in the brackets, and what follows.
+/// Splits a comment into its command, the words in the brackets, and the text after them.
 fn split(text: &str) -> Option<(&str, Vec<Word<'_>>, &str)> {
     let (command, rest) = text.strip_prefix("scl:")?.split_once('(')?;
     let (inside, reason) = rest.split_once(')')?;

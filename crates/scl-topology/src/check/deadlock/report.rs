@@ -22,12 +22,12 @@ pub(super) fn report(rule: &'static Rule, draft: &Draft<'_>, deadlock: &Deadlock
             found.note("a `push` gate that shares its work waits only while the queues of all its pullers are full");
     }
     if deadlock.has_others {
-        found = found.note("more circles run through these components, and are shown when these are broken");
+        found = found.note("more circles run through these components; they are shown once these are broken");
     }
     found
 }
 
-/// `` `a` -> `b` -> `a` `` of a circle, `` `a`, `b`, `c` `` of a knot.
+/// `` `a` -> `b` -> `a` `` for a circle, `` `a`, `b`, `c` `` for a knot.
 fn names(draft: &Draft<'_>, deadlock: &Deadlock) -> String {
     if deadlock.is_circle {
         return circles::round(draft, &deadlock.steps);
@@ -36,7 +36,7 @@ fn names(draft: &Draft<'_>, deadlock: &Deadlock) -> String {
     listed(members.iter().map(|&component| name(draft, component)))
 }
 
-/// What one connection does to its sender.
+/// Says how one connection makes its sender wait.
 pub(super) fn waiting(draft: &Draft<'_>, step: &Step) -> String {
     let from = name(draft, step.from);
     match draft.links[step.link].flow {
@@ -76,7 +76,8 @@ fn ways_out(draft: &Draft<'_>, mut found: Diagnostic, steps: &[Step], receivers:
     ))
 }
 
-/// Says which option to change where, so that a queue drops messages. `receivers` make the gate `source` wait.
+/// Adds a help that says which option to change so that the queue of `sink` drops messages. `receivers` is the number
+/// of receivers that make the gate `source` wait.
 pub(in crate::check) fn drop_messages(
     draft: &Draft<'_>,
     found: Diagnostic,

@@ -1,7 +1,8 @@
 //! Finds the deadlocks in a set of waits, in linear time.
 //!
-//! A set of components is deadlocked if each of them has a wait all of whose components are in the set: then nobody in
-//! it can end anybody's wait. Waits for one component make circles; a wait that shares work needs a closed knot.
+//! A set of components is deadlocked if each of them has a wait for members of the set only: then no member can end the
+//! wait of another. Waits for a single component form circles; a deadlock with a wait that shares work is a closed
+//! knot.
 
 use crate::check::circles::{Graph, Step};
 use crate::check::waits::Wait;
@@ -11,15 +12,15 @@ use std::collections::BTreeMap;
 /// Components that wait for each other.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Deadlock {
-    /// The steps of a circle in turn; of a knot, those of one wait of each of its components, in file order.
+    /// The steps of a circle in turn; for a knot, the steps of one wait of each of its components, in file order.
     pub(super) steps: Vec<Step>,
     pub(super) is_circle: bool,
     /// Whether the same components have more deadlocks than are reported.
     pub(super) has_others: bool,
 }
 
-/// Circles of waits for one component that contain a wanted step, up to a number for each knot; then the knots that
-/// need a shared wait.
+/// Returns circles of waits for a single component that contain a wanted step, up to a limit for each knot, followed by
+/// the knots that need a shared wait.
 pub(super) fn find(components: usize, waits: &[Wait], is_wanted: impl Fn(&Step) -> bool) -> Vec<Deadlock> {
     let single = waits.iter().filter(|wait| wait.steps.len() == 1).map(|wait| wait.steps[0]);
     let graph = Graph::new(components, single);
@@ -35,8 +36,8 @@ pub(super) fn find(components: usize, waits: &[Wait], is_wanted: impl Fn(&Step) 
     found
 }
 
-/// The knot of each component, over all steps of waits that can last without limit; a component that cannot be stuck is
-/// a knot of its own.
+/// Returns the knot of each component, over the steps of all waits that can last without limit. A component that cannot
+/// be stuck is a knot by itself.
 pub(super) fn knots(components: usize, waits: &[Wait]) -> Vec<usize> {
     let waits: Vec<&Wait> = waits.iter().collect();
     let stuck = stuck(components, &waits);
@@ -44,7 +45,7 @@ pub(super) fn knots(components: usize, waits: &[Wait]) -> Vec<usize> {
     Graph::new(components, lasting.flat_map(|wait| wait.steps.iter().copied())).knots()
 }
 
-/// One wait of each stuck component is enough; a knot of these that no step leaves is a deadlock.
+/// Returns the knots that no step leaves, which are deadlocks. One wait of each stuck component is enough to find them.
 fn closed_knots(components: usize, waits: &[&Wait]) -> Vec<Deadlock> {
     let stuck = stuck(components, waits);
     let mut chosen: Vec<Option<&Wait>> = vec![None; components];
@@ -71,8 +72,8 @@ fn is_lasting(wait: &Wait, stuck: &[bool]) -> bool {
     wait.steps.iter().all(|step| stuck[step.to])
 }
 
-/// The components that can be stuck, after Kahn (1962): one without a wait that can last is never stuck, and ends the
-/// waits for it.
+/// Returns which components can be stuck, after Kahn (1962): a component without a wait that can last is never stuck,
+/// and ends the waits for it.
 fn stuck(components: usize, waits: &[&Wait]) -> Vec<bool> {
     let mut lasting = vec![0_usize; components];
     let mut ended_by: Vec<Vec<usize>> = vec![Vec::new(); components];

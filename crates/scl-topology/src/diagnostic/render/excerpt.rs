@@ -12,10 +12,10 @@ const MOST_BETWEEN: u32 = 1;
 /// Longer lines, in bytes, are cut around their labels.
 const LONG_LINE: usize = 400;
 
-/// What is shown of a long line on each side of a label, in bytes.
+/// How many bytes of a long line are shown on each side of a label.
 const AROUND: usize = 60;
 
-/// What is marked of a long label, in bytes.
+/// How many bytes of a long label are shown, besides [`AROUND`].
 const LONGEST_MARK: usize = 120;
 
 /// What a diagnostic shows of one file.
@@ -42,7 +42,7 @@ pub(super) struct Mark {
 }
 
 impl<'s> Excerpt<'s> {
-    /// The excerpt of `source` for those of the labels that lie in it; at least one does.
+    /// Creates the excerpt of `source` for those labels that lie in it; there must be at least one.
     pub(super) fn new(source: &'s SourceFile, file: FileId, labels: &[(&Label, bool)]) -> Self {
         let mut marks: Vec<(u32, Mark)> = labels
             .iter()
@@ -80,7 +80,7 @@ impl Chunk {
         self.first_line + self.text.matches('\n').count() as u32
     }
 
-    /// Adds a line with its marks, after those that stand before it.
+    /// Appends a line with its marks, after the unmarked lines before it.
     fn extend(&mut self, line: u32, marks: Vec<Mark>, source: &SourceFile) {
         for between in self.last_line() + 1..line {
             self.text.push('\n');
@@ -95,7 +95,7 @@ impl Chunk {
     }
 }
 
-/// A line without what stands far from its marks, and the marks in it.
+/// Cuts a long line to the parts around its marks. Returns the text, and the marks in it.
 fn cut(source: &SourceFile, line: u32, mut marks: Vec<Mark>) -> (String, Vec<Mark>) {
     let place = source.range_of_line(line);
     let text = &source.text()[place.clone()];

@@ -11,8 +11,8 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0102",
     severity: Severity::Error,
     title: "bracket never closed",
-    explanation: "A bracket or brace has no partner, or one of the other kind. The place shown is the bracket itself, \
-                  not the far end of the file where a parser notices it. Add or correct the missing one.",
+    explanation: "A bracket or brace has no partner, or a partner of the wrong kind. The message points to the bracket \
+                  itself, not to the later place where a parser notices it. Add or correct its partner.",
     example: "-connections:
 -  - [sensor.measurements, controller.sensor
 -  - [controller.actuator, actuator.setpoint]

@@ -23,8 +23,8 @@ pub(crate) const RULE: Rule = Rule {
 
 const MARKERS: [&str; 4] = ["<<<<<<<", "|||||||", "=======", ">>>>>>>"];
 
-/// The problem at the first marker, and spaces in the place of the markers and of all but the first version. The
-/// version that is left may not be the one meant, so nothing else is to be said about it.
+/// Reports the first marker, and replaces the markers and all versions but the first by spaces. The version that is
+/// left may not be the one meant, so neither syntax errors nor problems with its shape are reported.
 pub(super) fn check(source: &SourceFile, text: &mut String) -> Option<Diagnostic> {
     let markers = markers(text);
     // A line of `=` alone proves nothing: it may underline a heading in a text.

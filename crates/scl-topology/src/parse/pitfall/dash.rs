@@ -9,8 +9,8 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0124",
     severity: Severity::Error,
     title: "list item without a proper dash",
-    explanation: "Each item of a list starts with one dash and a space. Here the dash or the space is missing, or there \
-                  is a dash too many. Write `- ` before the item.",
+    explanation: "Each item of a list starts with one dash and a space. Here the dash or the space is missing, or \
+                  there is a dash too many. Write `- ` before the item.",
     example: " components:
    - name: sensor
      gates:
@@ -21,7 +21,7 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-/// A help repeats no more of a line than this.
+/// Maximum length of a line that a help repeats, in characters.
 const MOST_SHOWN: usize = 60;
 
 /// An item, from its first character to the end of its line, without a dash.

@@ -10,8 +10,8 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0116",
     severity: Severity::Error,
     title: "nested too deeply",
-    explanation: "Brackets or indentation go deeper than any topology needs, which is 6 levels. The limit of 16 keeps \
-                  the programs that read the file, the compiler above all, from running out of stack.",
+    explanation: "A topology needs 6 levels of nesting; this file has more than 16. The limit keeps the programs that \
+                  read the file, above all the compiler, from overflowing their stack. Remove the extra levels.",
     example: "-components: [[[[[[[[[[[[[[[[[x]]]]]]]]]]]]]]]]]
 +components: []
 ",

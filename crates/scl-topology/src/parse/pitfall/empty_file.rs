@@ -10,7 +10,7 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0115",
     severity: Severity::Error,
     title: "empty file",
-    explanation: "The file holds nothing, or only comments. Write at least the section `components`.",
+    explanation: "The file is empty or contains only comments. Write at least the section `components`.",
     example: "-# TODO
 +components:
 +  - name: sensor

@@ -11,9 +11,9 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0105",
     severity: Severity::Error,
     title: "inconsistent indentation",
-    explanation: "YAML reads structure from indentation: the keys of one component stand in one column, the items of \
-                  one list too. This line stands in a column that no line above it uses. Move it to the column that \
-                  the message names.",
+    explanation: "YAML reads structure from indentation: all keys of a component start in the same column, and so do \
+                  all items of a list. This line starts in a column that no line above it uses. Move it to the column \
+                  that the message names.",
     example: " components:
    - name: sensor
 -   gates:
@@ -33,7 +33,7 @@ struct Level {
     word: Range<usize>,
 }
 
-/// Looks at the line of a syntax error.
+/// Checks the indentation of the line of a syntax error.
 pub(in crate::parse) fn find(error: &SyntaxError, text: &str, source: &SourceFile) -> Option<Diagnostic> {
     let line = source.line_range(error.at.min(text.len()));
     let words = levels_of(&text[line.clone()], line.start);
@@ -65,7 +65,7 @@ pub(in crate::parse) fn find(error: &SyntaxError, text: &str, source: &SourceFil
     Some(diagnose(first, meant, is_misplaced_key, &above, text, source))
 }
 
-/// A line, by its first word, that belongs into another column.
+/// A line, by its first word, that belongs in another column.
 pub(in crate::parse) fn in_wrong_column(
     word: &Range<usize>,
     column: usize,
@@ -205,7 +205,7 @@ fn diagnose(
         .help(way_out(line, meant.indent, text))
 }
 
-/// Whose keys stand at a level, in words.
+/// Says whose keys stand at a level.
 fn owner(level: &Level, above: &[Level], text: &str) -> &'static str {
     let outer: Vec<&Level> = above.iter().filter(|other| other.indent < level.indent).collect();
     match outer.as_slice() {

@@ -1,4 +1,4 @@
-//! SCL0117: a character that nobody sees, or that only looks like a space.
+//! SCL0117: a character that is invisible, or that only looks like a space.
 
 use super::scan::{Scan, blank};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
@@ -10,9 +10,9 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0117",
     severity: Severity::Error,
     title: "invisible or control character",
-    explanation: "The file holds a character that nobody sees, or that looks like a space and is none. Such characters \
-                  come from web pages and word processors, and make two names differ that look the same. Remove it, or \
-                  replace it by an ordinary space.",
+    explanation: "The file contains a character that is invisible, or that looks like a space but is not one. Such \
+                  characters come from web pages and word processors; they make names differ that look the same. \
+                  Remove the character, or replace it with an ordinary space.",
     example: " components:
 -  - name:\u{a0}sensor
 +  - name: sensor
@@ -20,8 +20,8 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-/// Reports each such character once, at its first place; puts spaces in the place of all of them. Says
-/// whether there are any.
+/// Reports each such character once, at its first place, and replaces all of them by spaces. Returns true if there are
+/// any.
 pub(super) fn check(source: &SourceFile, scan: &Scan, text: &mut String, problems: &mut Diagnostics) -> bool {
     let mut places: BTreeMap<char, Vec<usize>> = BTreeMap::new();
     for (at, character) in text.char_indices() {
@@ -39,7 +39,8 @@ pub(super) fn check(source: &SourceFile, scan: &Scan, text: &mut String, problem
     true
 }
 
-/// Comments and quoted texts may hold spaces and joiners of all kinds, but nothing that hides or reorders text.
+/// Whether a character is reported. Comments and quoted texts may hold spaces and joiners of all kinds, but nothing
+/// that hides or reorders text.
 fn is_bad(character: char, text: &str, at: usize, scan: &Scan) -> bool {
     match character {
         '\t' | '\n' => false,
@@ -104,10 +105,10 @@ fn describe(character: char) -> (&'static str, &'static str, &'static str) {
         '\u{202f}' => ("narrow no-break space", SPACE, REPLACE),
         '\u{3000}' => ("ideographic space", SPACE, REPLACE),
         '\u{2000}'..='\u{200a}' | '\u{205f}' => ("typographic space", SPACE, REPLACE),
-        '\u{200b}' => ("zero width space", "nothing is to be seen here", REMOVE),
-        '\u{200c}' | '\u{200d}' | '\u{2060}' => ("joiner", "nothing is to be seen here", REMOVE),
-        '\u{ad}' => ("soft hyphen", "nothing is to be seen here", REMOVE),
-        '\u{feff}' => ("byte order mark inside the file", "nothing is to be seen here", REMOVE),
+        '\u{200b}' => ("zero width space", "not visible", REMOVE),
+        '\u{200c}' | '\u{200d}' | '\u{2060}' => ("joiner", "not visible", REMOVE),
+        '\u{ad}' => ("soft hyphen", "not visible", REMOVE),
+        '\u{feff}' => ("byte order mark inside the file", "not visible", REMOVE),
         '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => {
             ("bidirectional control", "it changes the order in which the text is shown", REMOVE)
         }

@@ -10,8 +10,8 @@ pub(crate) const DUPLICATE: Rule = Rule {
     code: "SCL0107",
     severity: Severity::Error,
     title: "duplicate key",
-    explanation: "A key is written twice in one place. YAML tools disagree which of the two counts, some of them \
-                  silently. Merge the two values, or remove one.",
+    explanation: "The same key is written twice in one mapping. YAML tools disagree on which one wins, and some say \
+                  nothing about it. Merge the two values, or remove one.",
     example: " components:
    - name: sensor
      gates:
@@ -21,7 +21,7 @@ pub(crate) const DUPLICATE: Rule = Rule {
 ",
 };
 
-/// `owner` says whose key it is, for example `this component`.
+/// A key that is written twice. `owner` says whose key it is, for example `this component`.
 pub(in crate::parse) fn duplicate(second: &Field<'_>, first: Span, owner: &str) -> Diagnostic {
     let message = format!("the key `{}` is written twice in {owner}", second.key);
     let help = match second.value.kind {
@@ -43,7 +43,7 @@ pub(crate) const NOT_A_WORD: Rule = Rule {
     code: "SCL0120",
     severity: Severity::Error,
     title: "key is not a plain word",
-    explanation: "YAML allows lists and mappings as keys, and null. In a topology each key is a plain word. Write one.",
+    explanation: "YAML allows lists, mappings and null as keys. In a topology, each key is a plain word. Write one.",
     example: " components:
 -  - ? [a, b]
 -    : pub

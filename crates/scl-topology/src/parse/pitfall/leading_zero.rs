@@ -19,7 +19,7 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-/// Looks at a whole number without quotes.
+/// Checks a whole number that is written without quotes.
 pub(in crate::parse) fn find(field: Field<'_>, text: &str) -> Option<Diagnostic> {
     let digits = text.trim_start_matches(['-', '+']);
     let decimal = digits.trim_start_matches('0');

@@ -1,5 +1,5 @@
-//! SCL0127: a character that looks like a mark of YAML and is another. SCL0304: a letter of another script that looks
-//! like an ASCII letter.
+//! SCL0127: a character that looks like a mark of YAML but is not. SCL0304: a letter of another script that looks like
+//! an ASCII letter.
 
 use crate::confusable;
 use crate::diagnostic::{Diagnostic, Rule, Severity};
@@ -11,9 +11,9 @@ use std::ops::Range;
 pub(crate) const RULE: Rule = Rule {
     code: "SCL0127",
     severity: Severity::Error,
-    title: "character that looks like a mark of YAML",
-    explanation: "Word processors and some keyboards write other colons, commas, quotes and dashes than YAML knows: \
-                  fullwidth marks, curly quotes, long dashes. YAML reads them as letters. Retype the character.",
+    title: "character that looks like YAML punctuation",
+    explanation: "Word processors and some keyboards insert colons, commas, quotes and dashes that YAML does not know: \
+                  fullwidth punctuation, curly quotes, long dashes. YAML reads them as letters. Retype the character.",
     example: " components:
 -  – name: sensor
 +  - name: sensor
@@ -26,8 +26,8 @@ pub(crate) const LETTER: Rule = Rule {
     code: "SCL0304",
     severity: Severity::Error,
     title: "look-alike character in a name",
-    explanation: "The name has a letter outside of ASCII, perhaps one that looks exactly like an ASCII letter: two \
-                  names on the screen would look alike and differ. Retype it.",
+    explanation: "The name contains a letter that is not ASCII, perhaps one that looks exactly like an ASCII letter: \
+                  two names could look the same and still differ. Retype it.",
     example: " components:
 -  - name: sеnsor
 +  - name: sensor
@@ -41,7 +41,7 @@ pub(in crate::parse) fn marks(text: &str) -> impl Iterator<Item = (usize, char, 
     letters.filter_map(|(at, letter)| Some((at, letter, confusable::mark(letter)?.1)))
 }
 
-/// The character at a place.
+/// The problem of a character that looks like a mark.
 pub(in crate::parse) fn diagnose(mark: &Range<usize>, source: &SourceFile) -> Diagnostic {
     let letter = source.text()[mark.clone()].chars().next().unwrap_or(' ');
     look_alike_mark(letter, source.span(mark.clone()))

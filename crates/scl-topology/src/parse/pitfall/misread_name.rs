@@ -10,9 +10,8 @@ pub(crate) const BOOLEAN: Rule = Rule {
     code: "SCL0108",
     severity: Severity::Error,
     title: "word that YAML 1.1 reads as a boolean",
-    explanation: "Older YAML tools read words such as `on` and `no` as true or false, so a gate of this name \
-                  would have another name in Python than in Rust. Put the word in quotes, or better choose a name that \
-                  says more.",
+    explanation: "Older YAML tools read words such as `on` and `no` as true or false, so this name would be different \
+                  in Python than in Rust. Put the word in quotes, or better, choose a name that says more.",
     example: " components:
    - name: heater
      gates:
@@ -21,11 +20,12 @@ pub(crate) const BOOLEAN: Rule = Rule {
 ",
 };
 
-/// YAML 1.1 lists `y` and `n` too, but no usual tool follows it there, and `x`, `y`, `z` are good names of gates.
+/// Words that YAML 1.1 reads as true. It lists `y` and `n` too, but the common tools do not follow it there, and `x`,
+/// `y`, `z` are good names of gates.
 const TRUE: [&str; 3] = ["yes", "on", "true"];
 const FALSE: [&str; 3] = ["no", "off", "false"];
 
-/// Looks at a name that stands without quotes.
+/// Checks a name that is written without quotes.
 pub(in crate::parse) fn find_boolean(word: &str, at: Span) -> Option<Diagnostic> {
     let lower = word.to_ascii_lowercase();
     let is_title = word.get(1..).is_some_and(|rest| rest == &lower[1..]);
@@ -63,8 +63,8 @@ pub(crate) const NUMBER: Rule = Rule {
     code: "SCL0109",
     severity: Severity::Error,
     title: "number used as a name",
-    explanation: "Where a name belongs stands a number or a date, as some YAML tools read it: `1.10` would become 1.1. \
-                  Start the name with a letter.",
+    explanation: "Some YAML tools read this name as a number or a date: `1.10` would become 1.1. Start the name with a \
+                  letter.",
     example: " components:
 -  - name: 1.10
 +  - name: v1_10
@@ -72,7 +72,7 @@ pub(crate) const NUMBER: Rule = Rule {
 ",
 };
 
-/// Looks at a name that stands without quotes.
+/// Checks a name that is written without quotes.
 pub(in crate::parse) fn find_number(word: &str, at: Span) -> Option<Diagnostic> {
     let reading = reading(word)?;
     let message = format!("a name is expected here, and `{word}` is a {}", reading.noun());
@@ -87,7 +87,7 @@ pub(in crate::parse) fn find_number(word: &str, at: Span) -> Option<Diagnostic> 
     )
 }
 
-/// What some YAML reader makes of a word.
+/// A value other than text that some YAML reader takes a word for.
 enum Reading {
     Number(Option<f64>),
     Sexagesimal,
@@ -167,8 +167,8 @@ pub(crate) const TEXT_BLOCK: Rule = Rule {
     code: "SCL0119",
     severity: Severity::Error,
     title: "text block used as a name",
-    explanation: "`|` and `>` start a text of several lines, whose value ends with a line break. A name stands on one \
-                  line. Write it behind its key.",
+    explanation: "`|` and `>` start a multi-line text, whose value ends with a line break. A name must be on one line. \
+                  Write it after its key.",
     example: " components:
 -  - name: |
 -      sensor

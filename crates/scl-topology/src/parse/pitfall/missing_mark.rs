@@ -9,8 +9,8 @@ pub(crate) const COMMA: Rule = Rule {
     code: "SCL0122",
     severity: Severity::Error,
     title: "missing comma",
-    explanation: "In brackets and braces a comma separates the entries. Without it, or with another mark in its place, \
-                  YAML reads two entries as one. Write the comma.",
+    explanation: "In brackets and braces, a comma separates the entries. Without it, or with another character in its \
+                  place, YAML reads two entries as one. Write the comma.",
     example: " components:
    - name: controller
      gates:
@@ -59,8 +59,8 @@ pub(crate) const COLON: Rule = Rule {
     code: "SCL0123",
     severity: Severity::Error,
     title: "missing `:` after a key",
-    explanation: "A key and its value are separated by a colon and a space. Here the colon is missing, or another mark \
-                  stands in its place. Write the colon.",
+    explanation: "A key and its value are separated by a colon and a space. Here the colon is missing, or another \
+                  character was written instead. Write the colon.",
     example: "-components
 +components:
    - name: sensor

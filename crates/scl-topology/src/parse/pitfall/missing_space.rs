@@ -11,7 +11,7 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0103",
     severity: Severity::Error,
     title: "missing space after `:`",
-    explanation: "Between a key and its value stand a colon and a space. Without the space YAML reads both as one \
+    explanation: "A key and its value are separated by a colon and a space. Without the space, YAML reads both as one \
                   word. Add the space.",
     example: " components:
 -  - name:sensor
@@ -20,7 +20,7 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-/// How many lines the parser may go on before it stumbles.
+/// Number of lines that are searched for the mistake, from the line of the error upwards.
 const LINES: usize = 3;
 
 /// A word such as `name:sensor` where a mapping is expected.

@@ -11,10 +11,10 @@ use crate::yaml::Node;
 pub(crate) const RULE: Rule = Rule {
     code: "SCL0110",
     severity: Severity::Error,
-    title: "nothing where a name or value is expected",
+    title: "missing name or value",
     explanation: "A key has no value where one is needed; YAML reads this as null. Write the value after the colon. \
-                  One place may stay empty: the kind of a gate, as in `events: {pub: , queue: 1}`, which is a gate \
-                  without a type that has options.",
+                  Only the type of a gate may be left empty: `events: {pub: , queue: 1}` is a gate with options but \
+                  without a type.",
     example: " components:
 -  - name:
 +  - name: sensor

@@ -12,8 +12,9 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0121",
     severity: Severity::Error,
     title: "text that is not YAML",
-    explanation: "The text is not valid YAML, and no single change near this place makes it so: there may be more than \
-                  one mistake. The place is where the parser gave up; the first mistake stands there or shortly before.",
+    explanation: "The text is not valid YAML, and no single change near this place makes it valid, so there may be \
+                  several mistakes. The message shows where the parser gave up; the first mistake is there or shortly \
+                  before.",
     example: " components:
    - name: sensor
 -sensor reads the bus

@@ -10,8 +10,8 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0104",
     severity: Severity::Error,
     title: "quote never closed",
-    explanation: "A text starts with a quote that nothing closes, so everything that follows belongs to it. Add the \
-                  closing quote, or remove the opening one: names need no quotes.",
+    explanation: "A quoted text is never closed, so YAML reads everything that follows as part of it. Add the closing \
+                  quote, or remove the opening one: names need no quotes.",
     example: " components:
 -  - name: \"sensor
 +  - name: \"sensor\"

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0106",
     severity: Severity::Error,
     title: "character that cannot start a value",
-    explanation: "Some characters have a meaning of their own at the start of a value, such as `@`, `%`, `&` and `*`. \
+    explanation: "Some characters have a special meaning at the start of a value, such as `@`, `%`, `&` and `*`. \
                   Remove the character, or put the value in quotes.",
     example: " components:
 -  - name: @sensor

@@ -1,4 +1,4 @@
-//! A light reading of the raw text, which goes on where the parser stops: quotes, comments and brackets.
+//! A light scan of the raw text for quotes, comments and brackets, which continues where the parser stops.
 
 use std::ops::Range;
 

@@ -9,8 +9,8 @@ pub(crate) const INDENT: Rule = Rule {
     code: "SCL0101",
     severity: Severity::Error,
     title: "tab used for indentation",
-    explanation: "A line is indented with a tab. YAML forbids that, because nobody knows how wide a tab is. Replace \
-                  tabs by spaces; editors have a command for it.",
+    explanation: "A line is indented with a tab. YAML forbids that, because the width of a tab is not defined. Replace \
+                  tabs with spaces; editors have a command for it.",
     example: " components:
 -\t- name: sensor
 +  - name: sensor
@@ -24,8 +24,8 @@ pub(crate) const SEPARATOR: Rule = Rule {
     severity: Severity::Error,
     title: "tab used as white space",
     explanation: "A tab separates two words, ends a line or fills an empty one. YAML allows that, but other readers, \
-                  such as PyYAML, refuse the file. A topology file is read by programs in several languages. Replace \
-                  the tab by a space; in quotes and comments tabs are allowed.",
+                  such as PyYAML, reject the file, and a topology file is read by programs in several languages. \
+                  Replace the tab with a space; tabs are allowed in quotes and comments.",
     example: " components:
 -  - name:\tsensor
 +  - name: sensor
@@ -36,7 +36,8 @@ pub(crate) const SEPARATOR: Rule = Rule {
 /// The label of every tab.
 const LABEL: &str = "this is a tab (shown as 4 spaces)";
 
-/// Reports the first line that is indented with a tab, and how many follow; puts spaces in their place.
+/// Reports the first line that is indented with a tab, and how many follow, and replaces the tabs by spaces. Returns
+/// true if there are any.
 pub(super) fn check_indentation(
     source: &SourceFile,
     scan: &Scan,
@@ -59,8 +60,8 @@ pub(super) fn check_indentation(
     true
 }
 
-/// Reports the first other tab, and how many lines have one; puts spaces in their place. Those that indent a line are
-/// spaces already.
+/// Reports the first other tab, and how many lines have one, and replaces these tabs by spaces. Tabs that indent a line
+/// are spaces already.
 pub(super) fn check_separators(source: &SourceFile, scan: &Scan, text: &mut String, problems: &mut Diagnostics) {
     let tabs = tabs_of_lines(text, |line, start| {
         let in_line = line.match_indices('\t').map(|(at, _)| start + at);
@@ -102,7 +103,8 @@ fn count_lines(tabs: &[usize], text: &str, source: &SourceFile, what: &str) -> O
     (lines > 1).then(|| format!("{lines} lines {what}, up to line {last}"))
 }
 
-/// The tabs that `of_line` finds in each line, given with its start, but for the lines of text blocks.
+/// The tabs that `of_line` finds in each line, except for the lines of text blocks. `of_line` gets a line and its
+/// start.
 fn tabs_of_lines(text: &str, of_line: impl Fn(&str, usize) -> Vec<usize>) -> Vec<usize> {
     let mut tabs = Vec::new();
     if !text.contains('\t') {

@@ -8,9 +8,9 @@ use std::ops::Range;
 pub(crate) const RULE: Rule = Rule {
     code: "SCL0125",
     severity: Severity::Error,
-    title: "text that is not expected here",
-    explanation: "A value has ended, and yet the line goes on, or a mark stands where none can. YAML reads one value \
-                  for a key, and one item on a line. Remove the rest, or give it a line of its own.",
+    title: "unexpected text",
+    explanation: "The line continues after its value has ended, or contains a character that cannot be there. A key \
+                  has one value, and each list item has its own line. Remove the rest, or move it to a separate line.",
     example: " components:
    - name: sensor
      gates:
@@ -19,7 +19,7 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-/// A message repeats no more than this.
+/// Maximum length of a text that a message repeats, in characters.
 const MOST_SHOWN: usize = 40;
 
 pub(in crate::parse) fn diagnose(range: &Range<usize>, text: &str, source: &SourceFile) -> Diagnostic {

@@ -13,8 +13,8 @@ pub(crate) const ANCHOR: Rule = Rule {
     severity: Severity::Error,
     title: "anchors and aliases are not supported",
     explanation: "YAML can name a value with `&` and repeat it with `*`. A topology is a contract that people read \
-                  line by line, and repeated values would make places in messages ambiguous and tiny files enormous. \
-                  Write the value out.",
+                  line by line; with aliases, messages could not point to one place, and a tiny file could expand to \
+                  an enormous one. Write the value out.",
     example: " components:
    - name: a
 -    gates: &g
@@ -27,7 +27,8 @@ pub(crate) const ANCHOR: Rule = Rule {
 ",
 };
 
-/// Only the first anchors get a help made for their place, as finding it takes a walk over the whole tree.
+/// Number of anchors that get a help made for their place. Finding it takes a walk over the whole tree, so the later
+/// ones do without.
 const EXPLAINED: usize = 20;
 
 /// Reports each anchor with its aliases, and each alias without an anchor.
@@ -42,14 +43,14 @@ pub(super) fn check_anchors(tree: &Tree, source: &SourceFile, problems: &mut Dia
 pub(super) fn check_aliases(tree: &Tree, problems: &mut Diagnostics) {
     let undefined = tree.anchors.iter().filter(|anchor| anchor.definition.is_none());
     for alias in undefined.flat_map(|anchor| &anchor.aliases) {
-        let problem = ANCHOR.at("this alias stands for nothing", *alias, "no anchor of this name ends above");
+        let problem = ANCHOR.at("this alias has no anchor", *alias, "no anchor of this name ends above");
         problems.push(problem.help("write the value out, or put `&` and the name before the value that is meant"));
     }
     problems.extend(tree.too_much.map(|alias| {
         ANCHOR
-            .at("the aliases of the file stand for too much", alias, "not read")
-            .help("write out what is needed")
-            .note(format!("all of them may stand for {MOST_REPEATED} values together"))
+            .at("the aliases of the file expand to too many values", alias, "not read")
+            .help("write the values out")
+            .note(format!("together they may expand to at most {MOST_REPEATED} values"))
     }));
 }
 
@@ -109,8 +110,8 @@ pub(crate) const MERGE_KEY: Rule = Rule {
     code: "SCL0112",
     severity: Severity::Error,
     title: "merge key",
-    explanation: "`<<` merges keys of another mapping in some YAML tools; it is no part of YAML 1.2, so tools disagree \
-                  about it. Write the keys out.",
+    explanation: "In some YAML tools, `<<` merges the keys of another mapping. It is not part of YAML 1.2, so tools \
+                  disagree about it. Write the keys out.",
     example: " components:
    - name: b
 -    <<: {gates: []}
@@ -127,7 +128,7 @@ pub(in crate::parse) fn merge_key(key: &Node, dialect: &Dialect) -> Diagnostic {
 pub(crate) const TAG: Rule = Rule {
     code: "SCL0113",
     severity: Severity::Error,
-    title: "tag",
+    title: "YAML tag",
     explanation: "A tag such as `!!str` changes the type of a value, and in some languages even runs code. A topology \
                   needs none. Remove it.",
     example: " components:
@@ -154,7 +155,7 @@ pub(crate) const SECOND_DOCUMENT: Rule = Rule {
 ",
 };
 
-/// The parser may place the start of a document without `---` at its content.
+/// A second document. If it has no `---`, the parser may place its start at its content.
 pub(super) fn second_document(source: &SourceFile, at: Span, dialect: &Dialect) -> Diagnostic {
     let rest = source.text().get(at.start as usize..).unwrap_or("");
     let marker = rest.starts_with("---");
@@ -169,8 +170,8 @@ pub(crate) const DIRECTIVE: Rule = Rule {
     code: "SCL0118",
     severity: Severity::Error,
     title: "YAML directive",
-    explanation: "Lines that start with `%` are orders to the YAML parser. A topology is always read as YAML 1.2, so \
-                  it has none. Remove the line and the `---` below it.",
+    explanation: "Lines that start with `%` are directives to the YAML parser. A topology is always read as YAML 1.2, \
+                  so it needs none. Remove the line and the `---` below it.",
     example: "-%YAML 1.1
 ----
  components: []

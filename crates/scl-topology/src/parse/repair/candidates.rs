@@ -1,4 +1,4 @@
-//! The changes of one line that are tried.
+//! The changes to one line that are tried.
 
 use super::line::{Class, Token, tokens};
 use super::{Edit, Kind};
@@ -11,10 +11,10 @@ use std::ops::Range;
 /// How many lines below a line may move with it.
 const MOST_BELOW: usize = 64;
 
-/// How many lines above a line show the columns that are in use.
+/// Number of lines above a line that are searched for the columns in use.
 const MOST_ABOVE: usize = 40;
 
-/// How much of a file shows which columns are usual.
+/// Number of lines of a file in which list items are counted to find the usual column.
 const MOST_LINES: usize = 400;
 
 pub(super) fn of_line(line: &Range<usize>, text: &str, source: &SourceFile, dialect: &Dialect) -> Vec<Edit> {
@@ -70,7 +70,7 @@ fn glued_colons(tokens: &[Token], text: &str, edits: &mut Vec<Edit>) {
     edits.push(Edit { kind, changes: changes.collect(), cost: 0 });
 }
 
-/// What may be missing after a token.
+/// Proposes what may be missing after a token.
 fn between(tokens: &[Token], at: usize, next: Option<&Token>, text: &str, edits: &mut Vec<Edit>) {
     let token = &tokens[at];
     let end = token.range.end;
@@ -106,7 +106,7 @@ fn between(tokens: &[Token], at: usize, next: Option<&Token>, text: &str, edits:
     }
 }
 
-/// The bracket that closes the innermost of those that are open.
+/// Proposes the bracket that closes the innermost open one.
 fn close(open: &[usize], after: &Token, text: &str, cost: usize, edits: &mut Vec<Edit>) {
     let Some(&last) = open.last() else { return };
     let bracket = if text[last..].starts_with('[') { "]" } else { "}" };
@@ -114,7 +114,7 @@ fn close(open: &[usize], after: &Token, text: &str, cost: usize, edits: &mut Vec
     edits.push(edit(Kind::Close(last, after.range.clone()), end..end, bracket, cost));
 }
 
-/// What may be wrong with a mark.
+/// Proposes corrections of a mark.
 fn marks(token: &Token, next: Option<&Token>, text: &str, edits: &mut Vec<Edit>) {
     let range = token.range.clone();
     let word = &text[range.clone()];
@@ -162,12 +162,12 @@ fn marks(token: &Token, next: Option<&Token>, text: &str, edits: &mut Vec<Edit>)
     }
 }
 
-/// Whether a token follows at once.
+/// Whether a token that begins a value follows without a space.
 fn is_followed(next: Option<&Token>, range: &Range<usize>) -> bool {
     next.is_some_and(|next| next.range.start == range.end && next.begins_value())
 }
 
-/// What may be missing at the end of a line: a comma before the next, a bracket, the colon of a known key.
+/// Proposes what may be missing at the end of a line: a comma before the next, a bracket, the colon of a known key.
 fn at_end(last: &Token, open: &[usize], line: &Range<usize>, text: &str, dialect: &Dialect, edits: &mut Vec<Edit>) {
     let end = last.range.end;
     if open.is_empty() && last.class == Class::Word {
@@ -196,7 +196,7 @@ fn at_end(last: &Token, open: &[usize], line: &Range<usize>, text: &str, dialect
     }
 }
 
-/// What may be too much: a mark, a word, or all that follows a value.
+/// Proposes to remove what may be too much: a mark, a word, or all that follows a value.
 fn surplus(tokens: &[Token], line: &Range<usize>, text: &str, edits: &mut Vec<Edit>) {
     for (at, token) in tokens.iter().enumerate() {
         let range = token.range.clone();
@@ -230,7 +230,7 @@ fn surplus(tokens: &[Token], line: &Range<usize>, text: &str, edits: &mut Vec<Ed
     }
 }
 
-/// A quote too many or too few, in a line with an odd number of them.
+/// Proposes to add or remove a quote, in a line with an odd number of them.
 fn quotes(line: &Range<usize>, text: &str, edits: &mut Vec<Edit>) {
     let content = &text[line.clone()];
     if content.matches('"').count().is_multiple_of(2) {
@@ -253,7 +253,8 @@ fn quotes(line: &Range<usize>, text: &str, edits: &mut Vec<Edit>) {
     }
 }
 
-/// What may be missing before a line: a bracket before a comma, the name of the component whose keys these are.
+/// Proposes what may be missing before a line: a bracket before a comma, the name of the component whose keys these
+/// are.
 fn first_of_line(tokens: &[Token], line: &Range<usize>, text: &str, edits: &mut Vec<Edit>) {
     let Some(first) = tokens.first() else { return };
     let above = text[..line.start].trim_end();
@@ -278,7 +279,8 @@ fn other_mark(tokens: &[Token], text: &str, edits: &mut Vec<Edit>) {
     }
 }
 
-/// The dash of a list item, in place of the two spaces before it, before it, or in the column of the item above.
+/// Proposes the dash of a list item, in place of the two spaces before it, before it, or in the column of the item
+/// above.
 fn dash(tokens: &[Token], line: &Range<usize>, text: &str, edits: &mut Vec<Edit>) {
     let Some(first) = tokens.first().filter(|first| first.begins_value()) else { return };
     let start = first.range.start;
@@ -298,7 +300,8 @@ fn dash(tokens: &[Token], line: &Range<usize>, text: &str, edits: &mut Vec<Edit>
     }
 }
 
-/// The line, with all that is indented deeper below it, in each of the columns that the lines above use.
+/// Proposes to move the line, with all that is indented deeper below it, to each of the columns that the lines above
+/// use.
 fn columns(tokens: &[Token], line: &Range<usize>, text: &str, source: &SourceFile, edits: &mut Vec<Edit>) {
     let Some(first) = tokens.first() else { return };
     let indent = first.range.start - line.start;

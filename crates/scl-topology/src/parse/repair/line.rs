@@ -20,7 +20,7 @@ pub(super) enum Class {
     Close,
     Comma,
     Colon,
-    /// A dash with a space after it, or before nothing.
+    /// A dash with a space after it, or at the end of the line.
     Dash,
     /// A quote without a partner in the line.
     Quote,

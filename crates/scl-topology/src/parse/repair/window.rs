@@ -13,16 +13,16 @@ const WHOLE: usize = 512;
 /// A file up to this size is read as a whole where its parts cannot be read by themselves.
 const WHOLE_IN_NEED: usize = 4096;
 
-/// A larger part is not read again and again.
+/// Maximum size of a part; a larger one is not read again for each change.
 const LARGEST: usize = 8192;
 
-/// A part reaches at least so far above the error, because a text may go on over several items.
+/// Minimum distance from the start of a part to the error, because a text may extend over several items.
 const LEAST_ABOVE: usize = 600;
 
-/// How many lines may be at fault.
+/// Maximum number of lines that are suspected of the mistake.
 const MOST_LINES: usize = 12;
 
-/// How far above the error a bracket may be open.
+/// Number of lines that are searched for suspects, above the error and around an open bracket.
 const MOST_ABOVE: usize = 60;
 
 /// A part of the text that can be read by itself.
@@ -133,7 +133,8 @@ pub(super) fn suspects(error: &SyntaxError, text: &str, source: &SourceFile, win
     lines
 }
 
-/// Lines with other brackets opened than closed, around an error of brackets.
+/// The lines from an open bracket on that may hold a mistake with brackets: those that do not close exactly what they
+/// open, end with a colon, or start with a comma or a closing bracket.
 fn unbalanced(error: &SyntaxError, text: &str, source: &SourceFile, window: &Window) -> Vec<Range<usize>> {
     let at = error.at.min(text.len());
     let in_window = &text[window.range.start..at.max(window.range.start)];
@@ -157,7 +158,7 @@ fn unbalanced(error: &SyntaxError, text: &str, source: &SourceFile, window: &Win
     found
 }
 
-/// The lines above a line, from below, each with its end.
+/// The lines above a line, the nearest first, each with its line break.
 fn lines_up(text: &str, start: usize) -> impl Iterator<Item = Range<usize>> {
     let mut end = start;
     std::iter::from_fn(move || {

@@ -11,7 +11,8 @@ pub(crate) const RULE: Rule = Rule {
     severity: Severity::Error,
     title: "connection does not have two ends",
     explanation: "A connection is a pair: `[component.gate, component.gate]`, in either order. This entry has fewer or \
-                  more ends, or is no list. For one sender and several receivers write one connection each.",
+                  more ends, or is not a list. For one sender and several receivers, write one connection for each \
+                  receiver.",
     example: " components: []
 -connections:
 -  - [controller.events, user_interface.events, logger.events]
@@ -22,7 +23,7 @@ pub(crate) const RULE: Rule = Rule {
 const PAIR: &str = "a connection joins exactly two gates";
 const WRITE_A_PAIR: &str = "write `[component.gate, component.gate]`";
 
-/// A help shows no more pairs than this.
+/// Maximum number of pairs that a help shows.
 const SHOWN: usize = 10;
 
 /// The words of a text that stands for a pair, without the marks around them and between them.

@@ -65,7 +65,7 @@ pub(in crate::parse) fn key_without_colon(field: Field<'_>, word: &str) -> Diagn
 pub(in crate::parse) fn comma_between_types(gate: &GateModel, answer: Field<'_>) -> Diagnostic {
     let (name, kind) = (&gate.name.value, &gate.kind.value);
     let types = gate.payload.as_ref().map_or("", |payload| &payload.value);
-    RULE.at(format!("the two types of gate `{name}` are joined by `->`"), answer.key_span, "after a comma stands a key")
+    RULE.at(format!("the two types of gate `{name}` are joined by `->`"), answer.key_span, "read as a key, not a type")
         .help(format!("write `{name}: {{{kind}: {types}}}`"))
 }
 

@@ -13,8 +13,8 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0214",
     severity: Severity::Error,
     title: "key at the wrong level",
-    explanation: "The key is known, but at another level: a section inside a component, an option beside a gate, gates \
-                  at the top. It is mostly a slip of the indentation. Move it to where the message says.",
+    explanation: "The key is valid, but at another level: a section is inside a component, an option is beside a gate, \
+                  or `gates` is at the top. Usually the indentation is wrong. Move the key to where the message says.",
     example: " components:
    - name: controller
      gates:

@@ -11,8 +11,8 @@ pub(crate) const SECTION: Rule = Rule {
     code: "SCL0203",
     severity: Severity::Error,
     title: "required section missing",
-    explanation: "The section `components` declares who may talk at all; without it nothing else has a meaning. Add \
-                  it.",
+    explanation: "The section `components` declares the components and their gates; everything else in the file refers \
+                  to them. Add it.",
     example: "-connections:
 -  - [sensor.measurements, controller.sensor]
 +components: []
@@ -40,15 +40,16 @@ pub(crate) const COMPONENTS: Rule = Rule {
     code: "SCL0205",
     severity: Severity::Error,
     title: "no components",
-    explanation: "The section `components` has no entry. Add at least one component; a file that is meant to be empty \
-                  says `components: []`.",
+    explanation: "The section `components` has no entry. Add at least one component; if the file is meant to be empty, \
+                  write `components: []`.",
     example: "-components:
 +components: []
  connections: []
 ",
 };
 
-/// An explicit `components: []` is meant, as it is for gates and connections.
+/// A section `components` without a value. An explicit `components: []` is accepted, as it is for gates and
+/// connections.
 pub(in crate::parse) fn components(section: Field<'_>) -> Diagnostic {
     COMPONENTS
         .at("the topology has no components", section.key_span, "the section is empty")
@@ -60,8 +61,8 @@ pub(crate) const CONNECTIONS: Rule = Rule {
     code: "SCL0206",
     severity: Severity::Warning,
     title: "no connections",
-    explanation: "Gates are declared, and none of them is connected. Add the section `connections`. If the wiring \
-                  follows later, write `connections: []`, which says so.",
+    explanation: "Gates are declared, but none of them is connected. Add the section `connections`. To connect them \
+                  later, write `connections: []` for now.",
     example: " components:
    - name: sensor
      gates:
@@ -70,7 +71,8 @@ pub(crate) const CONNECTIONS: Rule = Rule {
 ",
 };
 
-/// A warning where gates exist, and `connections` is missing or has no value; `connections: []` is meant.
+/// Returns a warning if gates exist, and `connections` is missing or has no value. An explicit `connections: []` is
+/// accepted.
 pub(in crate::parse) fn find_connections(
     components: Field<'_>,
     connections: Option<Field<'_>>,
@@ -94,8 +96,8 @@ pub(crate) const GATES: Rule = Rule {
     code: "SCL0209",
     severity: Severity::Warning,
     title: "component without gates",
-    explanation: "A component without gates can talk to nobody, so it is probably not finished. Add a gate, or remove \
-                  the component; `gates: []` says that it is meant.",
+    explanation: "A component without gates cannot communicate, so it is probably unfinished. Add a gate, or remove \
+                  the component; if it is meant to have none, write `gates: []`.",
     example: " components:
    - name: logger
 -    gates:
@@ -103,7 +105,7 @@ pub(crate) const GATES: Rule = Rule {
 ",
 };
 
-/// A warning where `gates` is missing or has no value; `gates: []` is meant.
+/// Returns a warning if `gates` is missing or has no value. An explicit `gates: []` is accepted.
 pub(in crate::parse) fn find_gates(component: &Spanned<String>, gates: Option<Field<'_>>) -> Option<Diagnostic> {
     if gates.is_some_and(|field| !field.value.is_null()) {
         return None;

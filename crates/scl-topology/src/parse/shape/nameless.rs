@@ -11,7 +11,7 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0208",
     severity: Severity::Error,
     title: "component without a name",
-    explanation: "Each component has a name, by which connections and programs know it. Add `name:`.",
+    explanation: "Connections and programs refer to a component by its name, so each component needs one. Add `name:`.",
     example: " components:
 -  - gates:
 +  - name: sensor

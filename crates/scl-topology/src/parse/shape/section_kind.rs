@@ -13,8 +13,8 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0204",
     severity: Severity::Error,
     title: "section has the wrong kind",
-    explanation: "A section that is a list is written as something else, often as a mapping with names as keys. Lists \
-                  keep the order of the file and find doubled names. Start each entry with `-`.",
+    explanation: "The section must be a list, but is something else, often a mapping with names as keys. A list keeps \
+                  the order of the file, and the checker can find duplicate names in it. Start each entry with `-`.",
     example: " components:
 -  sensor:
 +  - name: sensor

@@ -9,9 +9,9 @@ use crate::yaml::{Node, NodeKind};
 pub(crate) const RULE: Rule = Rule {
     code: "SCL0216",
     severity: Severity::Error,
-    title: "connection among the components",
-    explanation: "A pair of gates stands in the list of components, mostly because the line `connections:` is missing \
-                  or a comment. Write `connections:` at the start of the line above the first pair.",
+    title: "connection in the list of components",
+    explanation: "The list of components contains a pair of gates, usually because the line `connections:` is missing \
+                  or commented out. Write `connections:` above the first pair, at the start of the line.",
     example: " components:
    - name: sensor
      gates:
@@ -39,7 +39,7 @@ pub(in crate::parse) fn diagnose(item: &Node, source: &SourceFile) -> Diagnostic
         .fix(Span { start: line, end: line, ..span }, "connections:\n")
 }
 
-/// Says of such a problem that the section exists, below the pairs; keeps every problem.
+/// Changes such a problem to say that the section exists, below the pairs. Always returns true, to keep every problem.
 pub(in crate::parse) fn with_section(problem: &mut Diagnostic) -> bool {
     if *problem.rule == RULE {
         problem.message = "this connection stands above `connections:`".to_owned();

@@ -1,4 +1,4 @@
-//! Keys that nothing knows. SCL0202: at the top level. SCL0207: in a component. SCL0212: in a gate.
+//! Unknown keys. SCL0202: at the top level. SCL0207: in a component. SCL0212: in a gate.
 
 use super::{own_key, suggest};
 use crate::diagnostic::{Diagnostic, Rule, Severity};
@@ -16,8 +16,8 @@ pub(crate) const SECTION: Rule = Rule {
     code: "SCL0202",
     severity: Severity::Error,
     title: "unknown top-level key",
-    explanation: "The key is none of the sections of a topology. An unknown section is mostly a misspelt one, and \
-                  would be ignored silently otherwise. Correct it; keys that start with `x-` are yours to use.",
+    explanation: "The key is not a section of a topology. It is probably misspelt; ignoring it would hide the mistake. \
+                  Correct it; keys that start with `x-` are free for your own use.",
     example: " components: []
 -conections: []
 +connections: []
@@ -37,8 +37,8 @@ pub(crate) const OF_COMPONENT: Rule = Rule {
     code: "SCL0207",
     severity: Severity::Error,
     title: "unknown key in a component",
-    explanation: "A component has the keys `name`, `gates`, `doc` and `optional`. Another one is mostly misspelt, and \
-                  would be ignored silently otherwise. Correct or remove it.",
+    explanation: "A component has the keys `name`, `gates`, `doc` and `optional`. This key is probably misspelt; \
+                  ignoring it would hide the mistake. Correct or remove it.",
     example: " components:
    - name: sensor
 -    gate:
@@ -86,8 +86,8 @@ pub(crate) const OF_GATE: Rule = Rule {
     code: "SCL0212",
     severity: Severity::Error,
     title: "unknown key in a gate",
-    explanation: "A gate has its kind and options as keys. This key is neither, mostly because it is misspelt. The \
-                  message lists the options that this kind of gate has.",
+    explanation: "The keys of a gate are its kind and its options. This key is neither; it is probably misspelt. The \
+                  message lists the options of this kind of gate.",
     example: " components:
    - name: sensor
      gates:
@@ -96,7 +96,7 @@ pub(crate) const OF_GATE: Rule = Rule {
 ",
 };
 
-/// `kind` is the kind as written, `path` the gate with its component.
+/// An unknown key in a gate. `kind` is the kind as written, `path` the gate with its component.
 pub(in crate::parse) fn of_gate(field: Field<'_>, kind: &str, path: &str) -> Diagnostic {
     let message = format!("unknown key `{}` in gate `{path}`", field.key);
     let mut problem = own_key(OF_GATE.at(message, field.key_span, ""), field.key);
@@ -127,7 +127,7 @@ pub(in crate::parse) fn comma_in_doc(key: Span, text: Span, source: &SourceFile,
     problem.help(format!("put it in quotes: `doc: \"{words}\"`")).fix(text, format!("\"{words}\""))
 }
 
-/// A word on the kinds that have an option, where this kind has not.
+/// Names the kinds that have an option; empty if this kind is one of them.
 fn only_of(key: &str, kind: &str) -> String {
     let kinds = option(key).map_or(&[][..], |option| option.kinds);
     if kinds.iter().any(|of| of.word() == kind) {

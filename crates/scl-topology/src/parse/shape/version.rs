@@ -12,8 +12,8 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0213",
     severity: Severity::Error,
     title: "unsupported format version",
-    explanation: "`scl:` says which version of the file's format is needed, and this version of scl does not read it. \
-                  Update scl, or write the file for the format it knows.",
+    explanation: "`scl:` names a version of the file format that this version of scl does not support. Update scl, or \
+                  write the file in a format that it supports.",
     example: "-scl: 3
 +scl: 1
  components: []
