@@ -1,7 +1,7 @@
 /// SCL for C++: typed components and gates over ZeroMQ, wired by one checked topology file. See docs/cpp.md.
 ///
-/// The codecs of protobuf messages are in `scl/protobuf.hpp` and `scl/json.hpp`, because they need libprotobuf. What
-/// `scl generate --for cpp` writes includes those that it needs.
+/// The codecs of protobuf messages are in `scl/protobuf.hpp` and `scl/json.hpp`, because they need libprotobuf. Headers
+/// that `scl generate --for cpp` writes include the ones that they need.
 #pragma once
 
 #include <scl/bytes.hpp>

@@ -1,15 +1,16 @@
-//! The gate behind a Python object: one call at a time uses it, and others may look at it meanwhile.
+//! The gate behind a Python object: one call at a time uses it, and other threads may inspect it between the steps of
+//! that call.
 
 use scl::untyped::Gate;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// A gate that calls claim, and that is locked only while SCL runs: not while a call looks for signals, and not by a
+/// A gate that calls claim. It is locked only while code of SCL runs: not while a call checks for signals, and not by a
 /// thread that the end of the interpreter has stopped.
 pub(crate) struct Claimed {
     claimed: AtomicBool,
-    /// Number of threads that want to look at the gate while a call waits.
+    /// Number of threads that inspect the gate, or wait to.
     visitors: AtomicUsize,
     slot: Mutex<Slot>,
 }
@@ -17,7 +18,7 @@ pub(crate) struct Claimed {
 #[allow(clippy::large_enum_variant, reason = "there is one per gate, and a box would be allocated for each call")]
 enum Slot {
     Here(Gate),
-    /// A call has it, and will bring it back.
+    /// A call has taken the gate out and will put it back.
     Away,
     /// The component is closed.
     Closed,
@@ -30,7 +31,7 @@ pub(crate) enum Unusable {
     Closed,
 }
 
-/// A call that uses the gate. No other does until it is dropped.
+/// The right of a call to use the gate. Until it is dropped, no other call can claim the gate.
 pub(crate) struct Claim<'g>(&'g Claimed);
 
 impl Claimed {
@@ -44,7 +45,8 @@ impl Claimed {
         if self.claimed.swap(true, Ordering::Acquire) { Err(Unusable::Busy) } else { Ok(Claim(self)) }
     }
 
-    /// Looks at the gate, between two steps of a call that waits. It may take some time.
+    /// Inspects the gate. Waits for the end of the current step if a call uses the gate; fails if a call has taken it
+    /// out.
     pub(crate) fn visit<R>(&self, look: impl FnOnce(&mut Gate) -> R) -> Result<R, Unusable> {
         self.visitors.fetch_add(1, Ordering::AcqRel);
         let looked = self.with(look);
@@ -52,7 +54,7 @@ impl Claimed {
         looked
     }
 
-    /// Drops the gate, at once or when the call that has it ends.
+    /// Drops the gate, at once or when the call that has taken it out ends.
     pub(crate) fn close(&self) {
         self.visitors.fetch_add(1, Ordering::AcqRel);
         let gate = std::mem::replace(&mut *self.lock(), Slot::Closed);
@@ -79,7 +81,7 @@ impl<'g> Claim<'g> {
         self.0.with(step)
     }
 
-    /// As [`step`](Self::step), after visitors had their turn: locks are not fair.
+    /// Like [`step`](Self::step), but lets visitors go first, because locks are not fair.
     pub(crate) fn next_step<R>(&mut self, step: impl FnOnce(&mut Gate) -> R) -> Result<R, Unusable> {
         while self.0.visitors.load(Ordering::Acquire) > 0 {
             std::thread::sleep(Duration::from_micros(100));
@@ -87,7 +89,7 @@ impl<'g> Claim<'g> {
         self.step(step)
     }
 
-    /// Takes the gate along until the result is dropped, for a call that needs it between its steps, too.
+    /// Takes the gate out until the result is dropped, for a call that needs it between its steps, too.
     pub(crate) fn borrow(self) -> Result<Borrowed<'g>, Unusable> {
         let claimed = self.0;
         let mut slot = claimed.lock();
@@ -102,9 +104,9 @@ impl<'g> Claim<'g> {
     }
 }
 
-/// A gate that a call has taken along.
+/// A gate that a call has taken out.
 pub(crate) struct Borrowed<'g> {
-    /// `None` once brought back.
+    /// `None` once put back.
     gate: Option<Gate>,
     claim: Claim<'g>,
 }

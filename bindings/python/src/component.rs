@@ -25,12 +25,12 @@ use std::time::Duration;
 pub(crate) struct Component {
     shared: Arc<Shared>,
     gates: Vec<Py<Gate>>,
-    /// `None` once closed. What is left when it is dropped is handed over.
+    /// `None` once closed. Dropping it hands over the messages that are left.
     component: Native<Mutex<Option<untyped::Component>>>,
     is_test: bool,
 }
 
-/// A component whose gates were taken out.
+/// A component, and the gates that were taken out of it.
 struct WithGates {
     gates: Vec<untyped::Gate>,
     component: untyped::Component,
@@ -86,14 +86,14 @@ impl Component {
         &self.shared.system
     }
 
-    /// In the order of the topology file.
+    /// The gates, in the order of the topology file.
     #[getter]
     fn gates(&self, py: Python<'_>) -> Vec<Py<Gate>> {
         self.gates.iter().map(|gate| gate.clone_ref(py)).collect()
     }
 
-    /// Waits until all required peers are connected. `waited` is for the message of the error, if the caller has waited
-    /// before.
+    /// Waits until all required peers are connected. `waited` is the time in seconds that the caller has waited before,
+    /// for the error text.
     #[pyo3(signature = (timeout=None, waited=None))]
     fn ready(&self, py: Python<'_>, timeout: Option<f64>, waited: Option<f64>) -> PyResult<()> {
         let limit = Limit::of_seconds(timeout)?.after(waited);
@@ -122,7 +122,8 @@ impl Component {
         }
     }
 
-    /// Waits until at least one of some gates has a message or a request. Returns their places in the list.
+    /// Waits until at least one of the gates has a message or a request. Returns the indices of those that have, none
+    /// when the time is over.
     #[pyo3(signature = (gates, timeout=None))]
     fn wait(&self, py: Python<'_>, gates: Vec<Py<Gate>>, timeout: Option<f64>) -> PyResult<Vec<usize>> {
         let limit = Limit::of_seconds(timeout)?;
@@ -166,7 +167,8 @@ impl Component {
         }
     }
 
-    /// A file descriptor for event loops: of calls that were polled with it, or, with `all_gates`, of all gates.
+    /// Returns a file descriptor for event loops. It reports the calls that were polled with it or, with `all_gates`,
+    /// all gates.
     fn readiness(&self, all_gates: bool) -> PyResult<Readiness> {
         match all_gates {
             true => self.shared.check_open()?,

@@ -61,7 +61,7 @@ impl Failure {
     }
 }
 
-/// Turns a panic into an exception: none may cross the border.
+/// Turns a panic into an exception, because no panic may cross the border.
 pub(crate) fn no_panic<T>(call: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
     catch_unwind(AssertUnwindSafe(call)).unwrap_or_else(|panic| {
         let text = panic.downcast_ref::<String>().map(String::as_str);

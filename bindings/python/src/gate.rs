@@ -23,14 +23,14 @@ use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
 
-/// A gate. Which calls it has depends on its kind; the package offers no others.
+/// A gate of any kind. Calls that do not fit the kind fail; the Python package does not offer them.
 #[pyclass(frozen, module = "scl._native")]
 pub(crate) struct Gate {
     plan: GatePlan,
     /// Whether a full queue of a peer can make the gate wait.
     may_wait: bool,
     pub(crate) shared: Arc<Shared>,
-    /// Its component may end with it, and then hands over what is left.
+    /// Dropping it may close the component, which then hands over the messages that are left.
     pub(crate) claimed: Native<Claimed>,
 }
 
@@ -47,7 +47,7 @@ impl Gate {
         Self { may_wait: is_sender && plan.options.backpressure, plan, shared, claimed }
     }
 
-    /// The gate, unless another thread uses it.
+    /// Claims the gate for a call. Fails if another call uses it, or as [`Shared::check`] does.
     pub(crate) fn claim(&self) -> Result<Claim<'_>, Failure> {
         self.shared.check()?;
         self.claimed.claim().map_err(|unusable| self.unusable(unusable))
@@ -61,12 +61,12 @@ impl Gate {
         Failure::new("Busy", format!("gate `{}` {text}", self.full_name()))
     }
 
-    /// Looks at the gate, also while a call uses it.
+    /// Inspects the gate, also while a call uses it.
     fn visit<R>(&self, look: impl FnOnce(&mut AnyGate) -> R) -> Result<R, Failure> {
         self.claimed.visit(look).map_err(|unusable| self.unusable(unusable))
     }
 
-    /// As it is called in messages.
+    /// Returns the name of the gate in error texts: `component.gate`.
     pub(crate) fn full_name(&self) -> String {
         format!("{}.{}", self.shared.component, self.plan.name)
     }
@@ -76,14 +76,14 @@ impl Gate {
         Err(Failure::new("WrongDirection", text))
     }
 
-    /// A call that does not wait, so it keeps the interpreter.
+    /// Makes a call that does not wait, so it does not release the interpreter.
     fn at_once<R>(&self, step: impl FnOnce(&mut AnyGate) -> Result<R, Failure>) -> Result<R, Failure> {
         let mut claim = self.claim()?;
         no_panic(|| claim.step(step).map_err(|unusable| self.unusable(unusable))?)
     }
 
-    /// A call that tries at once, and if that was not enough, waits without the interpreter. `Ok(None)` when the time
-    /// is over.
+    /// Makes a call that tries at once and, if that was not enough, releases the interpreter and waits. Returns
+    /// `Ok(None)` when the time is over.
     fn try_then_wait<R: Send>(
         &self,
         py: Python<'_>,
@@ -127,7 +127,7 @@ impl Gate {
         }
     }
 
-    /// What was received as Python has it.
+    /// Converts what was received into a Python object.
     fn to_python<'py>(&self, py: Python<'py>, received: Received) -> PyResult<Bound<'py, PyAny>> {
         match received {
             Received::Message(message) => Ok(PyBytes::new(py, &message).into_any()),
@@ -137,7 +137,7 @@ impl Gate {
         }
     }
 
-    /// Receives within a limit. When it is over, the last attempt finds the reason.
+    /// Receives within a time limit. When it is over, a last attempt finds the reason.
     fn wait_to_receive(&self, py: Python<'_>, limit: Limit) -> PyResult<Received> {
         let wait_for = |gate: &mut AnyGate, within| match self.receive(gate, within)? {
             Ok(received) => Ok(Some(received)),
@@ -220,7 +220,7 @@ impl Gate {
         }
     }
 
-    /// Sends, or returns false, and then the readiness reports when it may succeed.
+    /// Sends and returns true, or returns false if a queue is full; `readiness` then reports when to try again.
     fn poll_send(&self, message: &Bound<'_, PyBytes>, readiness: &Readiness) -> PyResult<bool> {
         let message = Bytes::copy_from_slice(message.as_bytes());
         let sent = self.at_once(|gate| {
@@ -243,7 +243,8 @@ impl Gate {
         Ok(sent)
     }
 
-    /// Waits for a message or a request. `waited` is for the message of the error, if an event loop has waited before.
+    /// Waits for a message or a request. `waited` is the time in seconds that an event loop has waited before, for the
+    /// error text.
     #[pyo3(signature = (timeout=None, waited=None))]
     fn recv<'py>(&self, py: Python<'py>, timeout: Option<f64>, waited: Option<f64>) -> PyResult<Bound<'py, PyAny>> {
         let limit = Limit::of_seconds(timeout)?.after(waited);
@@ -264,7 +265,7 @@ impl Gate {
         Ok(newest.map(|message| PyBytes::new(py, &message)))
     }
 
-    /// Returns what a gate has, or `None`, and then the readiness reports when there may be something.
+    /// Returns a message or a request, or `None` if none has arrived; `readiness` then reports when to try again.
     fn poll_recv<'py>(&self, py: Python<'py>, readiness: &Readiness) -> PyResult<Option<Bound<'py, PyAny>>> {
         let received = self.at_once(|gate| {
             if let Some(received) = self.try_receive(gate)? {
@@ -308,7 +309,7 @@ impl Gate {
         Ok(PyBytes::new(py, &reply))
     }
 
-    /// Sends a request. The reply comes from the result, which must be asked for it before anything is sent.
+    /// Starts a call and returns it. Nothing is sent until the result is polled for the reply.
     #[pyo3(signature = (request, timeout=None))]
     fn start_call(&self, request: &Bound<'_, PyBytes>, timeout: Option<f64>) -> PyResult<PendingCall> {
         let timeout = timeout.map(|seconds| Limit::of_seconds(Some(seconds))).transpose()?;
@@ -329,7 +330,7 @@ impl Gate {
         Ok(detach(py, || self.visit(|gate| gate.is_connected()))??)
     }
 
-    /// In seconds.
+    /// The age, in seconds, of the message received last, if it was latched before this gate connected.
     #[getter]
     fn latched_age(&self, py: Python<'_>) -> PyResult<Option<f64>> {
         self.shared.check_open()?;

@@ -1,7 +1,7 @@
 //! `scl._native`: components and gates for the Python package `scl`.
 //!
-//! Messages cross the border as bytes; the package encodes and decodes them. Every promise of a gate is kept by the
-//! crate `scl`, of which this is a thin layer: which call releases the interpreter, when a wait looks for signals, and
+//! Messages cross the border as bytes; the package encodes and decodes them. All promises of a gate are kept by the
+//! crate `scl`. This thin layer on it decides which calls release the interpreter, when a wait checks for signals, and
 //! which exception an error becomes.
 
 mod claimed;

@@ -1,4 +1,4 @@
-//! How long a call may take, as Python says it: seconds, `None` for no limit, 0 to not wait at all.
+//! How long a call may take, in the form that Python passes it: seconds, `None` for no limit, 0 to not wait at all.
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -28,7 +28,7 @@ impl Limit {
         Ok(Self { began: Instant::now(), length, before: Duration::ZERO })
     }
 
-    /// For a call that goes on after a wait of some seconds elsewhere.
+    /// Sets how many seconds the caller has already waited elsewhere.
     pub(crate) fn after(self, waited: Option<f64>) -> Self {
         let before = waited.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
         Self { before: before.unwrap_or_default(), ..self }
@@ -48,7 +48,7 @@ impl Limit {
         self.length.map_or(longest, |length| length.saturating_sub(self.began.elapsed()).min(longest))
     }
 
-    /// How long the call has waited, for messages.
+    /// Returns how long the call has waited, for error texts.
     pub(crate) fn waited(&self) -> Duration {
         self.before + self.length.unwrap_or_else(|| self.began.elapsed())
     }

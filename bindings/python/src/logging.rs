@@ -1,7 +1,8 @@
 //! Log records of SCL on their way to Python's `logging`.
 //!
-//! A record may be made anywhere: by a thread that holds a gate's lock while the interpreter waits for that lock. So no
-//! record waits for the interpreter: it goes into a queue, from which a thread of the package takes it.
+//! A record may be made anywhere, for example by a thread that holds a gate's lock while the interpreter waits for that
+//! lock. So logging never waits for the interpreter: records go into a queue, from which a thread of the package takes
+//! them.
 
 use crate::process::{detach, forget_threads};
 use pyo3::prelude::*;
@@ -23,7 +24,7 @@ static QUEUE: Queue = Queue {
     records: Mutex::new(Records { waiting: VecDeque::new(), dropped: 0, ended: false }),
     added: Condvar::new(),
 };
-/// The least level that anybody reads, of Python's `logging`.
+/// The lowest level that is queued, as a level of Python's `logging`.
 static LEVEL: AtomicU8 = AtomicU8::new(0);
 
 struct Queue {
@@ -34,7 +35,7 @@ struct Queue {
 struct Records {
     waiting: VecDeque<Record>,
     dropped: u64,
-    /// Whether the thread that takes them shall end.
+    /// Whether the thread that takes the records must end.
     ended: bool,
 }
 
@@ -55,7 +56,7 @@ pub(crate) fn log_start() {
     let _already_set = tracing::subscriber::set_global_default(tracing_subscriber::registry().with(ToQueue));
 }
 
-/// Sets the least level that is queued, of Python's `logging`.
+/// Sets the lowest level that is queued, as a level of Python's `logging`.
 #[pyfunction]
 pub(crate) fn log_level(level: u8) {
     LEVEL.store(level, Ordering::Relaxed);
@@ -77,14 +78,14 @@ pub(crate) fn log_release() {
     HELD.set(None);
 }
 
-/// The same in the child, where no other thread exists.
+/// Unlocks the queue after a fork, in the child, and forgets the parent's threads.
 #[pyfunction]
 pub(crate) fn forked() {
     HELD.set(None);
     forget_threads();
 }
 
-/// Waits for records, no longer than some seconds. Returns false once the thread that takes them shall end.
+/// Waits for records, for at most `timeout` seconds. Returns false once the thread that takes them must end.
 #[pyfunction]
 pub(crate) fn log_wait(py: Python<'_>, timeout: f64) -> PyResult<bool> {
     let timeout = Duration::try_from_secs_f64(timeout).unwrap_or_default();
@@ -113,7 +114,7 @@ pub(crate) fn log_take(py: Python<'_>) -> PyResult<(Vec<Record>, u64)> {
     })
 }
 
-/// The level of Python's `logging`.
+/// Returns the corresponding level of Python's `logging`.
 fn rank(level: &Level) -> u8 {
     match *level {
         Level::ERROR => 40,

@@ -5,8 +5,8 @@ use pyo3::prelude::*;
 use scl_fork::ProcessMark;
 use std::ops::Deref;
 
-/// A value that is dropped without the interpreter, because that may wait for peers, and only in the process that made
-/// it.
+/// A value that is dropped with the interpreter released, because dropping it may wait for peers, and only in the
+/// process that made it.
 ///
 /// The interpreter of a forked child drops all objects that it has inherited, too. Their values may be locked, or half
 /// changed, by threads that exist in the parent only.

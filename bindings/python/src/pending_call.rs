@@ -1,4 +1,4 @@
-//! A request that waits for its reply, in steps.
+//! An outgoing request that waits for its reply, in steps.
 
 use crate::failure::{Failure, no_panic};
 use crate::native::Native;
@@ -25,7 +25,7 @@ pub(crate) struct PendingCall {
 type Call = Pin<Box<dyn Future<Output = Result<Bytes, CallError>> + Send>>;
 
 impl PendingCall {
-    /// Begins a call, which sends nothing before it is polled.
+    /// Begins a call. Nothing is sent before it is polled.
     pub(crate) fn start(
         shared: Arc<Shared>,
         mut requester: Req<Bytes, Bytes>,
@@ -37,12 +37,12 @@ impl PendingCall {
         Self { call: shared.keep(Mutex::new(Some(call))), shared }
     }
 
-    /// Waits for the reply no longer than a given time; `None` if there is none yet.
+    /// Waits for the reply, but no longer than a given time. Returns `None` if it has not arrived yet.
     pub(crate) fn drive(&self, driver: &Driver, within: Duration) -> Result<Option<Bytes>, Failure> {
         self.advance(|call| Ok(driver.wait_for(call, within)?))
     }
 
-    /// Takes the call a step further; `None` if that was not the last one.
+    /// Advances the call by a step. Returns `None` if it is not over yet.
     fn advance(
         &self,
         step: impl FnOnce(&mut Call) -> Result<Option<Result<Bytes, CallError>>, Failure>,
@@ -57,7 +57,7 @@ impl PendingCall {
 
 #[pymethods]
 impl PendingCall {
-    /// Returns the reply, or `None`, and then the readiness reports when there may be one.
+    /// Returns the reply, or `None` if it has not arrived yet; `readiness` then reports when to try again.
     fn poll_reply<'py>(&self, py: Python<'py>, readiness: &Readiness) -> PyResult<Option<Bound<'py, PyBytes>>> {
         self.shared.check()?;
         let waker = readiness.readiness.waker();

@@ -1,14 +1,14 @@
-//! Whether a value consists of what the codecs for plain values document. The libraries encode more, for example sets
-//! as tags of CBOR, which programs in other languages do not read.
+//! Checks whether a value consists only of the types that the codecs for plain values document. The libraries encode
+//! more, for example sets as tags of CBOR, which programs in other languages do not read.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyBytes, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 
-/// Deeper values are looked at in Python, which limits its recursion.
+/// Maximum depth of nesting; deeper values are checked in Python, which limits its recursion.
 const DEPTH: usize = 64;
 
-/// Returns true if a value is certainly plain; false asks for a closer look. With `text_keys`, as JSON has no other
-/// keys.
+/// Returns true if a value is certainly plain; after false, the caller must look closer. With `text_keys`, keys must be
+/// text, as in JSON.
 #[pyfunction]
 pub(crate) fn is_plain(value: &Bound<'_, PyAny>, text_keys: bool) -> PyResult<bool> {
     is_plain_within(value, text_keys, DEPTH)

@@ -1,5 +1,5 @@
 //! The plans of a system: from their JSON text, or from a topology file that is checked when the program starts, with
-//! the words of `scl check`.
+//! the diagnostics of `scl check`.
 
 use crate::failure::{Failure, no_panic};
 use crate::process::detach;

@@ -7,18 +7,18 @@ use std::sync::atomic::{AtomicI32, AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
-/// The thread that ends the interpreter, 0 before the end.
+/// Id of the thread that ends the interpreter, 0 before the end.
 static EXITING: AtomicI32 = AtomicI32::new(0);
 /// Number of threads that have yet to return into the interpreter: they work without it, or run Python code from here.
 static INSIDE: AtomicUsize = AtomicUsize::new(0);
 
-/// How often the end of the interpreter looks whether all threads have returned.
+/// How often the thread that ends the interpreter checks whether all others have returned.
 const RETURN_LOOK: Duration = Duration::from_millis(1);
 
-/// Says that this thread is about to end the interpreter, and waits until no other thread is in a call that waits.
+/// Announces that this thread is about to end the interpreter, and waits until no other thread is in a call that waits.
 ///
-/// All other threads are daemon threads then, which Python stops where they are. Those in a call must not return into
-/// an interpreter that is gone, and must not stay in the call either: they may hold a lock that the end of the
+/// By then, all other threads are daemon threads, which Python stops where they are. Those in a call must not return
+/// into an interpreter that is gone, and must not stay in the call either: they may hold a lock that ending the
 /// interpreter needs, for example that of a logging handler. So their calls raise `SystemExit`, which releases what
 /// they hold, and which `threading` does not print.
 #[pyfunction]
@@ -57,7 +57,7 @@ impl Drop for Inside {
     }
 }
 
-/// Works without the interpreter. Fails with `SystemExit` if another thread is ending it.
+/// Runs `work` with the interpreter released. Fails with `SystemExit` if another thread is ending the interpreter.
 pub(crate) fn detach<R: Send>(py: Python<'_>, work: impl FnOnce() -> R + Send) -> PyResult<R> {
     let inside = Inside::enter().ok_or_else(thread_exit)?;
     let result = py.detach(work);
@@ -65,7 +65,7 @@ pub(crate) fn detach<R: Send>(py: Python<'_>, work: impl FnOnce() -> R + Send) -
     if is_ended_by_another() { Err(thread_exit()) } else { Ok(result) }
 }
 
-/// What ends a thread while another one ends the interpreter.
+/// Returns the exception that ends a thread while another one ends the interpreter.
 pub(crate) fn thread_exit() -> PyErr {
     PySystemExit::new_err(())
 }

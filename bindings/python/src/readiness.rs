@@ -17,7 +17,7 @@ impl Readiness {
         self.readiness.as_raw_fd()
     }
 
-    /// Takes note of what made it readable. To be called before gates are polled again.
+    /// Acknowledges what made the descriptor readable. Call it before polling gates again.
     fn acknowledge(&self) {
         self.readiness.acknowledge();
         self.readiness.acknowledge_stop();

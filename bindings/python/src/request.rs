@@ -1,4 +1,4 @@
-//! A request that waits for its reply.
+//! An incoming request that waits for its reply.
 
 use crate::failure::{Failure, no_panic};
 use crate::native::Native;
@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A request and its way back. It may be answered later, from any thread, in any order.
+/// A received request. It may be answered later, from any thread, in any order.
 #[pyclass(frozen, module = "scl._native")]
 pub(crate) struct Request {
     message: Bytes,
@@ -22,7 +22,7 @@ impl Request {
         Self { message: request.message().clone(), request: shared.keep(Mutex::new(Some(request))), shared }
     }
 
-    /// The request itself, unless it was answered.
+    /// Takes the request out. Returns `None` if it was answered before.
     pub(crate) fn take(&self) -> Option<scl::Request<Bytes, Bytes>> {
         self.request.lock().unwrap_or_else(PoisonError::into_inner).take()
     }

@@ -29,11 +29,11 @@ impl Shared {
         Native::new(value, self.process.clone())
     }
 
-    /// Fails if no call may be made, or go on waiting. What a forked child inherits is looked at first: its locks may
-    /// be held by threads that exist in the parent only.
+    /// Fails if calls may no longer be made, or continue to wait. A component that a forked child has inherited is
+    /// detected first: its locks may be held by threads that exist in the parent only.
     ///
-    /// A stop request comes before the end of the component, which often follows it: `Closed` is an `Exception`, and a
-    /// task or thread that handles those would go on.
+    /// A stop request takes precedence over the closing of the component, which often follows it: `Closed` is an
+    /// `Exception`, and a task or thread that handles exceptions would continue.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         if !self.is_inherited() && host::gates_stopped() {
             return Err(Failure::new("Stopped", "stop requested"));
@@ -41,12 +41,12 @@ impl Shared {
         self.check_open()
     }
 
-    /// Why a call fails whose gate is gone.
+    /// Returns the failure of a call whose gate is gone.
     pub(crate) fn ended(&self) -> Failure {
         self.check().err().unwrap_or_else(|| self.closed())
     }
 
-    /// As [`check`](Self::check), for what also works after a stop request.
+    /// Like [`check`](Self::check), but for calls that also work after a stop request.
     pub(crate) fn check_open(&self) -> Result<(), Failure> {
         if self.is_inherited() {
             return Err(BlockingError::Forked.into());
@@ -69,7 +69,7 @@ impl Shared {
         self.closed.load(Ordering::Acquire)
     }
 
-    /// Ends all calls. Returns whether it was closed before.
+    /// Ends all calls. Returns true if the component was closed before.
     pub(crate) fn close(&self) -> bool {
         let before = self.closed.swap(true, Ordering::AcqRel);
         self.closer.end_calls();

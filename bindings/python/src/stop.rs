@@ -20,7 +20,7 @@ const LAST_FLUSH: Duration = Duration::from_millis(500);
 /// How long the last log line may take to be written.
 const LOG_WRITE: Duration = Duration::from_millis(100);
 
-/// Requests the stop, and ends a program that still runs after the grace period or has another signal after
+/// Requests the stop, and ends a program that still runs after the grace period or receives another signal after
 /// [`ONE_REQUEST`]. `watched` are the signals whose handlers in Python call this. Further calls do nothing.
 #[pyfunction]
 pub(crate) fn stop_request(number: i32, watched: Vec<i32>) -> PyResult<()> {
@@ -63,7 +63,7 @@ fn end_overdue_program(signal: Signal, grace_period: Duration) {
     let _ended = kill_process(getpid(), signal);
 }
 
-/// Says that the program handles stop requests itself.
+/// Declares that the program handles stop requests itself.
 #[pyfunction]
 pub(crate) fn stop_handle() {
     HANDLED.store(true, Ordering::Release);
@@ -76,7 +76,7 @@ pub(crate) fn stop_requested() -> bool {
     host::is_stop_requested()
 }
 
-/// How long a program may run after a stop request, in seconds. Fails if `SCL_STOP_WITHIN` is no duration.
+/// Returns how long a program may run after a stop request, in seconds. Fails if `SCL_STOP_WITHIN` is not a duration.
 #[pyfunction]
 pub(crate) fn stop_within() -> PyResult<f64> {
     Ok(host::grace_period().map_err(Failure::from)?.as_secs_f64())

@@ -30,7 +30,7 @@ pub(crate) fn wait_any(py: Python<'_>, limit: Limit, shared: &Shared, gates: &[&
     Ok(ready.unwrap_or_default())
 }
 
-/// All are asked, so that each of them wakes the call.
+/// Polls all gates, so that each of them wakes the call.
 fn poll_any(gates: &mut [Borrowed<'_>], cx: &mut Context<'_>) -> Poll<Result<Vec<usize>, Failure>> {
     let mut ready = Vec::new();
     for (index, gate) in gates.iter_mut().enumerate() {

@@ -1,4 +1,4 @@
-//! Calls that wait: without the interpreter, and with a look at signals now and then.
+//! Calls that wait: with the interpreter released, and checking for signals now and then.
 
 use crate::failure::{Failure, no_panic};
 use crate::limit::Limit;
@@ -7,11 +7,12 @@ use crate::shared::Shared;
 use pyo3::prelude::*;
 use std::time::Duration;
 
-/// How long a call waits before it looks whether Ctrl-C was pressed. Python runs handlers of signals in its main thread
+/// How long a call waits before it checks whether Ctrl-C was pressed. Python runs signal handlers in its main thread
 /// only, and only between two steps of Python code, so a wait has to return to it.
 pub(crate) const LOOK: Duration = Duration::from_millis(40);
 
-/// Waits until an attempt succeeds or fails, without the interpreter. `Ok(None)` when the time is over.
+/// Repeats an attempt, with the interpreter released, until it succeeds or fails. Returns `Ok(None)` when the time is
+/// over.
 ///
 /// Each attempt gets the time that it may wait; it returns `Ok(None)` if that was not enough.
 pub(crate) fn wait<T: Send>(

@@ -30,8 +30,8 @@ inline constexpr bool is_byte_container<
 
 } // namespace detail
 
-/// Bytes that belong to somebody else, for the duration of a call: made from strings, string views, and any container
-/// or array of `char`, `unsigned char` or `std::byte`.
+/// Borrowed bytes, for the duration of a call: made from strings, string views, and any container or array of `char`,
+/// `unsigned char` or `std::byte`.
 class BytesView {
   public:
     constexpr BytesView() noexcept = default;
@@ -52,7 +52,7 @@ class BytesView {
     std::size_t size_ = 0;
 };
 
-/// A received message as bytes, which it owns: those that the library received, without a copy.
+/// A received message as bytes. It owns the bytes that the library received, without a copy.
 class Bytes {
   public:
     Bytes() noexcept = default;

@@ -1,5 +1,5 @@
-/// Codecs: how messages become bytes. Those of bytes and plain structs are here; `scl/protobuf.hpp` and `scl/json.hpp`
-/// have those that need libprotobuf.
+/// Codecs: encoding messages into bytes and decoding them. The codecs of bytes and plain structs are here; the ones
+/// that need libprotobuf are in `scl/protobuf.hpp` and `scl/json.hpp`.
 #pragma once
 
 #include <scl/bytes.hpp>
@@ -14,7 +14,7 @@
 
 namespace scl {
 
-/// The format of a message type by itself: protobuf for protobuf messages, the bytes as they are for bytes.
+/// The default format of a message type: protobuf for protobuf messages, unchanged bytes for bytes.
 struct Native;
 /// The bytes of a trivially copyable struct in memory, as `codec: raw` in the topology file.
 struct Raw;
@@ -27,15 +27,15 @@ template <class...> inline constexpr bool never = false;
 
 } // namespace detail
 
-/// How messages of a type become bytes in a format. Specialise it for a type of your own:
+/// Encodes and decodes messages of a type in a format. Specialise it for a type of your own:
 ///
 ///     template <> struct scl::Codec<Position> {
-///         /// Returns the bytes to send: those of `buffer`, which is empty and is reused, or of `position` itself.
+///         /// Returns the bytes to send: in `buffer`, which is empty and is reused, or in `position` itself.
 ///         static scl::BytesView encode(const Position& position, std::string& buffer);
 ///         static Position decode(scl::Bytes bytes);
 ///     };
 ///
-/// Both report what they cannot do by throwing, `scl::EncodeError` and `scl::DecodeError` or any other exception.
+/// Both report failures by throwing `scl::EncodeError` and `scl::DecodeError`, or any other exception.
 template <class T, class Format = Native, class Enable = void> struct Codec {
     static_assert(detail::never<T>, "scl: no codec turns messages of this type into bytes. For a protobuf message "
                                     "include <scl/protobuf.hpp> (or <scl/json.hpp>); for a type of your own "
@@ -86,7 +86,7 @@ template <class T> struct Codec<T, Raw, std::enable_if_t<std::is_class_v<T> && s
 
 namespace detail {
 
-/// What a gate of `T` sends: bytes of any origin at a gate of bytes.
+/// What a gate of `T` sends; at a gate of bytes, any bytes.
 template <class T> using sent_t = std::conditional_t<std::is_same_v<T, Bytes>, BytesView, T>;
 
 } // namespace detail

@@ -13,7 +13,7 @@
 
 namespace scl::detail {
 
-/// Memory of the thread for the next message, or nullptr while its thread-local objects are destroyed: static objects may
+/// The thread's buffer for the next message, or nullptr once the thread-local objects are destroyed: static objects may
 /// send in their destructors.
 inline std::string* spare_memory() noexcept {
     thread_local bool is_destroyed = false;
@@ -34,7 +34,7 @@ scl_status encode(const sent_t<T>& message, const std::string& gate, Use&& use) 
     constexpr std::size_t kept = 1 << 20;
     std::string buffer;
     if (std::string* spare = spare_memory()) {
-        // Taken, because a codec may itself send through another gate.
+        // Moved out, because a codec may itself send through another gate.
         buffer = std::move(*spare);
         buffer.clear();
     }
@@ -53,8 +53,8 @@ scl_status encode(const sent_t<T>& message, const std::string& gate, Use&& use) 
     return status;
 }
 
-/// Decodes what a gate received, by `Codec<T, Format>::decode(bytes)`. If that fails, it is reported to the gate, with
-/// `request` if it is one. Returns nothing if it is to be skipped.
+/// Decodes a received message with `Codec<T, Format>::decode(bytes)`. Reports a failure to the gate, with `request` if
+/// the message is a request. Returns nothing if the message is to be skipped.
 template <class T, class Format, class Source>
 std::optional<T> decode(Source&& bytes, scl_gate* handle, scl_request* request = nullptr) {
     try {
@@ -69,8 +69,8 @@ std::optional<T> decode(Source&& bytes, scl_gate* handle, scl_request* request =
     }
 }
 
-/// Makes a call that returns a status or throws an error of a codec, which may itself use gates, and stores either as a code. Returns whether there
-/// was none.
+/// Makes a call that returns a status or throws an error of a codec, which may itself use gates, and stores either as a
+/// code. Returns true if there was no error.
 template <class Call> bool attempt(std::error_code& error, Call&& call) {
     try {
         scl_status status = call();

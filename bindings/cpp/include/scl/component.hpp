@@ -19,10 +19,9 @@
 
 namespace scl {
 
-/// An open component, the base of those that `scl generate --for cpp` writes.
+/// An open component, the base of the components that `scl generate --for cpp` writes.
 ///
-/// Destroying it waits up to a second until the peers that are running have taken everything; what is left then is
-/// noted in the log.
+/// Destroying it waits up to a second until running peers have taken everything; the log says what is left then.
 class Component {
   public:
     /// Opens a component from a plan, the text that `scl plan` prints: registers it in the runtime folder and opens its
@@ -120,7 +119,7 @@ class Component {
     }
 
     void destroy() noexcept {
-        // What a unit test leaves unread is worth no time and no warning.
+        // Messages that a unit test leaves unread are neither waited for nor reported.
         if (finish(linger_) != SCL_OK && linger_ > 0) {
             detail::log_warning(scl_error());
         }

@@ -10,12 +10,12 @@
 
 namespace scl {
 
-/// The kinds of errors. `std::error_code` values of SCL compare equal to them: `if (error == scl::Errc::stopped)`. Those that
-/// the operating system knows, too, also compare equal to `std::errc`: `if (error == std::errc::timed_out)`.
+/// The kinds of errors. `std::error_code` values of SCL compare equal to them: `if (error == scl::Errc::stopped)`.
+/// Kinds that the operating system also has compare equal to `std::errc`, too: `if (error == std::errc::timed_out)`.
 enum class Errc : int {
     /// The queue of a peer with `when_full: wait` is full; nothing was sent.
     full = SCL_FULL,
-    /// The time limit is over.
+    /// The time limit has expired.
     timeout = SCL_TIMEOUT,
     /// The program was asked to stop by SIGTERM or SIGINT.
     stopped = SCL_STOPPED,
@@ -74,7 +74,7 @@ template <> struct std::is_error_code_enum<scl::Errc> : std::true_type {};
 
 namespace scl {
 
-/// What an error is among those of the operating system, to which `std::errc` belongs.
+/// Returns the corresponding error of the operating system, to which `std::errc` belongs.
 inline std::error_condition make_error_condition(Errc error) noexcept {
     return make_error_code(error).default_error_condition();
 }
@@ -84,7 +84,7 @@ inline bool operator==(std::errc system, Errc own) noexcept { return own == syst
 inline bool operator!=(Errc own, std::errc system) noexcept { return !(own == system); }
 inline bool operator!=(std::errc system, Errc own) noexcept { return !(own == system); }
 
-/// The base of all exceptions of SCL but `Stopped`. `what()` names component, gate and peer, and says what to do.
+/// The base of all exceptions of SCL except `Stopped`. `what()` names component, gate and peer, and says what to do.
 class Error : public std::runtime_error {
   public:
     Error(Errc code, const std::string& text) : std::runtime_error(text), code_(code) {}
@@ -98,7 +98,7 @@ class Error : public std::runtime_error {
 
 namespace detail {
 
-/// An exception class of its own for one kind of error.
+/// The exception class for one kind of error.
 template <Errc own> class ErrorOf : public Error {
   public:
     static constexpr Errc kind = own;
@@ -182,12 +182,12 @@ inline const char* last_error() noexcept { return scl_error(); }
 
 namespace detail {
 
-/// What an error code says of a kind of error.
+/// What error codes say about a kind of error.
 struct Meaning {
     Errc kind;
-    /// nullptr for the name of the status.
+    /// If nullptr, the name of the status is used.
     const char* text;
-    /// The same among the errors of the operating system, or nothing.
+    /// The corresponding error of the operating system, or none.
     std::errc system;
 };
 
@@ -251,7 +251,7 @@ template <class... Classes> void raise_one_of(Errc kind, const std::string& text
     throw Error(kind, text);
 }
 
-/// The status of a call to something of the program, with a text that names it where the C library knows a handle only.
+/// Returns the status of a call. If the C library knows only the handle, sets a text that names the object.
 inline scl_status named(scl_status status, const char* what, const std::string& name) {
     if (status != SCL_HANDLE && status != SCL_BUSY) {
         return status;
@@ -268,7 +268,7 @@ inline void check(scl_status status) {
     }
 }
 
-/// Throws if the library is of another version than the headers.
+/// Throws if the library has a different version than the headers.
 inline void check_library() {
     if (scl_abi() != SCL_ABI) {
         raise(Errc::failed, "this program was compiled with version " + std::to_string(SCL_ABI) +

@@ -1,4 +1,4 @@
-/// What all gates have in common.
+/// The base of all gates.
 #pragma once
 
 #include <scl.h>
@@ -32,10 +32,10 @@ class Gate : public detail::OtherKinds {
         return *this;
     }
 
-    /// The gate's name with that of its component: `sensor.measurements`.
+    /// The full name of the gate, with its component: `sensor.measurements`.
     const std::string& name() const noexcept { return name_; }
 
-    /// Returns true if all required peers are connected; of `pull` and `rep` gates, if at least one peer is.
+    /// Returns true if all required peers are connected; for `pull` and `rep` gates, if at least one peer is.
     bool is_connected() const noexcept { return scl_is_connected(handle_); }
 
     /// The gate's counts as JSON text, which `scl_stats` in `scl.h` describes.
@@ -44,7 +44,7 @@ class Gate : public detail::OtherKinds {
         std::size_t length = 0;
         scl_status status = SCL_OK;
         while ((status = scl_stats(handle_, json.data(), json.size(), &length)) == SCL_BUFFER) {
-            // With some room for counts that grow meanwhile.
+            // With some room for counts that grow in the meantime.
             json.resize(2 * length);
         }
         require(told(status));
@@ -69,7 +69,7 @@ class Gate : public detail::OtherKinds {
 
     ~Gate() = default;
 
-    /// The status of a call to this gate, with a text that names it.
+    /// Returns the status of a call to this gate, with a text that names the gate.
     scl_status told(scl_status status) const { return detail::named(status, "gate", name_); }
 
     /// Throws the exception of a status unless it is `SCL_OK`.

@@ -1,4 +1,4 @@
-/// The codec `json` for protobuf messages, by libprotobuf.
+/// The codec `json` for protobuf messages, using libprotobuf.
 #pragma once
 
 #include <scl/codec.hpp>
@@ -27,7 +27,7 @@ inline bool is_enum_value(const google::protobuf::EnumDescriptor& values, const 
     return number == static_cast<int>(number) && values.FindValueByNumber(static_cast<int>(number)) != nullptr;
 }
 
-/// Throws for names of enum values that the schema does not have. libprotobuf takes them for 0 where it skips unknown
+/// Throws for names of enum values that the schema does not have. libprotobuf reads them as 0 when it skips unknown
 /// fields.
 inline void refuse_unknown_enum_values(const google::protobuf::Descriptor& type, const google::protobuf::Struct& object,
                                        const std::string& path);

@@ -1,4 +1,4 @@
-/// The components that are open, so that the end of the program can close them.
+/// The open components, so that they can be closed at the end of the program.
 #pragma once
 
 #include <scl.h>
@@ -32,7 +32,7 @@ class OpenComponents {
         components_.erase(std::remove(components_.begin(), components_.end(), component), components_.end());
     }
 
-    /// Calls of other threads to their gates end with an error.
+    /// Closes all open components. Calls of other threads to their gates end with an error.
     void close_all() noexcept {
         std::vector<scl_component*> components;
         {

@@ -7,20 +7,20 @@
 
 namespace scl {
 
-/// Options for opening a component. What is not set comes from the environment.
+/// Options for opening a component. Unset options come from the environment.
 struct Options {
-    /// The folder in which the programs meet; else `SCL_RUNTIME_DIR`.
+    /// The runtime folder; default: `SCL_RUNTIME_DIR`.
     std::optional<std::string> runtime_dir;
-    /// The name of the system; else `SCL_SYSTEM`, or that of the topology file.
+    /// The name of the system; default: `SCL_SYSTEM`, or the name in the topology file.
     std::optional<std::string> system;
-    /// `ipc`, `tcp` or `shm`, or a list with others for single connections, like `ipc,camera.frames=shm`; else
+    /// `ipc`, `tcp` or `shm`, or a list with exceptions for single connections, like `ipc,camera.frames=shm`; default:
     /// `SCL_TRANSPORT`.
     std::optional<std::string> transport;
     /// Whether SIGTERM and Ctrl-C request a stop, and an uncaught `scl::Error` ends the program with a message and an
     /// exit code instead of `abort`.
     bool signals = true;
 
-    /// The options as the C interface wants them.
+    /// The options as JSON for the C interface.
     std::string to_json() const {
         std::string json = signals ? R"({"signals":true)" : R"({"signals":false)";
         append(json, "runtime_dir", runtime_dir);

@@ -1,4 +1,4 @@
-/// What the compiler says about calls that a gate does not have because it is of another kind.
+/// Compile errors for calls that only gates of other kinds have.
 #pragma once
 
 #include <scl/codec.hpp>
@@ -35,7 +35,7 @@ template <class... Arguments> struct RepliesToNothing {
     static constexpr int value = 0;
 };
 
-/// The base of all gates. A gate hides those functions that it has itself.
+/// The base of all gates. A gate hides the functions that it has itself.
 class OtherKinds {
   public:
     template <class... Arguments> int send(Arguments&&...) { return SendsNothing<Arguments...>::value; }

@@ -1,4 +1,4 @@
-/// The codec `protobuf`, by libprotobuf.
+/// The codec `protobuf`, using libprotobuf.
 #pragma once
 
 #include <scl/codec.hpp>

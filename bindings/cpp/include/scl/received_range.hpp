@@ -10,7 +10,7 @@
 
 namespace scl::detail {
 
-/// A base of all gates that messages or requests arrive at.
+/// A base of all gates that receive messages or requests.
 struct Receives {};
 
 /// The end of a range of received messages: a stop request, or a closed component.
@@ -40,7 +40,7 @@ template <class Gate> class ReceivedIterator {
 
   private:
     void next() {
-        // First, so that a request that was not answered is given up before the next one is awaited.
+        // First, so that an unanswered request is given up before the next one is awaited.
         message_.reset();
         scl_status status = gate_->receive(message_, TimeLimit::none());
         if (status != SCL_STOPPED && status != SCL_CLOSED && status != SCL_HANDLE) {

@@ -8,13 +8,15 @@
 
 namespace scl::detail {
 
-/// What gates have in common that receive messages or requests: `Kind`, which has `receive_one`, and what it receives.
+/// The base of all gates that receive messages or requests. `Kind` has `receive_one`, which receives an `Item`.
 template <class Kind, class Item> class Receiver : public Gate, public Receives {
   public:
     /// Waits for the next message or request. At a gate with `queue: 1` a message is always the newest one.
     ///
-    /// What the codec cannot read is counted and skipped; a gate with `undecodable: fail` throws `DecodeError`, and the next
-    /// call returns what comes next. The sender of such a request gets no reply. Throws `Stopped` after a stop request.
+    /// Messages that the codec cannot read are counted and skipped; a gate with `undecodable: fail` throws
+    /// `DecodeError`, and the next call returns the next message. The call of a requester that sent one fails
+    /// with `Refused`. Throws
+    /// `Stopped` after a stop request.
     Item recv() {
         std::optional<Item> received;
         require(receive(received, TimeLimit::none()));
@@ -31,10 +33,10 @@ template <class Kind, class Item> class Receiver : public Gate, public Receives 
     /// Returns the next message or request if one has arrived.
     std::optional<Item> try_recv() { return recv(std::chrono::nanoseconds::zero()); }
 
-    /// `recv` that reports errors as codes; it returns something exactly if there is no error.
+    /// `recv` that reports errors as codes; it returns a value exactly if there is no error.
     std::optional<Item> recv(std::error_code& error) { return recv(TimeLimit::none(), error); }
 
-    /// Nothing in time is no error.
+    /// It is not an error if nothing arrives in time.
     std::optional<Item> recv(TimeLimit limit, std::error_code& error) {
         std::optional<Item> received;
         attempt(error, [&] { return receive(received, limit); });
@@ -62,7 +64,7 @@ template <class Kind, class Item> class Receiver : public Gate, public Receives 
     scl_status receive(std::optional<Item>& received, TimeLimit limit) const {
         std::int64_t timeout = limit.nanoseconds();
         scl_status status = SCL_OK;
-        // Until something is not to be skipped.
+        // Until an item is not skipped.
         while (status == SCL_OK && !received) {
             status = static_cast<const Kind&>(*this).receive_one(received, timeout);
             timeout = SCL_REST;

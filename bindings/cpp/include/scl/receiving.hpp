@@ -69,8 +69,8 @@ template <class T, class Format = Native> class Sub : public detail::ReceivingGa
     template <class Other, std::enable_if_t<std::is_same_v<Other, Bytes> && !std::is_same_v<T, Bytes>, int> = 0>
     explicit Sub(Sub<Other>&& bytes) noexcept : detail::ReceivingGate<T, Format>(static_cast<Gate&&>(bytes)) {}
 
-    /// How old the message is that the last call returned, if its publisher has `latched: true` and had sent it before this
-    /// gate was connected to it; nothing for every other message.
+    /// The age of the message that the last call returned, if its publisher has `latched: true` and had sent it before
+    /// this gate was connected to it; nothing for every other message.
     std::optional<std::chrono::nanoseconds> latched_age() const noexcept {
         const std::int64_t age = scl_latched_age(this->handle());
         return age < 0 ? std::nullopt : std::optional(std::chrono::nanoseconds(age));

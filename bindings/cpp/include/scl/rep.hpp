@@ -11,11 +11,11 @@ namespace scl {
 
 template <class A, class B, class Format> class Rep;
 
-/// A request and its way back. It may be answered later than others, and by another thread than the one that received
-/// it.
+/// A request and the way back to its sender. It may be answered later than others, and by a different thread than the
+/// one that received it.
 ///
-/// A request that is destroyed without an answer, for example by an exception, is noted in the log; its sender waits
-/// until its timeout.
+/// If a request is destroyed without an answer, for example by an exception, that is logged; its sender waits until its
+/// timeout.
 template <class A, class B, class Format = Native> class Request {
   public:
     Request(Request&&) = default;
@@ -33,7 +33,7 @@ template <class A, class B, class Format = Native> class Request {
 
     /// Sends the reply. It never waits. A request is answered once: the next call throws `Error` (`Errc::handle`).
     ///
-    /// Throws `RequesterGone` if nobody waits for the reply any more, which a replier may well ignore; `TooLong` if the
+    /// Throws `RequesterGone` if the requester no longer waits, which a replier may well ignore; `TooLong` if the
     /// requester does not accept a reply of this length; and `EncodeError`, after which another reply may be
     /// sent, unless it says that a text is not UTF-8.
     void reply(const detail::sent_t<B>& reply) {

@@ -5,8 +5,8 @@
 
 namespace scl {
 
-/// Sends requests of type `A` to a `rep` gate and receives replies of type `B`, one at a time: a gate serves one thread,
-/// also with `in_flight`. For several calls at once, declare several gates.
+/// Sends requests of type `A` to a `rep` gate and receives replies of type `B`, one at a time: a gate serves one
+/// thread, even with `in_flight`. For several calls at once, declare several gates.
 template <class A, class B, class Format = Native> class Req : public Gate {
   public:
     using Request = A;
@@ -19,10 +19,11 @@ template <class A, class B, class Format = Native> class Req : public Gate {
     explicit Req(Req<Other, Other>&& bytes) noexcept : Gate(std::move(bytes)) {}
 
     /// Sends a request and waits for the reply, together no longer than the `timeout` of the gate in the topology file.
-    /// A replier that is not connected yet, or that restarts, is waited for within that time.
+    /// Within that time, it waits for a replier that is not connected yet or restarts.
     ///
     /// Throws `Timeout`, `PeerLost` if the replier disconnected after the request was sent, `Refused` if it could not
-    /// decode the request, `TooLong`, `EncodeError`, `DecodeError`, and `Stopped` after a stop request. Whatever it throws, the next call starts afresh.
+    /// decode the request, `TooLong`, `EncodeError`, `DecodeError`, and `Stopped` after a stop request. Whatever it
+    /// throws, the next call starts afresh.
     B call(const detail::sent_t<A>& request) { return call(request, TimeLimit::none()); }
 
     /// `call` with a shorter time limit.

@@ -20,7 +20,7 @@ template <class T, class Format> class SendingGate : public Gate {
     /// `EncodeError`.
     void send(const sent_t<T>& message) { require(transmit(message, TimeLimit::none())); }
 
-    /// Sends a message, and throws `Full` if it would have to wait for longer than `limit`. Nothing was sent then.
+    /// Sends a message, and throws `Full` if it would have to wait for longer than `limit`; then nothing was sent.
     void send(const sent_t<T>& message, TimeLimit limit) { require(transmit(message, limit)); }
 
     /// Sends a message unless it would have to wait. Returns whether it was sent.
@@ -62,14 +62,14 @@ template <class T, class Format> class SendingGate : public Gate {
         scl_status status = encode<T, Format>(message, name(), [&](const void* data, std::size_t size) {
             return scl_send(handle(), data, size, limit.nanoseconds());
         });
-        // With a limit the C library says that the time is over; the reason is the same.
+        // With a limit, the C library reports a timeout; the reason is the same.
         return status == SCL_TIMEOUT ? SCL_FULL : told(status);
     }
 };
 
 } // namespace detail
 
-/// Sends messages to all subscribers. Those that start later or restart are connected by themselves.
+/// Sends messages to all subscribers. Subscribers that start later or restart connect by themselves.
 template <class T, class Format = Native> class Pub : public detail::SendingGate<T, Format> {
   public:
     using detail::SendingGate<T, Format>::SendingGate;

@@ -20,7 +20,7 @@ class TestEnd {
         }
     }
 
-    /// Where the C interface stores it.
+    /// Where the C interface stores the component.
     scl_component** result() noexcept { return &handle_; }
 
     scl_component* release() noexcept { return std::exchange(handle_, nullptr); }

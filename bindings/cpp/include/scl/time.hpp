@@ -8,17 +8,17 @@
 
 namespace scl {
 
-/// A time limit. Any `std::chrono` duration converts to it; negative ones are 0, and what is too long for a number of
-/// nanoseconds (292 years) is no limit.
+/// A time limit. Any `std::chrono` duration converts to it; negative ones become 0, and durations too long for a
+/// number of nanoseconds (292 years) mean no limit.
 class TimeLimit {
   public:
     template <class Rep, class Period>
     constexpr TimeLimit(std::chrono::duration<Rep, Period> time) noexcept : nanoseconds_(convert(time)) {}
 
-    /// Waits as long as it takes.
+    /// No limit.
     static constexpr TimeLimit none() noexcept { return TimeLimit(-1); }
 
-    /// As the C interface has it: negative is no limit.
+    /// For the C interface; negative means no limit.
     constexpr std::int64_t nanoseconds() const noexcept { return nanoseconds_; }
 
   private:

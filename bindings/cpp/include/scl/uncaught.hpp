@@ -1,4 +1,4 @@
-/// What happens to exceptions of SCL that nobody catches.
+/// What happens to uncaught exceptions of SCL.
 #pragma once
 
 #include <scl/error.hpp>
@@ -13,8 +13,8 @@
 
 namespace scl::detail {
 
-/// Ends the program as an error that a Rust program returns from `main`: after a stop request with exit code 0, else
-/// with a message and exit code 1, and only when the messages that were sent are flushed.
+/// Ends the program like an error that a Rust program returns from `main`: with exit code 0 after a stop request, else
+/// with a message and exit code 1, and only after sent messages are flushed.
 class UncaughtErrors {
   public:
     /// Installs the terminate handler, once.
@@ -39,7 +39,7 @@ class UncaughtErrors {
                 std::fprintf(stderr, "error: %s\n", error.what());
                 end(EXIT_FAILURE);
             } catch (...) {
-                // Not of SCL.
+                // Not an exception of SCL.
             }
         }
         if (std::terminate_handler handler = before()) {

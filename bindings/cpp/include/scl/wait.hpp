@@ -25,7 +25,7 @@ scl_status wait(TimeLimit limit, std::bitset<sizeof...(Gates)>& ready, const Gat
     scl_status status = scl_wait(components[0], handles, sizeof...(Gates), limit.nanoseconds(), &bits);
     ready = std::bitset<sizeof...(Gates)>(bits);
     if (status == SCL_HANDLE) {
-        // The component is closed, and with it all of them.
+        // The component is closed, and with it all its gates.
         return named(status, "gate", *names[0]);
     }
     return status == SCL_TIMEOUT || status == SCL_NOTHING ? SCL_OK : status;
@@ -34,7 +34,7 @@ scl_status wait(TimeLimit limit, std::bitset<sizeof...(Gates)>& ready, const Gat
 } // namespace detail
 
 /// Waits until at least one of the gates has something to receive, and returns which: bit 0 is the first gate. No bit
-/// is set if `limit` is over.
+/// is set if `limit` expires.
 ///
 /// The gates belong to one component. Throws `Stopped` after a stop request.
 template <class... Gates> std::bitset<sizeof...(Gates)> wait(TimeLimit limit, const Gates&... gates) {
@@ -43,7 +43,7 @@ template <class... Gates> std::bitset<sizeof...(Gates)> wait(TimeLimit limit, co
     return ready;
 }
 
-/// `wait` as long as it takes.
+/// `wait` without a time limit.
 template <class... Gates, std::enable_if_t<(std::is_base_of_v<Gate, Gates> && ...), int> = 0>
 std::bitset<sizeof...(Gates)> wait(const Gates&... gates) {
     return wait(TimeLimit::none(), gates...);

@@ -16,7 +16,7 @@ from scl._gates import Gate, Pub, Pull, Push, Rep, Req, Sub
 from scl._loop import Loops
 from scl._suggest import did_you_mean
 
-# `ipc`, `tcp` or `shm`, or a list with others for single connections, like `ipc,camera.frames=shm`.
+# `ipc`, `tcp` or `shm`, or a list with exceptions for single connections, like `ipc,camera.frames=shm`.
 Transport: TypeAlias = str
 
 _KINDS: dict[str, type[Any]] = {"pub": Pub, "sub": Sub, "req": Req, "rep": Rep, "push": Push, "pull": Pull}
@@ -25,17 +25,17 @@ Facts = dict[str, tuple[str, list[codec.Codec]]]
 """The attribute and the codecs of each gate."""
 
 _FIELDS = frozenset({"_native", "_gates", "_attributes", "_readiness"})
-"""What a component keeps beside its gates."""
+"""The attributes of a component other than its gates."""
 
 _STEP = 0.2
-"""How long a task that waits for peers keeps a thread after it was cancelled, in seconds."""
+"""Longest time, in seconds, for which a cancelled wait for peers still occupies a thread."""
 
 
 class Component:
     """A component whose gates are attributes. Generated classes derive from it, and `open` returns one."""
 
     _has_own_attributes: ClassVar[bool] = False
-    """Whether it is a class of the program, which may have any attributes."""
+    """Whether the class is defined by the program, so that it may have any attributes."""
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
@@ -53,11 +53,11 @@ class Component:
     ) -> None:
         """Opens the component `name` of a plan, the JSON text of `scl plan`.
 
-        What is not given comes from the environment: `SCL_RUNTIME_DIR`, `SCL_SYSTEM` and `SCL_TRANSPORT`. With
+        Missing options come from the environment: `SCL_RUNTIME_DIR`, `SCL_SYSTEM` and `SCL_TRANSPORT`. With
         `signals`, SIGTERM and SIGINT ask the program to stop, unless the program has handlers of its own.
         """
         plan = _native.Plan(plan) if isinstance(plan, str) else plan
-        # Before anything is opened: no peer sees a component that cannot run.
+        # Before opening, so that no peer sees a component that cannot run.
         facts = facts_of(plan, name)
         _process.prepare(signals)
         self._adopt(
@@ -66,7 +66,7 @@ class Component:
 
     @classmethod
     def _of(cls, native: _native.Component, facts: Facts) -> Self:
-        """A component that is open already."""
+        """Wraps a component that is already open."""
         component = cls.__new__(cls)
         component._adopt(native, facts)
         return component
@@ -108,7 +108,7 @@ class Component:
 
         began = time.monotonic()
         while True:
-            # In steps, so that little is left behind by a task that is cancelled.
+            # In steps, so that a cancelled task soon frees its thread.
             waited = time.monotonic() - began
             left = _STEP if timeout is None else max(0.0, timeout - waited)
             try:
@@ -120,14 +120,14 @@ class Component:
     def wait(self, *gates: Gate, timeout: float | None = None) -> list[Gate]:
         """Waits until at least one of these gates has a message or a request, and returns those that have.
 
-        Without gates, all that receive are meant. After `timeout` seconds the list is empty.
+        Without arguments, waits for all receiving gates. Returns an empty list after `timeout` seconds.
         """
         chosen = gates or tuple(it for it in self._gates.values() if it.kind in ("sub", "pull", "rep"))
         ready = self._native.wait([it._native for it in chosen], timeout)
         return [chosen[index] for index in ready]
 
     def fileno(self) -> int:
-        """Returns a file descriptor for `select` and its like: readable while any gate has a message or a request.
+        """Returns a file descriptor for `select` and similar calls: readable while any gate has a message or a request.
 
         Take them with `try_recv`; do not read from the descriptor. It is closed with the component.
         """
@@ -138,8 +138,8 @@ class Component:
     def close(self, timeout: float | None = 1.0) -> None:
         """Waits until every peer that is running has taken all messages, then closes.
 
-        Raises `NotFlushed` after `timeout` seconds; the component is closed then, too. Calls of other threads end with
-        `Closed`, loops over gates end. Closing twice is no error.
+        Raises `NotFlushed` after `timeout` seconds; the component is closed nevertheless. Calls in other threads raise
+        `Closed`, loops over gates end. Closing twice is not an error.
         """
         self._native.close(timeout)
 
@@ -175,7 +175,7 @@ class Component:
         def __setattr__(self, name: str, value: object) -> None:
             if name in self.__dict__.get("_attributes", ()):
                 raise AttributeError(f"gate `{self._native.name}.{name}` cannot be replaced", name=name, obj=self)
-            # A misspelt gate would become an attribute of its own.
+            # Otherwise a misspelt gate would become a new attribute.
             if not (self._has_own_attributes or name in _FIELDS or hasattr(type(self), name)):
                 hint = did_you_mean(name, dir(self))
                 raise AttributeError(f"component `{self.name}` has no attribute `{name}`{hint}", name=name, obj=self)
@@ -210,7 +210,7 @@ def open(
     transport: Transport | None = None,
     signals: bool = True,
 ) -> DynamicComponent:
-    """Checks a topology file, with the words of `scl check`, and opens one of its components.
+    """Checks a topology file, with the same messages as `scl check`, and opens one of its components.
 
     Raises `TopologyError` if the file has errors. The other arguments are those of `Component`.
     """
@@ -231,7 +231,7 @@ def open_plan(
     transport: Transport | None = None,
     signals: bool = True,
 ) -> DynamicComponent:
-    """As `open`, with the plans that `scl plan` printed instead of the topology file."""
+    """Like `open`, but takes the plans that `scl plan` printed instead of a topology file."""
     plans = _native.Plan(plan)
     return described(DynamicComponent, plans, component)(
         plans, component, runtime_dir=runtime_dir, system=system, transport=transport, signals=signals
@@ -253,14 +253,14 @@ def described(base: type[C], plan: _native.Plan, component: str) -> type[C]:
 
 
 def _attribute_of(gate: str) -> str:
-    """Returns the attribute for a gate, from its name in snake case: other names where Python or the class uses that one."""
+    """Returns the attribute for a gate's name in snake case, altered if it is a keyword or a name of the class."""
     if keyword.iskeyword(gate) or (hasattr(Component, gate) and not gate.startswith("_")):
         return f"{gate}_"
     return f"gate{gate}" if gate.startswith("_") else gate
 
 
 def facts_of(plan: _native.Plan, component: str) -> Facts:
-    """Returns the attribute and the codecs of each gate: one codec, or those of request and reply."""
+    """Returns the attribute and the codecs of each gate: one codec, or one each for request and reply."""
     messages = codec.messages_of_descriptors(plan.schemas) if plan.schemas else None
     facts = {}
     for name, snake_name, kind, word, types, peers in plan.gates(component):

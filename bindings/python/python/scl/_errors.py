@@ -32,7 +32,7 @@ __all__ = [
 
 
 class Error(Exception):
-    """The base of all exceptions of this package but `Stopped`."""
+    """The base of all exceptions of this package except `Stopped`."""
 
 
 class TopologyError(Error):
@@ -40,7 +40,7 @@ class TopologyError(Error):
 
 
 class PlanError(Error):
-    """The plan is damaged, of another version of its format, or contradicts itself."""
+    """The plan is damaged, has another format version, or contradicts itself."""
 
 
 class UnknownComponent(Error, LookupError):
@@ -60,11 +60,11 @@ class UnknownGate(Error, AttributeError):
 
 
 class WrongDirection(Error, AttributeError):
-    """The gate has no such call, because of its kind."""
+    """A gate of this kind has no such call."""
 
 
 class Timeout(Error, TimeoutError):
-    """The time limit of a call is over."""
+    """The time limit of a call has expired."""
 
 
 class NotReady(Timeout):
@@ -99,7 +99,7 @@ class Refused(Error, ValueError):
 
 
 class NoneReceived(Error, ValueError):
-    """`try_recv` or `latest` took the message `None`, which they return for no message. Give them another value for that."""
+    """`try_recv` or `latest` took the message `None`, which also stands for no message. Give them another default."""
 
 
 class PeerLost(Error, ConnectionError):
@@ -111,7 +111,7 @@ class RequesterGone(Error, ConnectionError):
 
 
 class Answered(Error, RuntimeError):
-    """The request was answered before."""
+    """The request was already answered."""
 
 
 class Busy(Error, RuntimeError):

@@ -35,7 +35,7 @@ _CALLS = ("send", "send_async", "recv", "recv_async", "try_recv", "latest", "cal
 
 
 class Gate:
-    """What all gates have in common."""
+    """The base of all gates."""
 
     __slots__ = ("_awaited", "_loops", "_native")
 
@@ -48,7 +48,7 @@ class Gate:
         self._set(_native=native, _loops=loops, _awaited=False)
 
     def _set(self, **attributes: object) -> None:
-        """Sets attributes, which a program cannot."""
+        """Sets attributes, which `__setattr__` refuses to programs."""
         for name, value in attributes.items():
             object.__setattr__(self, name, value)
 
@@ -124,8 +124,8 @@ class _Sender(Gate, Generic[T]):
     def send(self, message: T, timeout: float | None = None) -> None:
         """Sends a message.
 
-        It waits only at a gate with `backpressure: true`, for a peer with `when_full: wait` whose queue is full: no
-        longer than `timeout` seconds, with 0 not at all. It raises `Full` then, and the message was sent to no peer.
+        It waits only at a gate with `backpressure: true`, for a peer with `when_full: wait` whose queue is full, for at
+        most `timeout` seconds; 0 does not wait. After that it raises `Full`, and the message was sent to no peer.
         """
         self._send(self._encode(message), timeout)
 
@@ -140,7 +140,7 @@ class _Sender(Gate, Generic[T]):
 
 
 class _Receiving(Gate, Generic[T]):
-    """What gates have in common that receive messages or requests."""
+    """The base of all gates that receive messages or requests."""
 
     __slots__ = ("_decode", "_poll", "_recv", "_try")
 
@@ -154,10 +154,10 @@ class _Receiving(Gate, Generic[T]):
         self._set(_decode=decode, _recv=native.recv, _poll=native.poll_recv, _try=native.try_recv)
 
     def recv(self, timeout: float | None = None) -> T:
-        """Waits for the next message or request, at most `timeout` seconds, with 0 not at all. Raises `Timeout` then.
+        """Waits for the next message or request. Raises `Timeout` after `timeout` seconds; 0 does not wait.
 
         A frame that does not decode is counted and skipped; at a gate with `undecodable: fail` it raises `DecodeError`.
-        Either way the call of a requester whose request it was raises `Refused`.
+        Either way, if it was a request, the requester's call raises `Refused`.
         """
         started, received = monotonic(), self._recv(timeout)
         while True:
@@ -180,7 +180,7 @@ class _Receiving(Gate, Generic[T]):
         return default
 
     async def recv_async(self, timeout: float | None = None) -> T:
-        """`recv` for asyncio. Cancel safe: a call that is cancelled has taken nothing."""
+        """`recv` for asyncio. Cancel safe: a cancelled call has taken nothing."""
         started, rest = monotonic(), timeout
         while True:
             received = await self._until(self._poll, rest, lambda: self._recv(0, timeout))
@@ -190,7 +190,7 @@ class _Receiving(Gate, Generic[T]):
                 self._skip(error, received)
             import asyncio
 
-            # Lets other tasks run, so that a stream of undecodable frames keeps none of them from it.
+            # Lets other tasks run even during a stream of undecodable frames.
             await asyncio.sleep(0)
             rest = _rest(timeout, started)
 
@@ -201,7 +201,7 @@ class _Receiving(Gate, Generic[T]):
             raise error
 
     def __iter__(self) -> Iterator[T]:
-        """Yields what arrives until the component is closed or SIGTERM asks the program to stop."""
+        """Yields what arrives until the component is closed or a stop is requested."""
         while True:
             try:
                 received = self.recv()
@@ -238,7 +238,7 @@ class _Receiver(_Receiving[T]):
     def try_recv(self, default: Any = _NOT_GIVEN) -> Any:
         """Returns the next message if one has arrived, else `default`, or `None`.
 
-        Raises `NoneReceived` without a `default` if the message itself is `None`, which only plain values can be.
+        Without a `default`, raises `NoneReceived` if the message itself is `None`, which only plain values can be.
         """
         return self._unambiguous("try_recv", self._try_next(_NOTHING), default)
 
@@ -247,7 +247,7 @@ class _Receiver(_Receiving[T]):
     @overload
     def latest(self, default: D) -> T | D: ...
     def latest(self, default: Any = _NOT_GIVEN) -> Any:
-        """Returns the newest message that has arrived and discards the older ones; as `try_recv`, if there is none."""
+        """Returns the newest message that has arrived and discards the older ones; as `try_recv` if there is none."""
         frame, newest = self._native.latest(), _NOTHING
         if frame is not None:
             try:
@@ -299,9 +299,9 @@ class Pull(_Receiver[T]):
 
 
 class Req(Gate, Generic[A, B]):
-    """Asks a replier.
+    """Sends requests to a replier.
 
-    Several tasks and threads may call at the same time. As many calls as the gate's `in_flight` says are in progress, by
+    Several tasks and threads may call at the same time. At most `in_flight` calls of the gate are in progress, by
     default one; the others wait, within their timeouts. Each reply is matched with its request.
     """
 
@@ -331,7 +331,7 @@ class Req(Gate, Generic[A, B]):
         """Sends a request and returns the reply.
 
         Raises `Timeout` after `timeout` seconds, by default the gate's `timeout`, `PeerLost` if the replier
-        disconnects after it got the request, and `Refused` if it could not decode the request.
+        disconnects after the request was sent, and `Refused` if it could not decode the request.
         """
         return self._decoded(self._call(self._encode(request), timeout))
 
@@ -339,7 +339,7 @@ class Req(Gate, Generic[A, B]):
         """`call` for asyncio. The reply to a call that is cancelled is discarded."""
         call = self._native.start_call(self._encode(request), timeout)
         try:
-            # The call has a time limit of its own.
+            # The call has its own time limit.
             reply = await self._loops.until(call.poll_reply, None, lambda: b"")
         finally:
             call.cancel()
@@ -363,10 +363,10 @@ class Request(Generic[A, B]):
         self._native = native
         self._encode = reply.encode
         self.message = message
-        """What was asked."""
+        """The message of the request."""
 
     def reply(self, message: B) -> None:
-        """Answers. It never waits."""
+        """Sends the reply. It never waits."""
         self._native.reply(self._encode(message))
 
     def __repr__(self) -> str:
@@ -396,5 +396,5 @@ class Rep(_Receiving[Request[A, B]], Generic[A, B]):
 
 
 def _rest(timeout: float | None, started: float) -> float | None:
-    """What is left of the timeout of a call that has skipped something."""
+    """Returns the rest of the timeout of a call that has skipped frames."""
     return None if timeout is None else max(0.0, timeout - (monotonic() - started))

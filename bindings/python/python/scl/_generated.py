@@ -32,7 +32,7 @@ class GeneratedComponent(Component):
     ) -> None:
         """Opens the component.
 
-        What is not given comes from the environment: `SCL_RUNTIME_DIR`, `SCL_SYSTEM` and `SCL_TRANSPORT`. With
+        Missing options come from the environment: `SCL_RUNTIME_DIR`, `SCL_SYSTEM` and `SCL_TRANSPORT`. With
         `signals`, SIGTERM and SIGINT ask the program to stop, unless the program has handlers of its own.
         """
         super().__init__(

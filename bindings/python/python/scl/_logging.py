@@ -16,7 +16,7 @@ from scl._errors import Closed, OpenError, Stopped
 
 _LEVELS = {"off": 255, "error": 40, "warn": 30, "info": 20, "debug": 10, "trace": 5}
 _REFRESH = 1.0
-"""How often the thread looks whether the level of the logger has changed, in seconds."""
+"""How often the thread checks whether the level of the logger has changed, in seconds."""
 
 _log = logging.getLogger("scl")
 _lock = threading.Lock()
@@ -24,7 +24,7 @@ _thread: threading.Thread | None = None
 
 
 def start() -> None:
-    """Starts to forward records. Sets the level that `SCL_LOG` says, if it is set."""
+    """Starts forwarding records, and sets the level of `SCL_LOG` if that variable is set."""
     global _thread
     _read_environment()
     if logging.getLevelName(_LEVELS["trace"]).startswith("Level"):
@@ -44,10 +44,10 @@ def restart() -> None:
 
 
 def end() -> None:
-    """Ends the thread, after it has forwarded what is there.
+    """Ends the thread, after it has forwarded the pending records.
 
-    It must not be in a handler when the interpreter ends, which waits for the handlers' locks. A handler that does not return is
-    not waited for.
+    The thread must not be in a handler when the interpreter ends, because the interpreter waits for the handlers'
+    locks. A handler that does not return delays the end by `_REFRESH` only.
     """
     if _thread is not None:
         _native.log_end()
@@ -55,7 +55,7 @@ def end() -> None:
 
 
 def drain() -> None:
-    """Forwards what is left, at the end of the program, unless a handler has not returned to the thread."""
+    """Forwards the remaining records at the end of the program, unless the thread is still in a handler."""
     if _thread is not None and not _thread.is_alive():
         _hand_over()
 
@@ -82,10 +82,10 @@ def forward(level: int, logger: logging.Logger, text: str) -> None:
     try:
         logger.log(level, "%s", text)
     except (Closed, Stopped):
-        # A handler that uses gates, when the program ends.
+        # From a handler that uses gates while the program ends.
         pass
     except Exception:  # noqa: BLE001
-        # A handler of the program failed. Later records go on.
+        # A handler of the program failed. Continue with later records.
         traceback.print_exc()
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from scl import _native, _wakeup
 
-# Imported where it is used: that takes longer than all else, and most programs do without.
+# Imported only where it is used: the import is slow, and most programs do not need it.
 if TYPE_CHECKING:
     import asyncio
 
@@ -27,7 +27,7 @@ class Waiters:
         _wakeup.wake_at_signals(loop)
 
     async def changed(self) -> None:
-        """Waits until the next event. The gate was polled before, without an `await` in between."""
+        """Waits until the next event. The caller must have polled the gate before, without an `await` in between."""
         import asyncio
 
         event = asyncio.get_running_loop().create_future()
@@ -39,7 +39,7 @@ class Waiters:
 
     def _wake(self) -> None:
         self.readiness.acknowledge()
-        # All are woken, because an event does not say which gate it is of. Each polls its own again.
+        # All are woken, because an event does not say which gate it belongs to. Each task polls its own gate again.
         for event in self._waiting:
             if not event.done():
                 event.set_result(None)
@@ -58,7 +58,7 @@ class Loops:
     async def until(
         self, poll: Callable[[_native.Readiness], R | None], timeout: float | None, last: Callable[[], R]
     ) -> R:
-        """Polls until there is a result; when the time is over, makes a last attempt, which may raise `Timeout`.
+        """Polls until there is a result; after `timeout`, makes a last attempt, which may raise `Timeout`.
 
         Cancel safe: what a poll has taken is returned without an `await` in between.
         """

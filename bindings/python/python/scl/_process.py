@@ -1,4 +1,4 @@
-"""What the package does in a process besides calls: stop requests, log records, forks, the end of the interpreter."""
+"""What the package does in a process apart from calls: stop requests, log records, forks, interpreter exit."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ def close_at_exit(component: _native.Component) -> None:
 
 
 def close(component: _native.Component, *, quietly: bool) -> None:
-    """Closes a component; `quietly` if there is an exception already that tells more than a failed flush."""
+    """Closes a component; `quietly` if an exception is in flight, which says more than a failed flush."""
     stopping = _native.stop_requested()
     linger = _LAST_FLUSH if stopping else _LINGER
     try:
         component.close(0.0 if component.is_test else linger)
     except NotFlushed as error:
-        # What a unit test leaves unread is worth no time and no warning.
+        # Messages that a unit test leaves unread are neither waited for nor reported.
         if component.is_test:
             return
         if not (quietly or stopping):
@@ -52,7 +52,7 @@ def _at_exit() -> None:
     # First, while handlers of log records can still use gates.
     with contextlib.suppress(KeyboardInterrupt):
         _logging.end()
-    # All threads but this one are daemon threads; from now on their calls end them.
+    # All threads but this one are daemon threads; from now on, their calls end them.
     _stopping.silence_asyncio()
     _native.exiting()
     for component in list(_open):

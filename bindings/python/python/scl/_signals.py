@@ -19,15 +19,16 @@ _DEFAULTS: dict[signal.Signals, Any] = {signal.SIGTERM: signal.SIG_DFL, signal.S
 """The signals that request a stop, with the handlers that Python starts with."""
 
 _waiting: set[asyncio.Future[None]] = set()
-"""What tasks wait for that a stop request wakes."""
+"""The futures of tasks that wait for a stop request."""
 
 
 def stop_requested() -> bool:
     """Returns true if SIGTERM or SIGINT (Ctrl-C) has asked the program to stop.
 
-    The program handles stop requests itself from the first call on: its gates go on working after the request, for
-    `SCL_STOP_WITHIN` (default `3s`). After that the program is ended, as by a second signal, half a second after the first or
-    later. A program that never calls this, nor `until_stopped`, ends at its next call to any gate, which raises `Stopped`.
+    The program handles stop requests itself from the first call on: its gates keep working after the request, for
+    `SCL_STOP_WITHIN` (default `3s`). After that the program is killed, as it is by a second signal half a second or
+    more after the first. A program that calls neither this nor `until_stopped` ends at its next call to any gate, which
+    raises `Stopped`.
     """
     _native.stop_handle()
     return _native.stop_requested()
@@ -40,7 +41,7 @@ async def wait_for_request() -> None:
     loop = asyncio.get_running_loop()
     _wakeup.wake_at_signals(loop)
     request = loop.create_future()
-    # Before the question, so that a request in between finds it.
+    # Registered before checking, so that no request is missed.
     _waiting.add(request)
     try:
         if not stop_requested():
@@ -51,7 +52,7 @@ async def wait_for_request() -> None:
 
 def watch() -> None:
     """Handles SIGTERM and SIGINT from now on, unless the program does, or this is not the main thread."""
-    # Fails if it is not understood, before anything is opened.
+    # Raises an error if `SCL_STOP_WITHIN` is invalid, before anything is opened.
     _native.stop_within()
     if threading.current_thread() is not threading.main_thread():
         return
@@ -71,7 +72,7 @@ def forget() -> None:
 def _stop(number: int, frame: FrameType | None) -> None:
     _native.stop_request(number, _watched())
     for request in tuple(_waiting):
-        # Of a loop that was closed.
+        # Raised if the event loop was closed.
         with contextlib.suppress(RuntimeError):
             request.get_loop().call_soon_threadsafe(_wake, request)
 
@@ -90,13 +91,13 @@ def _is_free(number: signal.Signals) -> bool:
     handler = signal.getsignal(number)
     if number == signal.SIGTERM:
         return handler is _DEFAULTS[number]
-    # At a prompt, Ctrl-C ends a statement and not the program.
+    # At a prompt, Ctrl-C interrupts the statement, not the program.
     is_at_prompt = hasattr(sys, "ps1") or bool(sys.flags.interactive)
     return not is_at_prompt and (handler is _DEFAULTS[number] or _is_of_asyncio(handler))
 
 
 def _is_of_asyncio(handler: Any) -> bool:
-    """Whether it is the handler that `asyncio.run` puts in the place of Python's."""
+    """Whether it is the handler that `asyncio.run` installs in place of Python's."""
     if "asyncio" not in sys.modules:
         return False
     import asyncio

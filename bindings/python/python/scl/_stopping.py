@@ -1,4 +1,4 @@
-"""What a stop request raises, so that it ends a program in order: scripts, threads, callbacks and asyncio tasks."""
+"""What a stop request raises to end a program cleanly: scripts, threads, callbacks and asyncio tasks."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ class StopExit(Stopped, SystemExit):
 def stopped(text: str) -> Stopped:
     """Returns the exception for a call that a stop request ends.
 
-    In an asyncio task it is no `SystemExit`, which would leave the event loop while other tasks are still running: what awaits
-    the task receives it.
+    In an asyncio task it is not a `SystemExit`, which would leave the event loop while other tasks are still running:
+    the code that awaits the task receives it.
     """
     loop = _running_loop()
     if loop is None:
@@ -48,19 +48,19 @@ def stopped(text: str) -> Stopped:
 
 
 def is_orderly(error: BaseException | None) -> bool:
-    """Returns true for `Stopped`, and for groups of nothing else, which task groups raise."""
+    """Returns true for `Stopped`, and for groups of only `Stopped`, which task groups raise."""
     if isinstance(error, BaseExceptionGroup):
         return all(is_orderly(one) for one in error.exceptions)
     return isinstance(error, Stopped)
 
 
 def silence_asyncio() -> None:
-    """Drops what asyncio would log about tasks that were stopped, or that the end of the interpreter ends."""
+    """Drops what asyncio would log about tasks ended by a stop request or by interpreter exit."""
     logging.getLogger("asyncio").addFilter(_is_about_errors)
 
 
 def handle_uncaught() -> None:
-    """Ends programs and threads that do not catch `Stopped` without a traceback, programs with exit code 0."""
+    """Ends programs and threads that do not catch `Stopped` without a traceback; programs exit with code 0."""
     if getattr(sys.excepthook, "__module__", None) == __name__:
         return
     previous, previous_of_threads = sys.excepthook, threading.excepthook
@@ -89,14 +89,14 @@ def _running_loop() -> asyncio.AbstractEventLoop | None:
 
 
 def _look_for_who_awaits(task: asyncio.Task[Any]) -> None:
-    # Half of the time that the program has: what is in order ends before, and what nobody awaits has the rest.
+    # After half of the grace period: awaited tasks have ended the program by then, and the rest is left for cleanup.
     task.get_loop().call_later(_native.stop_within() / 2, _leave_loop_unless_awaited, task)
 
 
 def _leave_loop_unless_awaited(task: asyncio.Task[Any]) -> None:
     import asyncio
 
-    # asyncio's own note for its message that an exception was never retrieved; reading the exception would erase it.
+    # asyncio's flag for its message that an exception was never retrieved; reading the exception would clear it.
     is_unawaited = getattr(task, "_log_traceback", False) and is_orderly(getattr(task, "_exception", None))
     if is_unawaited and any(not other.cancelling() for other in asyncio.all_tasks(task.get_loop())):
         raise StopExit("stop requested")

@@ -9,14 +9,14 @@ from scl._errors import Stopped
 
 
 async def until_stopped(*loops: Coroutine[Any, Any, object]) -> None:
-    """Runs loops at the same time until one of them ends, fails or a stop is requested, then cancels the others.
+    """Runs loops concurrently until one of them ends or fails or a stop is requested, then cancels the others.
 
     Without loops, it waits for a stop request. The program handles stop requests (SIGTERM and SIGINT) itself, as after
-    `stop_requested`: what follows can use gates, for `SCL_STOP_WITHIN`. From `asyncio.gather` and `TaskGroup`, `Stopped` leaves
-    `asyncio.run` and ends the program.
+    `stop_requested`: the code that follows can still use gates, for `SCL_STOP_WITHIN`. With `asyncio.gather` and
+    `TaskGroup`, `Stopped` leaves `asyncio.run` and ends the program.
 
-    Returns when all loops have ended. If loops fail, the exception of the first in the list is raised. Cancelling it
-    cancels the loops.
+    Returns when all loops have ended. If loops fail, raises the exception of the first of them in the list. Cancelling
+    this call cancels the loops.
     """
     tasks = [asyncio.ensure_future(_stop_in_order(loop)) for loop in (*loops, _signals.wait_for_request())]
     try:

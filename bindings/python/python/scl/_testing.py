@@ -43,7 +43,7 @@ class TestableComponent(GeneratedComponent, Generic[PEER]):
     def __init_subclass__(
         cls, *, plan: str | None = None, component: str | None = None, counterpart: type[Counterpart] | None = None
     ) -> None:
-        """Takes what the generated module says of the component. A program's own subclasses inherit it."""
+        """Takes the description from the generated module. A program's own subclasses inherit it."""
         super().__init_subclass__(plan=plan, component=component)
         if counterpart is not None:
             cls._counterpart = counterpart
@@ -53,7 +53,7 @@ class TestableComponent(GeneratedComponent, Generic[PEER]):
         """Opens the component for a unit test, together with the other ends of its gates.
 
         There are no processes, sockets or files, and signals are left alone. Queues, policies and timeouts are those of
-        the topology. Closing what has unread messages is no error.
+        the topology. Closing with unread messages is not an error.
         """
         # A class variable cannot have the type of a type parameter.
         counterpart = cast("type[PEER]", cls._counterpart)
@@ -77,7 +77,7 @@ def test(topology: str | os.PathLike[str], component: str) -> tuple[DynamicCompo
     )
 
 
-# Otherwise pytest would collect it where it is imported by its name.
+# Otherwise pytest would collect it in modules that import it by name.
 test.__test__ = False  # type: ignore[attr-defined]
 
 TESTED = TypeVar("TESTED", bound=Component)

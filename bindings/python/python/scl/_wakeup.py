@@ -1,7 +1,7 @@
 """Signals wake the event loop in which tasks wait for gates or for a stop request.
 
-Python runs its handlers of signals between two steps of Python code. A signal that arrives just before an event loop begins to
-wait is noticed when the wait ends, unless a file descriptor that the loop watches becomes readable at once.
+Python runs signal handlers between two steps of Python code. A signal that arrives just before an event loop starts to
+wait is noticed only when the wait ends, unless a file descriptor that the loop watches becomes readable at once.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
     import asyncio
 
 _pipe: tuple[int, int] | None = None
-"""What Python writes to when a signal arrives, with the end that loops watch. Open until the process ends."""
+"""The end that loops watch, and the end that Python writes to when a signal arrives. Open until the process ends."""
 
 _woken: weakref.WeakSet[asyncio.AbstractEventLoop] = weakref.WeakSet()
 """The event loops that watch the pipe."""
 
 
 def wake_at_signals(loop: asyncio.AbstractEventLoop) -> None:
-    """Lets signals wake the running event loop. In other threads than the main thread, no handlers run."""
+    """Lets signals wake the running event loop. Does nothing outside the main thread, where no handlers run."""
     global _pipe
     if threading.current_thread() is not threading.main_thread() or loop in _woken:
         return
@@ -37,7 +37,7 @@ def wake_at_signals(loop: asyncio.AbstractEventLoop) -> None:
         loop.add_reader(read, _drain, read)
         _woken.add(loop)
         return
-    # uvloop always has one of its own, the loops of asyncio after `add_signal_handler`.
+    # Restored: uvloop always sets its own descriptor, asyncio's loops do after `add_signal_handler`.
     signal.set_wakeup_fd(other)
     arrived = _drain(read)
     if arrived:
@@ -46,7 +46,7 @@ def wake_at_signals(loop: asyncio.AbstractEventLoop) -> None:
 
 
 def forget() -> None:
-    """Leaves the pipe to the parent in a forked child: both would read what is meant for one."""
+    """Leaves the pipe to the parent in a forked child: each would read the other's signals from it."""
     global _pipe
     if _pipe is not None:
         other = signal.set_wakeup_fd(-1)

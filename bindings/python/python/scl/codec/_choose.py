@@ -1,4 +1,4 @@
-"""Which codec a gate has."""
+"""Chooses the codec of a gate."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def codec_of(
 ) -> Codec:
     """Returns the codec for one direction of a gate.
 
-    `gate` is `component.gate`, for errors. `codec` and `name` are those of the plan: the codec's name, and the type, or
+    `gate` is `component.gate`, for errors. `codec` and `name` come from the plan: the codec's name, and the type, or
     `None` for bytes. `messages` are the schemas, if the component has any. `peers` are the gates from which frames
     arrive.
 
@@ -48,14 +48,14 @@ def _bytes(owner: Owner) -> Codec:
             raise refused(value, error) from error
         if "O" in view.format:
             raise TypeError(f"gate `{owner.gate}` carries bytes, not {kind_of(value)} of Python objects")
-        # Elements that are not contiguous are copied in their order, as `tobytes` of an array does it.
+        # Non-contiguous elements are copied in index order, as by an array's `tobytes`.
         return view.tobytes()
 
     def refused(value: object, error: Exception) -> TypeError:
         if isinstance(value, str):
             hint = "; use its method `encode` first"
         else:
-            # It has bytes, but cannot give them.
+            # A buffer that cannot give its bytes.
             hint = "" if isinstance(error, TypeError) else f": {error}"
         return TypeError(f"gate `{owner.gate}` carries bytes, not {kind_of(value)}{hint}")
 

@@ -1,4 +1,4 @@
-"""What a codec is, and how it fails."""
+"""The interface of codecs, and their errors."""
 
 from __future__ import annotations
 
@@ -37,13 +37,13 @@ class Codec:
 
 
 class Owner:
-    """The gate for which a codec works."""
+    """The gate that a codec belongs to."""
 
     __slots__ = ("gate", "peers", "rejected")
 
     def __init__(self, gate: str, peers: Sequence[str] = ()) -> None:
         self.gate = gate
-        """As messages name it: `controller.sensor`."""
+        """Its name, for messages: `controller.sensor`."""
         self.peers = peers
         """The gates from which frames arrive."""
         self.rejected = 0
@@ -59,7 +59,7 @@ class Owner:
 
 
 def kind_of(value: object) -> str:
-    """Returns the class of a value as messages name it: of a protobuf message, its full name."""
+    """Returns the class of a value, for messages: for a protobuf message, its full name."""
     descriptor = getattr(value, "DESCRIPTOR", None)
     name = getattr(descriptor, "full_name", None)
     if isinstance(value, type):

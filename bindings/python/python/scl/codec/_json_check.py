@@ -1,5 +1,6 @@
-"""What Google's parser of canonical JSON takes in silence, and other languages refuse: unknown names of enum values while
-unknown fields are skipped, other values that are no enum values or messages, and bytes that are not base64."""
+"""Refuses what Google's parser of canonical JSON accepts silently and other languages refuse: unknown names of enum
+values while unknown fields are skipped, other values that are not enum values or messages, and bytes that are not
+base64."""
 
 from __future__ import annotations
 
@@ -39,14 +40,14 @@ def _field(descriptor: Descriptor, key: str) -> FieldDescriptor | None:
 
 
 def _is_repeated(field: FieldDescriptor) -> bool:
-    # Since protobuf 6.31; before, the label.
+    # `is_repeated` exists since protobuf 6.31; before that, the label tells.
     either: Any = field
     found = getattr(field, "is_repeated", None)
     return bool(either.label == either.LABEL_REPEATED if found is None else found)
 
 
 def _is_value(enum: EnumDescriptor, text: str) -> bool:
-    # Not by `values_by_number`, which looks up a number of more than 32 bits without its upper bits.
+    # Not `values_by_number`, which ignores all but the lower 32 bits of a number.
     is_number = re.fullmatch("-?[0-9]{1,10}", text) is not None
     return text in enum.values_by_name or (is_number and any(value.number == int(text) for value in enum.values))
 

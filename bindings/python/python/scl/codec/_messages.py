@@ -41,7 +41,7 @@ class MessageClasses:
         return found
 
     def find(self, name: str) -> type[Message] | None:
-        """As `message`, but returns `None` if the schemas do not declare it."""
+        """Like `message`, but returns `None` if the schemas do not declare it."""
         from google.protobuf import message_factory
 
         try:
@@ -79,7 +79,7 @@ def messages_of_descriptors(sets: Iterable[bytes]) -> MessageClasses:
 def lazy_messages(
     module: str, plan: str, messages: Mapping[str, str], enums: Mapping[str, str]
 ) -> Callable[[str], object]:
-    """Returns the `__getattr__` of a generated module, which makes a message class when it is first used, and lists them.
+    """Returns the `__getattr__` of a generated module, which makes message classes on first use; sets `__dir__`.
 
     `messages` and `enums` give the full name of each name in the module.
     """
@@ -116,7 +116,7 @@ def _messages_of_plan(plan: str) -> MessageClasses:
 def _messages_of_descriptors(sets: tuple[bytes, ...]) -> MessageClasses:
     from google.protobuf import descriptor_pb2, descriptor_pool
 
-    # The sets of a system overlap, and a file of one name has one content there. Imports come first in each set.
+    # The sets of a system overlap; files of the same name have the same content. Imports come first in each set.
     files = {file.name: file for one in sets for file in descriptor_pb2.FileDescriptorSet.FromString(one).file}
     if any(name.startswith(_WELL_KNOWN) for name in files):
         # `google.protobuf.timestamp_pb2.Timestamp` has to be the class that the messages use, and it is in the default

@@ -1,4 +1,4 @@
-"""Plain values: what the codecs for types outside of `schemas:` send, whatever else their libraries could encode."""
+"""Plain values: what codecs for types outside of `schemas:` send, even if their libraries could encode more."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ _LEAST, _GREATEST = -(2**63), 2**64 - 1
 
 
 def check(gate: str, name: str, format: str, value: object, refused: tuple[type, ...] = ()) -> None:
-    """Raises `TypeError` or `EncodeError` if a value is not plain, with the path to what is not.
+    """Raises `TypeError` or `EncodeError` if a value is not plain, with the path to the part that is not.
 
-    `refused` are classes that are plain by their base.
+    `refused` are classes to refuse although their base class is plain.
     """
     if _native.is_plain(value, format == "JSON"):
         return
@@ -23,7 +23,7 @@ def check(gate: str, name: str, format: str, value: object, refused: tuple[type,
 
 
 def raise_refusal(gate: str, name: str, format: str, value: object, refused: tuple[type, ...] = ()) -> None:
-    """Looks for what is not plain, part by part. Does nothing if there is no such part."""
+    """Raises the error for the first part that is not plain. Does nothing if there is no such part."""
     prefix = f"gate `{gate}` cannot send this value as the {format} of `{name}`"
     try:
         for part, path in _parts(value, ""):
@@ -43,7 +43,7 @@ def raise_refusal(gate: str, name: str, format: str, value: object, refused: tup
 
 
 def _parts(value: object, path: str) -> Iterator[tuple[object, str]]:
-    """All values inside of a value, and itself, with the expressions that reach them."""
+    """Yields a value and all values inside it, with the expressions that reach them."""
     yield value, path
     if isinstance(value, dict):
         for key, one in value.items():
@@ -53,7 +53,7 @@ def _parts(value: object, path: str) -> Iterator[tuple[object, str]]:
         for index, one in enumerate(value):
             yield from _parts(one, f"{path}[{index}]")
     elif _is_dataclass(value):
-        # Imported here, because that takes longer than all else.
+        # Imported here, because the import is slow.
         from dataclasses import fields
 
         for field in fields(value):  # type: ignore[arg-type]

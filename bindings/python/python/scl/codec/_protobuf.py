@@ -72,13 +72,13 @@ def canonical_json(owner: Owner, message_class: type[Message]) -> Codec:
         try:
             text = frame.decode()
             if not text.lstrip(" \t\r\n").startswith("{"):
-                # The parser takes an empty list for a message.
+                # The parser accepts an empty list as a message.
                 raise ValueError("it is not a JSON object")
             message = json_format.Parse(text, message_class(), ignore_unknown_fields=True)
             if needs_check:
                 check(descriptor, json.loads(text))
             return message
-        # The parser lets errors of its parts through, also `RecursionError` and `AttributeError`.
+        # The parser lets errors of its parts through, even `RecursionError` and `AttributeError`.
         except Exception as error:
             raise owner.undecodable(f"these {len(frame)} bytes are not the JSON of a `{name}`: {error}") from error
 

@@ -1,4 +1,4 @@
-"""Which text of a protobuf frame is not UTF-8: the parser refuses the whole message and does not say why."""
+"""Finds the text of a protobuf frame that is not UTF-8: the parser refuses the whole message and does not say why."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _LENGTH = 2
 
 
 def wrong_text(descriptor: Descriptor, frame: bytes) -> str | None:
-    """Returns the path of the first text that is not UTF-8; `None` if there is none, or damage before it."""
+    """Returns the path of the first text that is not UTF-8; `None` if there is none or damage before it."""
     at = 0
     try:
         while at < len(frame):

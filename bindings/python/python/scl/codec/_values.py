@@ -1,7 +1,7 @@
 """JSON, CBOR and MessagePack for types that are not in `schemas:`: plain Python values.
 
-What is sent may contain dataclasses, which become maps of their fields as serde's structs do. What is received consists of
-`dict`, `list`, `str`, `int`, `float`, `bool`, `None`, and for CBOR and MessagePack `bytes`.
+Values to send may contain dataclasses, which become maps of their fields, like structs in serde. Received values
+consist of `dict`, `list`, `str`, `int`, `float`, `bool`, `None`, and for CBOR and MessagePack `bytes`.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ def json_values(owner: Owner, name: str) -> Codec:
     import json
 
     def plain(value: object) -> object:
-        # As serde does it: JSON has no bytes.
+        # As in serde: JSON has no bytes.
         return list(value) if isinstance(value, bytes | bytearray) else _fields(value)
 
     # Made once: `json.dumps` and `json.loads` with options would make new ones each time.
@@ -76,7 +76,7 @@ def msgpack(owner: Owner, name: str) -> Codec:
     """Returns the codec `msgpack`. Needs the package `msgpack`."""
     library = _extra("msgpack", "msgpack", owner.gate)
 
-    # A named tuple and a class of its own, which become extensions.
+    # A named tuple and another class of the library; both become extensions.
     refused = (library.ExtType, library.Timestamp)
 
     def encode(value: object) -> bytes:
