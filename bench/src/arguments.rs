@@ -129,7 +129,7 @@ enum Benchmark {
 }
 
 impl BenchArguments {
-    /// Measures, and returns the report as it is asked for.
+    /// Runs the benchmark and returns its report in the requested format.
     ///
     /// # Errors
     ///

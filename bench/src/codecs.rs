@@ -12,7 +12,7 @@ use scl::codec::{Cbor, Codec, Json, Msgpack, Postcard, Protobuf, Raw};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Messages measured together, because one message is too short for the clock.
+/// Number of messages timed together, because a single one takes too little time for the clock.
 const BATCH: usize = 100;
 
 const PROST: &str = "prost alone";
@@ -31,7 +31,7 @@ struct Variant {
 type Encode = dyn Fn(&mut BytesMut) -> scl::Result<()>;
 type Decode = dyn Fn(Bytes) -> scl::Result<()>;
 
-/// A codec and what was measured of it.
+/// A codec and its measurements.
 struct Measurement {
     variant: Variant,
     encoding: Durations,

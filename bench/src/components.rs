@@ -1,4 +1,4 @@
-//! The components of the benchmarks, a system each.
+//! The components of the benchmarks, one system per benchmark.
 
 pub(crate) mod fanout {
     scl::topology!("fanout.yaml");

@@ -1,8 +1,8 @@
 //! Pinning the processes of a benchmark to processor cores.
 //!
-//! Where two processes run that wait for each other matters more than the library between them: on one core a message
-//! costs a context switch, on two cores it may have to wake an idle core. Ratios between variants that ran on different
-//! cores mean nothing, so both sides can be pinned.
+//! For two processes that wait for each other, placement matters more than the library between them: on one core a
+//! message costs a context switch, on two cores it may have to wake an idle core. Ratios between variants that ran on
+//! different cores are meaningless, so both sides can be pinned.
 
 use clap::ValueEnum;
 use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
@@ -39,7 +39,7 @@ impl Cores {
         Ok(sched_setaffinity(None, &only(own))?)
     }
 
-    /// A note for the report.
+    /// Returns a note on the placement for the report, or `None` if the processes are not pinned.
     pub(crate) fn note(self) -> Option<&'static str> {
         match self {
             Self::Any => None,

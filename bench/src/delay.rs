@@ -22,10 +22,10 @@ const VARIANTS: [Variant; 3] = [SCL_PUB, ZEROMQ_PUB, UNIX];
 const BYTES: usize = 20;
 const PERIOD: Duration = Duration::from_millis(1);
 
-/// Messages of one variant before the next variant has its turn.
+/// Number of messages sent through one variant before the next variant has its turn.
 const BATCH: usize = 200;
 
-/// Starts a program with real-time priority; part of util-linux and busybox.
+/// The command that starts a program with real-time priority; part of util-linux and busybox.
 const REAL_TIME: [&str; 3] = ["chrt", "-f", "80"];
 
 const COLUMNS: [Column; 5] = [
@@ -36,7 +36,7 @@ const COLUMNS: [Column; 5] = [
     Column::plain("variance_us2"),
 ];
 
-/// Part of the name of a row, and the program that starts the processes.
+/// A situation to measure in: its name, which is part of the names of rows, and the program that starts the processes.
 #[derive(Clone, Copy)]
 struct Situation {
     name: &'static str,
@@ -47,7 +47,7 @@ const IDLE: Situation = Situation { name: "idle", launcher: &[] };
 const LOAD: Situation = Situation { name: "load", launcher: &[] };
 const REAL_TIME_LOAD: Situation = Situation { name: "real-time", launcher: &REAL_TIME };
 
-/// Measures the delay of all variants in three situations, each for this time; the last situation only if real-time
+/// Measures the delay of all variants in three situations, each for `time`. The last one is skipped unless real-time
 /// priority is permitted.
 pub(crate) fn measure_delay(time: Duration) -> scl::Result<Report> {
     let title = format!("delay of {BYTES} bytes at 1000 Hz: idle, under load, under load with real-time priority");
@@ -65,7 +65,7 @@ pub(crate) fn measure_delay(time: Duration) -> scl::Result<Report> {
     Ok(report)
 }
 
-/// Why real-time priority cannot be used, if so.
+/// Returns the reason why real-time priority cannot be used, or `None` if it can.
 fn why_not_real_time() -> Option<String> {
     let [chrt, rest @ ..] = REAL_TIME;
     let mut attempt = Command::new(chrt);
@@ -104,7 +104,8 @@ async fn collect(source: &mut Worker, rounds: usize, all: &mut [Durations]) -> s
     Ok(())
 }
 
-/// SCL is compared with the other variants in the same situation, and every variant with itself when idle.
+/// Makes the row of a variant. SCL is compared with the other variants in the same situation, and every variant with
+/// itself when idle.
 fn row(variant: &Variant, situation: Situation, delays: &Durations) -> Row {
     let name_in = |variant: &Variant, situation: Situation| format!("{}, {}", variant.name, situation.name);
     let mut baselines = Vec::new();

@@ -5,7 +5,7 @@ use hdrhistogram::Histogram;
 /// One minute in nanoseconds; longer durations count as one minute.
 const MAX: u64 = 60_000_000_000;
 
-/// Recorded in nanoseconds, reported in microseconds.
+/// A histogram of durations, which are recorded in nanoseconds and reported in microseconds.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Durations(Histogram<u64>);
 
@@ -35,7 +35,7 @@ impl Durations {
         to_microseconds(self.0.max() as f64)
     }
 
-    /// In square microseconds.
+    /// Returns the variance in square microseconds.
     pub(crate) fn variance(&self) -> f64 {
         to_microseconds(self.0.stdev()).powi(2)
     }

@@ -11,7 +11,8 @@ pub(crate) const NEAR: &str = "near";
 /// The host of the worker.
 pub(crate) const FAR: &str = "far";
 
-/// Options for the component of the variant `id`, whose first word is what it listens on; `host` counts over gateways.
+/// Returns the options for the component of the variant `id`, whose first word names the transport. `host` matters only
+/// over gateways.
 pub(crate) fn options(id: &str, folder: &str, host: &str) -> scl::OpenOptions {
     let options = scl::OpenOptions::new();
     match id.split('-').next() {

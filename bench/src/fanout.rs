@@ -23,11 +23,11 @@ const VARIANTS: [Variant; 2] =
 const ALL_RUN: &str = "all run";
 const ONE_STOPPED: &str = "one stopped";
 
-/// What was measured of a variant, while all subscribers ran and while one was stopped.
+/// The measurements of a variant, while all subscribers ran and while one was stopped.
 struct Measurement {
     all_run: Phase,
     one_stopped: Phase,
-    /// For each time that the stopped subscriber resumed: how many messages it still received.
+    /// Number of messages that the stopped subscriber still received, for each time that it resumed.
     late_messages: Vec<usize>,
     /// The longest delay of those messages, in nanoseconds.
     oldest: u64,
@@ -37,7 +37,7 @@ struct Phase {
     delays: Durations,
     /// The time that each send took.
     sends: Durations,
-    /// Messages that one of the seven subscribers did not receive.
+    /// Number of messages not received, summed over the seven subscribers.
     lost: u64,
 }
 

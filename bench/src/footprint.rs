@@ -14,8 +14,8 @@ pub(crate) fn processor_ms(process: u32) -> scl::Result<f64> {
     Ok(ticks as f64 * 1e3 / rustix::param::clock_ticks_per_second() as f64)
 }
 
-/// The clock ticks in user mode and in the kernel: fields 14 and 15 of `stat`. The second one is the program's name in
-/// parentheses, which may contain anything.
+/// Returns the clock ticks in user mode and in the kernel: the sum of fields 14 and 15 of `stat`. Field 2 is the
+/// program's name in parentheses, which may contain anything.
 fn ticks(stat: &str) -> Option<u64> {
     let (_, fields) = stat.rsplit_once(')')?;
     let mut fields = fields.split_ascii_whitespace().skip(11).map(str::parse::<u64>);

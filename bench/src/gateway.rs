@@ -1,4 +1,5 @@
-//! Hosts on this machine: a runtime folder and a gateway each, connected over loopback without encryption.
+//! Hosts that share this machine. Each has a runtime folder and a gateway; the gateways are connected over loopback
+//! without encryption.
 
 use crate::worker::Worker;
 use crate::zenoh_peer::free_port;
@@ -8,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The program that runs a gateway, which is a package of its own.
+/// The program that runs a gateway; it is a separate package.
 const PROGRAM: &str = "scl-gateway";
 
 /// A host: its name, and the components that run there.
@@ -42,7 +43,7 @@ pub(crate) fn runtime_dir(folder: &Path, host: &str) -> PathBuf {
     folder.join(host)
 }
 
-/// `scl-gateway` beside this program, or in `PATH`.
+/// Finds `scl-gateway` beside this program, or in `PATH`.
 fn find_program() -> scl::Result<PathBuf> {
     let beside = env::current_exe()?.with_file_name(PROGRAM);
     let path = env::var_os("PATH").unwrap_or_default();
@@ -54,7 +55,7 @@ fn find_program() -> scl::Result<PathBuf> {
     })
 }
 
-/// No component of it is ever started by `scl run`, so the commands do nothing.
+/// Returns the text of a launch file. `scl run` never starts its components, so their commands do nothing.
 fn launch_file(hosts: &[Host<'_>]) -> scl::Result<String> {
     let mut text = "topology: topology.yaml\nhosts:\n".to_owned();
     for Host { name, components } in hosts {

@@ -1,7 +1,7 @@
 //! Plain iceoryx2 as its users write it: publish and subscribe, and an event for each message that wakes the receiver.
 //!
-//! A payload is never initialised where it is loaned, which is the point of loaning; the time of a message is in the
-//! header, so that nobody has to read the payload either.
+//! Loaned payloads are never initialised, which is the point of loaning. The time of a message is in its header, so
+//! that receivers do not read the payload either.
 
 use iceoryx2::node::{Node, NodeBuilder};
 use iceoryx2::port::listener::Listener;
@@ -26,14 +26,14 @@ pub(crate) type Payload = [MaybeUninit<u8>];
 /// A received message. Its header is the time at which it was sent.
 pub(crate) type Received = Sample<ipc::Service, Payload, u64>;
 
-/// A process among the users of iceoryx2. When dropped, it removes what killed workers have left in shared memory.
+/// The iceoryx2 node of this process. When dropped, it removes what killed workers have left in shared memory.
 pub(crate) struct Participant(Node<ipc::Service>);
 
 /// The sending end of a channel.
 pub(crate) struct Sending {
     publisher: Publisher<ipc::Service, Payload, u64>,
     notifier: Notifier<ipc::Service>,
-    /// What is copied, unless messages are loaned.
+    /// The payload that is copied into each message; `None` if messages are loaned.
     copied: Option<Vec<MaybeUninit<u8>>>,
     /// Dropped last, because it cleans up.
     _participant: Rc<Participant>,
@@ -56,7 +56,8 @@ impl Participant {
         Ok(Rc::new(Self(node.create::<ipc::Service>()?)))
     }
 
-    /// The sending end of a channel, for messages of up to `bytes` bytes, which it copies or loans.
+    /// Opens the sending end of a channel for messages of up to `bytes` bytes, which are copied if `copies` is true and
+    /// loaned otherwise.
     pub(crate) fn sending(self: &Rc<Self>, channel: &str, bytes: usize, copies: bool) -> scl::Result<Sending> {
         let messages = self.messages(channel)?;
         let publisher = messages.publisher_builder().initial_max_slice_len(bytes).create()?;
@@ -94,8 +95,8 @@ impl Drop for Participant {
 }
 
 impl Sending {
-    /// Sends `bytes` bytes: a copy of `received` or of a payload of its own, or a loan with whatever the memory
-    /// contains.
+    /// Sends a message. An end that copies sends a copy of `received` or of its own payload; an end that loans sends
+    /// `bytes` bytes of whatever the memory contains.
     pub(crate) fn send(&self, bytes: usize, received: Option<&Payload>, time: u64) -> scl::Result<()> {
         let loan = |bytes| self.publisher.loan_slice_uninit(bytes);
         let mut sample = match (&self.copied, received) {

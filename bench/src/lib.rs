@@ -1,6 +1,6 @@
 //! Benchmarks of SCL beside raw sockets and other libraries, interleaved in one run: absolute times drift, ratios hold.
 //!
-//! [`BenchArguments`] are those of `scl bench`. Worker processes are the calling program itself, started with
+//! [`BenchArguments`] are the arguments of `scl bench`. Worker processes are the calling program itself, started with
 //! [`WORKER_COMMAND`] as the first argument; the program passes the remaining arguments to [`run_worker`].
 #![deny(missing_docs)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]

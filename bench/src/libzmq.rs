@@ -20,14 +20,14 @@ pub(crate) enum HighWaterMark {
 }
 
 impl SocketPaths {
-    /// A socket that listens.
+    /// Opens a socket that listens.
     pub(crate) fn bind_libzmq(&self, socket: &str, kind: SocketType, mark: HighWaterMark) -> scl::Result<Socket> {
         let bound = new_socket(kind, mark)?;
         bound.bind(&self.endpoint(socket))?;
         Ok(bound)
     }
 
-    /// A socket that connects, and subscribes to everything if it is a SUB socket.
+    /// Opens a socket that connects, and subscribes to everything if it is a SUB socket.
     pub(crate) fn connect_libzmq(&self, socket: &str, kind: SocketType, mark: HighWaterMark) -> scl::Result<Socket> {
         let connected = new_socket(kind, mark)?;
         connected.connect(&self.endpoint(socket))?;
@@ -37,7 +37,7 @@ impl SocketPaths {
         Ok(connected)
     }
 
-    /// A SUB socket that keeps the newest message only, and waits for it forever.
+    /// Opens a SUB socket that keeps only the newest message and whose receives wait without limit.
     pub(crate) fn connect_conflated(&self, socket: &str) -> scl::Result<Socket> {
         let connected = new_socket(SUB, HighWaterMark::Default)?;
         connected.set_rcvtimeo(-1)?;
@@ -49,7 +49,7 @@ impl SocketPaths {
     }
 }
 
-/// A socket that gives up a receive after [`CONNECT_TIMEOUT`].
+/// Creates a socket whose receives time out after [`CONNECT_TIMEOUT`].
 fn new_socket(kind: SocketType, mark: HighWaterMark) -> scl::Result<Socket> {
     let socket = Context::new().socket(kind)?;
     socket.set_rcvtimeo(CONNECT_TIMEOUT)?;
@@ -61,7 +61,7 @@ fn new_socket(kind: SocketType, mark: HighWaterMark) -> scl::Result<Socket> {
     Ok(socket)
 }
 
-/// The socket of a variant's sending end.
+/// Returns the socket type and the high-water mark of a variant's sending end.
 pub(crate) fn sending_kind(id: &str) -> (SocketType, HighWaterMark) {
     match id {
         "libzmq-push" => (PUSH, HighWaterMark::Default),
@@ -71,7 +71,7 @@ pub(crate) fn sending_kind(id: &str) -> (SocketType, HighWaterMark) {
     }
 }
 
-/// The socket of a variant's receiving end.
+/// Returns the socket type and the high-water mark of a variant's receiving end.
 pub(crate) fn receiving_kind(id: &str) -> (SocketType, HighWaterMark) {
     let (kind, mark) = sending_kind(id);
     (if kind == PUSH { PULL } else { SUB }, mark)

@@ -4,7 +4,7 @@ use scl_text::duration::parse_duration;
 use std::ops::RangeInclusive;
 use std::time::Duration;
 
-/// Ten million messages briefly take 800 MB for their times.
+/// The accepted numbers of messages: the times of ten million messages briefly take 800 MB.
 pub(crate) const MESSAGES: RangeInclusive<usize> = 1..=10_000_000;
 
 pub(crate) const REPETITIONS: RangeInclusive<usize> = 1..=10_000;

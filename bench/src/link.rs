@@ -1,5 +1,5 @@
-//! Both ends of a variant, opened in one order: the near end listens, the worker opens its end and says so, the near
-//! end connects, and each end that sends waits for its subscriber.
+//! Both ends of a variant, opened in a fixed order: the near end listens, the worker opens its end and reports that it
+//! is open, the near end connects, and each end that sends waits for its subscriber.
 
 use crate::components::{one_way, roundtrip};
 use crate::ends::{Calls, Receiver, Sender};
@@ -19,10 +19,10 @@ const PING: &str = "ping";
 /// The channel back.
 const PONG: &str = "pong";
 
-/// A variant, and where its processes meet.
+/// A variant, and the settings that its two processes share.
 #[derive(Clone, Copy)]
 pub(crate) struct Setup<'a> {
-    /// The name between the processes: the transport or library, then the pattern, then how it is called.
+    /// The variant's id: the transport or library, then the pattern, then the kind of calls, like `scl-pub-blocking`.
     pub(crate) id: &'a str,
     /// The scratch folder.
     pub(crate) folder: &'a str,
@@ -30,12 +30,12 @@ pub(crate) struct Setup<'a> {
     pub(crate) bytes: usize,
     /// Whether the worker sends, too.
     pub(crate) is_round_trip: bool,
-    /// Messages of a batch, which one library must know.
+    /// Number of messages in a batch; only `libzmq-nodrop` needs it.
     #[cfg_attr(not(feature = "libzmq"), expect(dead_code, reason = "for `libzmq-nodrop`"))]
     pub(crate) batch: usize,
 }
 
-/// The end of the process that measures.
+/// The end in the process that measures.
 pub(crate) struct Near {
     /// Dropped first: the near end cleans up for both.
     pub(crate) worker: Worker,
@@ -45,7 +45,7 @@ pub(crate) struct Near {
     _gateways: Option<Vec<Worker>>,
 }
 
-/// The end of the worker.
+/// The end in the worker.
 pub(crate) struct Far {
     pub(crate) receiver: Receiver,
     sender: Option<Sender>,
@@ -98,14 +98,14 @@ impl Near {
         })
     }
 
-    /// The end that receives what the worker sends back.
+    /// Returns the sender, and the receiver of what the worker sends back.
     pub(crate) fn both(&mut self) -> scl::Result<(&mut Sender, &mut Receiver)> {
         Ok((&mut self.sender, self.receiver.as_mut().ok_or_else(one_way_only)?))
     }
 }
 
 impl Far {
-    /// Opens the worker's end, and reports that.
+    /// Opens the worker's end, reports that it is open, and waits for the subscriber if this end sends.
     pub(crate) async fn open(setup: Setup<'_>) -> scl::Result<Self> {
         let paths = setup.paths();
         let (receiver, mut sender) = match setup.engine() {
@@ -140,7 +140,7 @@ impl Far {
         Ok(Self { receiver, sender })
     }
 
-    /// The ends that receive, and send back.
+    /// Returns the receiver, and the sender that sends back.
     pub(crate) fn both(&mut self) -> scl::Result<(&mut Receiver, &mut Sender)> {
         Ok((&mut self.receiver, self.sender.as_mut().ok_or_else(one_way_only)?))
     }
@@ -185,7 +185,7 @@ impl Setup<'_> {
         SocketPaths::new(self.folder, self.id)
     }
 
-    /// The component of SCL that measures.
+    /// Opens the component of SCL that measures.
     async fn open_client(&self) -> scl::Result<(Sender, Option<Receiver>)> {
         let (calls, options) = (Calls::of(self.id), options(self.id, self.folder, NEAR));
         Ok(match (self.engine(), self.is_round_trip) {
@@ -205,7 +205,7 @@ impl Setup<'_> {
         })
     }
 
-    /// The component of SCL of the worker.
+    /// Opens the worker's component of SCL.
     async fn open_server(&self) -> scl::Result<(Receiver, Option<Sender>)> {
         let (calls, options) = (Calls::of(self.id), options(self.id, self.folder, FAR));
         let is_blocking = calls.is_blocking;
@@ -237,7 +237,7 @@ impl Setup<'_> {
     }
 }
 
-/// What the ends of a process share over a library.
+/// The state of a library that both ends of a process share.
 enum Library {
     Sockets,
     #[cfg(feature = "shm")]

@@ -44,20 +44,20 @@ const MIN_BATCHES: usize = 10;
 /// The largest batch in bytes: libzmq without a limit may keep a whole batch in memory.
 const MAX_BATCH_BYTES: usize = 32 << 20;
 
-/// Bytes that each variant sends at most, so that long messages do not take minutes.
+/// Maximum number of bytes that each variant sends, so that long messages do not take minutes.
 const MAX_BYTES: usize = 4 << 30;
 
-/// The supported message sizes: 8 bytes are for the time.
+/// The supported message sizes in bytes; the first 8 bytes hold the time.
 pub(crate) const BYTES: RangeInclusive<usize> = MIN_SIZE..=4 << 20;
 
-/// How the messages of a run are divided.
+/// How the messages of a run are divided into batches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Batches {
     size: usize,
     count: usize,
 }
 
-/// A variant with its two processes, and what was measured of it.
+/// A variant with its two processes, and its measurements.
 struct Measurement {
     variant: Variant,
     channel: Channel,

@@ -23,22 +23,22 @@ impl SocketPaths {
         format!("ipc://{}", self.path(socket).display())
     }
 
-    /// A socket of `zeromq` that listens. PUB, unlike XPUB, does not wait for a subscriber that does not receive; XPUB
-    /// shows when a subscriber has connected.
+    /// Opens a socket of `zeromq` that listens. PUB, unlike XPUB, does not wait for a stalled subscriber; XPUB shows
+    /// when a subscriber has connected.
     pub(crate) async fn bind<S: Socket>(&self, socket: &str) -> scl::Result<S> {
         let mut bound = S::new();
         bound.bind(&self.endpoint(socket)).await?;
         Ok(bound)
     }
 
-    /// A socket of `zeromq` that connects.
+    /// Opens a socket of `zeromq` that connects.
     pub(crate) async fn connect<S: Socket>(&self, socket: &str) -> scl::Result<S> {
         let mut connected = S::new();
         connected.connect(&self.endpoint(socket)).await?;
         Ok(connected)
     }
 
-    /// A SUB socket of `zeromq` that subscribes to everything.
+    /// Opens a SUB socket of `zeromq` that subscribes to everything.
     pub(crate) async fn connect_sub(&self, socket: &str) -> scl::Result<SubSocket> {
         let mut sub: SubSocket = self.connect(socket).await?;
         sub.subscribe("").await?;

@@ -61,7 +61,7 @@ impl Report {
         self.notes.push(text.into());
     }
 
-    /// Explains ratios of rows that were measured in rounds.
+    /// Adds a note that explains the ratios of rows measured in rounds.
     pub(crate) fn note_rounds(&mut self) {
         self.note("ratios with quartiles are medians of the ratios within each round of the run");
     }
@@ -169,7 +169,7 @@ impl Row {
         self
     }
 
-    /// The value of the first compared column in each round.
+    /// Sets the value of the first compared column in each round.
     pub(crate) fn with_rounds(self, rounds: &[f64]) -> Self {
         Self { rounds: rounds.to_vec(), ..self }
     }

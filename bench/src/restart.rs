@@ -18,7 +18,7 @@ use std::time::Duration;
 use survivor::Survivor;
 use tokio::time::timeout;
 
-/// If no message has arrived until then, this time is recorded.
+/// How long to wait for the first message; if none arrives, this time is recorded.
 const TIMEOUT: Duration = Duration::from_secs(10);
 
 /// How often a side sends.
@@ -45,7 +45,7 @@ const VARIANTS: &[Variant] = &[
     Variant { id: "unix", name: UNIX, baselines: &[] },
 ];
 
-/// The surviving side of a variant, and what was measured.
+/// The surviving side of a variant, and the measured durations.
 struct Measurement {
     variant: &'static Variant,
     survivor: Survivor,
@@ -106,8 +106,8 @@ impl Measurement {
     }
 }
 
-/// How long the survivor goes on alone before the other side starts again: different times, so that the start does not
-/// fall into the same part of an interval between two attempts to connect.
+/// How long the survivor runs alone before the other side is restarted. It differs between runs, so that restarts do
+/// not always fall at the same point between two connection attempts.
 fn downtime(run: u32) -> Duration {
     Duration::from_millis(50 + u64::from(run) * 7 % 20)
 }

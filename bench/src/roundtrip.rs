@@ -16,10 +16,10 @@ use client::Client;
 use std::ops::RangeInclusive;
 use tokio::runtime::Runtime;
 
-/// Messages of one variant before the next variant has its turn.
+/// Number of messages sent through one variant before the next variant has its turn.
 const BATCH: usize = 500;
 
-/// Bytes that each variant sends at most in each direction, so that long messages do not take minutes.
+/// Maximum number of bytes that each variant sends in each direction, so that long messages do not take minutes.
 const MAX_BYTES: usize = 4 << 30;
 
 const SCL_PUB: &str = "SCL pub/sub";
@@ -47,13 +47,14 @@ const IPC: &[Variant] = &[
     UNIX_BLOCKING,
 ];
 
-/// The supported message sizes. Some ten processes keep a few messages each in memory.
+/// The supported message sizes in bytes, limited because some ten processes keep a few messages each in memory.
 pub(crate) const BYTES: RangeInclusive<usize> = 1..=16 << 20;
 
-/// The longest message over other transports than Unix sockets: all that may be in flight is reserved in shared memory.
+/// The longest message over transports other than Unix sockets: shared memory is reserved for all messages that may be
+/// in flight.
 const MAX_BYTES_ELSEWHERE: usize = 4 << 20;
 
-/// A variant with its two processes, and what was measured of it.
+/// A variant with its two processes, and its measurements.
 struct Measurement {
     variant: &'static Variant,
     client: Client<'static>,

@@ -1,8 +1,8 @@
-//! What is under the connections that a benchmark measures.
+//! The transports that a benchmark can measure.
 
 use clap::ValueEnum;
 
-/// What is under the connections of the lines `SCL`, and so what they are compared with.
+/// The transport of the `SCL` lines, which also determines what they are compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub(crate) enum Transport {
     /// Unix sockets, beside other libraries over Unix sockets.

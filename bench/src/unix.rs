@@ -57,7 +57,7 @@ impl FrameBuffer {
         Some(frame)
     }
 
-    /// The space after the unread bytes, which move to the start if there is none.
+    /// Returns the space after the unread bytes, which are moved to the start if there is none.
     fn free(&mut self) -> &mut [u8] {
         if self.unread.is_empty() || self.unread.end == self.bytes.len() {
             self.bytes.copy_within(self.unread.clone(), 0);

@@ -1,8 +1,8 @@
-//! The lines of `roundtrip` and `rate` that both have: SCL over a transport, and what it is compared with.
+//! The lines that `roundtrip` and `rate` have in common: SCL over a transport, and its baselines.
 
 use crate::transport::Transport;
 
-/// A way to exchange messages: its name between the processes, in the report, and what it is compared with.
+/// A way to exchange messages: its id in the arguments of processes, its name in the report, and its baselines.
 #[derive(Clone, Copy)]
 pub(crate) struct Variant {
     pub(crate) id: &'static str,
@@ -10,7 +10,7 @@ pub(crate) struct Variant {
     pub(crate) baselines: &'static [&'static str],
 }
 
-/// The variants over a transport; those over Unix sockets are the benchmark's own.
+/// Returns the variants over a transport; `ipc` are the benchmark's own variants over Unix sockets.
 pub(crate) fn over(transport: Transport, ipc: &'static [Variant]) -> &'static [Variant] {
     match transport {
         Transport::Ipc => ipc,
@@ -31,7 +31,7 @@ const ZENOH: &str = "zenoh";
 pub(crate) const UNIX: Variant = Variant { id: "unix", name: UNIX_NAME, baselines: &[] };
 pub(crate) const UNIX_BLOCKING: Variant = Variant { id: "unix-blocking", name: UNIX_BLOCKING_NAME, baselines: &[] };
 
-/// In the order of their turns, as all lists of variants.
+/// In the order of their turns, like all lists of variants.
 const SHM: &[Variant] = &[
     Variant { id: "shm-loan", name: "SCL shm, loaned", baselines: &[ICEORYX_LOAN, SCL_IPC] },
     Variant {

@@ -1,4 +1,4 @@
-//! Plain zenoh as its users write it: two peers that are connected over loopback TCP, and know nobody else.
+//! Plain zenoh as its users write it: two peers that are connected over loopback TCP and discover no others.
 
 use std::fs;
 use std::net::TcpListener;
@@ -11,7 +11,7 @@ use zenoh::qos::CongestionControl;
 use zenoh::sample::Sample;
 use zenoh::{Config, Session, Wait};
 
-/// A peer. Its calls block, and are for threads without an async runtime: zenoh panics on a single-threaded one.
+/// A peer. Its calls block and must be made outside of an async runtime: zenoh panics in a single-threaded one.
 pub(crate) struct Peer(Session);
 
 pub(crate) struct Sending(Publisher<'static>, #[expect(dead_code, reason = "is held")] Rc<Peer>);
@@ -19,7 +19,8 @@ pub(crate) struct Sending(Publisher<'static>, #[expect(dead_code, reason = "is h
 pub(crate) struct Receiving(Subscriber<FifoChannelHandler<Sample>>, #[expect(dead_code, reason = "is held")] Rc<Peer>);
 
 impl Peer {
-    /// Listens at a port of this machine and writes it into `file`, or connects to the port that stands there.
+    /// Listens on a port of this machine and writes its number to `file`, or connects to the port whose number `file`
+    /// contains.
     pub(crate) fn join(file: &Path, listens: bool) -> scl::Result<Rc<Self>> {
         let port = if listens { free_port()? } else { fs::read_to_string(file)?.parse()? };
         let key = if listens { "listen/endpoints" } else { "connect/endpoints" };
@@ -41,7 +42,7 @@ impl Peer {
         Ok(Rc::new(peer))
     }
 
-    /// A publisher that waits rather than lose a message.
+    /// Declares a publisher that waits rather than lose a message.
     pub(crate) fn sending(self: &Rc<Self>, key: &str) -> scl::Result<Sending> {
         let publisher = self.0.declare_publisher(key.to_owned()).congestion_control(CongestionControl::Block);
         Ok(Sending(publisher.wait().map_err(as_error)?, Rc::clone(self)))

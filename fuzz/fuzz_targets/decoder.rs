@@ -1,4 +1,4 @@
-//! Anything that a stranger may send, at the decoder of the protocol.
+//! Passes anything that an unknown peer may send to the decoder of the protocol.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| scl_tests::fuzz::decoder(data));

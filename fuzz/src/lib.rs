@@ -1,5 +1,5 @@
-//! What the fuzz targets of the checker do with their input. What those of the runtime do is in `tests/src/fuzz`,
-//! because `cargo test` does it too.
+//! The functions that the fuzz targets of the checker call with their input. Those of the runtime are in
+//! `tests/src/fuzz`, because `cargo test` calls them, too.
 //!
 //! `cargo fuzz run yaml_to_topology -- -max_total_time=300`; without a nightly toolchain, put `RUSTC_BOOTSTRAP=1`
 //! before it. `crates/scl-topology/tests/files` is a good corpus to start from.
@@ -16,11 +16,11 @@ use scl_topology::socket_paths::SocketPaths;
 use scl_topology::source::Sources;
 use scl_topology::topology::Topology;
 
-/// The folder of all systems, and the longest path of a socket.
+/// The longest default runtime folder, and the longest socket path that the kernel accepts.
 const LONGEST_ROOT: &str = "/run/user/4294967295/scl";
 const LONGEST_PATH: usize = 107;
 
-/// Parses and checks a text, renders what is found, and resolves a topology that comes out.
+/// Parses and checks a text, renders the diagnostics, and resolves the topology, if any.
 pub fn yaml_to_topology(text: &str) {
     let mut sources = Sources::new();
     let file = sources.add("topology.yaml", text);
@@ -37,7 +37,7 @@ pub fn model_to_topology(data: &[u8]) {
     }
 }
 
-/// Reads a plan. What comes out makes sense, and comes back from its text.
+/// Reads a plan. If that succeeds, the plan must be valid, and survive being written and read again.
 pub fn plan_text(text: &str) {
     if let Ok(system) = SystemPlan::from_json(text) {
         assert!(system.components.iter().all(|plan| plan.validate().is_ok()));
@@ -69,7 +69,7 @@ fn is_damaged(model: &Model) -> bool {
         || gates.any(|gate| gate.kind.value.is_empty())
 }
 
-/// Every socket fits the kernel, every plan makes sense, and it comes back from its text.
+/// Checks that the kernel accepts every socket path, and that the plans survive being written and read again.
 fn plan(topology: &Topology) {
     let root = LONGEST_ROOT.len() + topology.system().len() + 2;
     let components: Vec<Plan> =

@@ -1,4 +1,4 @@
-//! A model from bytes: mostly names that meet each other, sometimes any text.
+//! A model from bytes: mostly names from a short list, so that references match, sometimes any text.
 
 use arbitrary::{Result, Unstructured};
 use scl_topology::grammar::OPTIONS;
@@ -8,12 +8,12 @@ use scl_topology::source::{FileId, Sources, Span, Spanned};
 const NAMES: [&str; 8] = ["a", "b", "c", "a_peer", "set-point", "setPoint", "type", "1st"];
 const KINDS: [&str; 8] = ["pub", "sub", "req", "rep", "push", "pull", "", "teapot"];
 const TYPES: [&str; 6] = ["T", "U", "nav.T", "A -> B", "B -> A", "Vec<u8>"];
-/// Values of options beside their examples.
+/// Values of options besides their examples.
 const VALUES: [&str; 5] = ["0", "0B", "wait", "true", "jsn"];
 const CONTROLS: [&str; 4] =
     ["scl: allow(SCL0701) why", "scl: allow(SCL0703, SCL0707)", "scl: warn(SCL0710, 1)", "scl: allow("];
 
-/// Reads a model; its places lie in a text of blanks.
+/// Makes a model from bytes; its spans point into a text of blank lines.
 pub fn model(bytes: &mut Unstructured<'_>, sources: &mut Sources) -> Result<Model> {
     let file = sources.add("topology.yaml", " \n".repeat(64));
     let mut reader = Reader { bytes, file };

@@ -23,8 +23,8 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// Parses the tokens from the wrapper macro in `scl`: `$crate`, a comma, then the user's tokens. What cannot be
-    /// parsed is a problem at a place.
+    /// Parses the tokens from the wrapper macro in `scl`: `$crate`, a comma, then the user's tokens. Returns a
+    /// diagnostic and its span if they cannot be parsed.
     pub(crate) fn parse(input: TokenStream) -> Result<Self, (Box<Diagnostic>, Span)> {
         syn::parse2(input).map_err(|error| (Box::new(diagnose(&error)), error.span()))
     }

@@ -1,8 +1,8 @@
-//! What rustc says if the component of `#[scl::main]` does not exist.
+//! The error that rustc reports if the component of `#[scl::main]` does not exist.
 //!
-//! A type of the component's name stands outside of the block in which the names of the module are in scope. If the
-//! module has the component, nothing refers to this type. Otherwise its use is the one error: what follows from it has
-//! an erroneous type, so rustc says no more.
+//! A type with the component's name is declared outside the block in which the names of the module are in scope. If the
+//! module has the component, nothing refers to this type. Otherwise its use is the only error: everything that depends
+//! on it has an erroneous type, so rustc reports no more.
 
 use crate::expand::{escape_braces, on_unimplemented};
 use crate::known_components::{self, KnownTopology};
@@ -14,7 +14,7 @@ use scl_topology::suggest::similar;
 use syn::spanned::Spanned;
 use syn::{Ident, Type};
 
-/// The stand-in; nothing for a path of several parts, which may lead anywhere.
+/// Expands the stand-in; nothing for a path of several segments, which may refer to anything.
 pub(crate) fn expand_stand_in(component: &Type) -> TokenStream {
     let Type::Path(path) = component else { return TokenStream::new() };
     let Some(name) = path.path.get_ident() else { return TokenStream::new() };

@@ -1,8 +1,8 @@
-//! rust-analyzer, which runs the macros too, but only to show their code.
+//! Detects rust-analyzer, which also runs the macros, but only to show their code.
 //!
-//! It offers every name that it finds, also private fields and hidden functions, and it infers types in its own way. So
-//! it is given what users name, without what only a compiled program needs: the structs of the components with their
-//! documentation, and the `main` function as it was written.
+//! It offers every name that it finds, even private fields and hidden functions, and it infers types in its own way. So
+//! the macros give it what users name, without what only a compiled program needs: the structs of the components with
+//! their documentation, and the `main` function as it was written.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! The crates that the code being compiled can name, as the compiler was told with `--extern`.
+//! The crates that the code being compiled can name, as passed to the compiler with `--extern`.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -13,7 +13,8 @@ pub(crate) fn of_compiler() -> Option<BTreeSet<String>> {
     of_arguments(std::env::args_os().skip(1).filter_map(|argument| argument.into_string().ok()))
 }
 
-/// At least `scl` is named in every program that calls the macro, so no name at all means that they are not known.
+/// Reads the names from the compiler's arguments. Every program that calls the macro names at least `scl`, so without
+/// any name the crates are not known.
 fn of_arguments(arguments: impl Iterator<Item = String>) -> Option<BTreeSet<String>> {
     let arguments = arguments.flat_map(|argument| match argument.strip_prefix('@') {
         // Cargo writes the arguments to a file, one per line, if they are too long for a command line.
@@ -30,7 +31,7 @@ fn of_arguments(arguments: impl Iterator<Item = String>) -> Option<BTreeSet<Stri
     (!names.is_empty()).then_some(names)
 }
 
-/// The name in `[options:]name[=path]`, unless the options keep it out of the scope of every path.
+/// The name in `[options:]name[=path]`, unless the option `noprelude` keeps it out of scope.
 fn name(value: &str) -> Option<String> {
     let before_path = value.split('=').next().unwrap_or_default();
     let (options, name) = before_path.rsplit_once(':').unwrap_or(("", before_path));

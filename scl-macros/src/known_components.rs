@@ -1,7 +1,7 @@
 //! The components of the topologies that were expanded so far in this crate, so that `#[scl::main]` can name them when
 //! it meets an unknown one.
 //!
-//! This decides only about words. Whether a component exists, rustc decides.
+//! This affects only the wording of errors; rustc decides whether a component exists.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -14,25 +14,27 @@ pub(crate) struct KnownTopology {
     pub(crate) components: Vec<KnownComponent>,
     /// Whether the file has errors, so that components may be missing.
     pub(crate) broken: bool,
-    /// The type of what could not be read.
+    /// The name of the type that stands for what could not be read.
     pub(crate) unknown_type: String,
 }
 
-/// One component of it.
+/// A component of a topology file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct KnownComponent {
     /// The name in the file.
     pub(crate) name: String,
-    /// The struct.
+    /// The name of its struct.
     pub(crate) rust_name: String,
     /// Whether the struct is generated, as far as `only` is concerned.
     pub(crate) included: bool,
 }
 
-/// rust-analyzer expands macros of several crates in one process, so the crate's name comes first.
+/// The topologies of each crate. rust-analyzer expands macros of several crates in one process, so the crate's name
+/// comes first.
 static KNOWN: Mutex<Vec<(String, KnownTopology)>> = Mutex::new(Vec::new());
 
-/// More expansions than this are forgotten: an editor expands again with each key.
+/// Number of earlier expansions that are remembered; older ones are forgotten, because an editor expands again with
+/// each key.
 const MOST: usize = 100;
 
 pub(crate) fn remember(topology: KnownTopology) {

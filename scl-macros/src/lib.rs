@@ -52,9 +52,10 @@ pub fn __topology(input: TokenStream) -> TokenStream {
 /// Messages count as left if the peer is running or the connection has `when_full: wait`. For a peer that is not
 /// running there is only a warning.
 ///
-/// SIGTERM and SIGINT stop an async program at its next `.await`, which drops the function's future, and another one at
-/// its next call to a gate, which fails. What connected peers still receive is flushed. A program that has something to
-/// do before it ends calls `scl::stop_requested()`, and then decides itself when to return.
+/// SIGTERM and SIGINT stop an async program at its next `.await`, which drops the function's future, and a program
+/// without `async` at its next call to a gate, which fails. Messages that connected peers still receive are flushed. A
+/// program that has something to do before it ends calls `scl::stop_requested()`, and then decides itself when to
+/// return.
 ///
 /// | environment | meaning |
 /// |---|---|

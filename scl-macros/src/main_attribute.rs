@@ -1,4 +1,4 @@
-//! `#[scl::main]`: from a function that takes a component to the `main` of a program.
+//! `#[scl::main]`: turns a function that takes a component into the `main` of a program.
 
 use crate::component_stand_in;
 use proc_macro2::{Span, TokenStream};
@@ -8,8 +8,8 @@ use syn::{FnArg, Ident, ItemFn, PatType, ReturnType, Safety, Type};
 
 /// Expands the attribute. All mistakes become compile errors, and the function is kept.
 ///
-/// In an editor it stays as it was written, in the scope where it was written, so that everything the editor does in
-/// other functions works in it.
+/// In an editor, the function stays as it was written, in the scope where it was written, so that everything the editor
+/// does in other functions works in it, too.
 pub(crate) fn expand_main(arguments: TokenStream, item: TokenStream, for_editor: bool) -> TokenStream {
     let function: ItemFn = match syn::parse2(item.clone()) {
         Ok(function) => function,

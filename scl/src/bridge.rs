@@ -1,10 +1,10 @@
-//! What a gateway to other hosts needs: components of other hosts that are present in this host's runtime folder, and
-//! the components that run here. It carries no promise of stability.
+//! Support for gateways to other hosts: stand-ins for components of other hosts in this host's runtime folder, and
+//! reports of the components that run here. This module carries no promise of stability.
 //!
-//! A [`Mirror`] takes the place of a component that runs on another host: its lock, its announcement and its schema.
-//! The ends of its connections are opened one by one, with the endpoints that it gives, on
-//! [`ZeroMq`](crate::transport::zeromq). [`Presence`] says which components run here; a [`Profile`] is what a component
-//! says of itself.
+//! A [`Mirror`] stands in for a component that runs on another host, with its lock, its announcement and its schema.
+//! The gateway opens the ends of its connections one by one on [`ZeroMq`](crate::transport::zeromq), with the endpoints
+//! that the mirror returns. [`Presence`] reports which components run here; a [`Profile`] is a component's announcement
+//! with its messages.
 
 mod folder_events;
 mod mirror;

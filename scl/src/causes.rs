@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-/// Its cause, the cause of that, and so on.
+/// Iterates over the cause of an error, the cause of that, and so on.
 pub(crate) fn causes<'e>(error: &'e (dyn Error + 'e)) -> impl Iterator<Item = &'e (dyn Error + 'static)> {
     std::iter::successors(error.source(), |&cause| cause.source())
 }

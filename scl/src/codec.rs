@@ -49,7 +49,7 @@ pub use protobuf::Protobuf;
 #[cfg(feature = "raw")]
 pub use raw::Raw;
 
-/// The codecs by the names that generated code gives them, also those whose cargo feature is off.
+/// The codecs under the names that generated code uses, including those whose cargo feature is off.
 #[doc(hidden)]
 pub mod by_name {
     codec!("protobuf" Protobuf protobuf_is_on protobuf_stand_in protobuf_off);
@@ -114,11 +114,11 @@ pub trait Codec<T>: Send + Sync + 'static {
     /// The codec's name in error messages, as in the topology file.
     const NAME: &'static str;
 
-    /// The length of every message in bytes, if all are equally long. Transports that reserve memory for the longest
-    /// message of a connection then reserve no more than that. Default: they are not.
+    /// The length of every message in bytes, if all messages have the same length. Transports that reserve memory for
+    /// the longest message of a connection then reserve no more than that. Default: `None`.
     const FIXED_LENGTH: Option<usize> = None;
 
-    /// Encodes `message` and appends the bytes to `buffer`. What `buffer` contained before stays unchanged, also on
+    /// Encodes `message` and appends the bytes to `buffer`. What `buffer` contained before stays unchanged, even on
     /// failure.
     ///
     /// # Errors

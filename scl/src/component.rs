@@ -1,4 +1,4 @@
-//! Components: what generated code and `#[scl::main]` are made of.
+//! Components: the functions that generated code and `#[scl::main]` call.
 
 mod expected;
 mod main;
@@ -25,7 +25,8 @@ use std::sync::Arc;
 use std::time::Duration;
 use tokio::time::Instant;
 
-/// A component of a topology. Only `topology!` implements it; its methods are also there as inherent ones.
+/// A component of a topology. Only `topology!` implements this trait. The methods that open, await and close a
+/// component are inherent methods of the generated struct.
 pub trait Component: Sized + Send + Sync + 'static {
     /// What the topology says about the component.
     const SPEC: &'static ComponentSpec;
@@ -36,7 +37,7 @@ pub trait Component: Sized + Send + Sync + 'static {
     #[doc(hidden)]
     fn handle(&self) -> &ComponentHandle;
 
-    /// Returns its gates, in file order.
+    /// Returns the component's gates, in the order of the topology file.
     fn gates(&self) -> Vec<&dyn AnyGate>;
 }
 
@@ -109,7 +110,7 @@ pub(crate) async fn wait_for_peers(
     }
 }
 
-/// Hands over what is left, then closes.
+/// Closes the component, and waits until the peers that are running have taken all messages.
 #[doc(hidden)]
 pub async fn close<C: Component>(component: C, timeout: Duration) -> Result<(), NotFlushed> {
     let handle = component.handle().clone();
@@ -132,7 +133,8 @@ pub fn block_on<C: Component, F: Future>(component: &C, future: F) -> Result<F::
     component.handle().0.block_on(future)
 }
 
-/// A peer that is not running could not be waited for, which is worth a warning but no error.
+/// Returns the error if it [is a failure](NotFlushed::is_failure). Otherwise the peers were not running and could not
+/// be waited for, so this logs a warning and returns `Ok`.
 pub(crate) fn only_failures(flushed: Result<(), NotFlushed>) -> Result<(), NotFlushed> {
     match flushed {
         Err(error) if !error.is_failure() => {

@@ -21,7 +21,7 @@ pub const PATIENCE: Duration = Duration::from_secs(300);
 /// Runs a test on a current-thread runtime, and again on one with two worker threads.
 ///
 /// # Panics
-/// When the test does, or is not done after [`PATIENCE`].
+/// If the test panics, or is not done after [`PATIENCE`].
 pub fn run<F: Future<Output = ()>>(guarantee: &str, test: impl Fn() -> F) {
     run_on(&mut Builder::new_current_thread(), guarantee, &test);
     run_on(Builder::new_multi_thread().worker_threads(2), guarantee, &test);
@@ -46,7 +46,7 @@ fn run_on<F: Future<Output = ()>>(builder: &mut Builder, guarantee: &str, test: 
 /// | `only [Waiting, Requests];` | declares these, and lends no memory |
 /// | `lends, only [Waiting];` | declares these, and lends memory |
 ///
-/// What a transport declares is what is tested: a test compares the two.
+/// One more test checks that the transport declares exactly the guarantees that are tested.
 ///
 /// ```
 /// mod memory {

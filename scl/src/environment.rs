@@ -18,8 +18,8 @@ pub(crate) fn of_process(variable: &str) -> Option<OsString> {
     std::env::var_os(variable)
 }
 
-/// Reads a variable. An empty value counts as unset. `expected` says which values there are, as in "expected `a` or
-/// `b`".
+/// Reads a variable. An empty value counts as unset. `expected` describes the valid values in the error text, as in
+/// "expected `a` or `b`".
 ///
 /// # Errors
 /// [`OpenError::Environment`] if the value is not UTF-8 or `parse` returns `None`.

@@ -55,7 +55,7 @@ pub enum SendError {
     Encode {
         /// The gate.
         gate: GateName,
-        /// Why.
+        /// The reason.
         source: EncodeError,
     },
     /// The message is longer than a peer accepts. It was sent to no peer.
@@ -77,7 +77,7 @@ pub enum SendError {
     Blocking {
         /// The gate.
         gate: GateName,
-        /// Why.
+        /// The reason.
         source: BlockingError,
     },
 }
@@ -86,7 +86,7 @@ pub enum SendError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LoanError {
-    /// The gate's codec turns messages into other bytes than those in memory.
+    /// The gate's codec encodes messages into bytes other than those in memory.
     #[error(
         "gate `{gate}` lends no memory for its messages: its codec is `{codec}`; only messages with `codec: raw` are written \
          in place, use `send` for others"
@@ -116,7 +116,7 @@ pub enum LoanError {
     Blocking {
         /// The gate.
         gate: GateName,
-        /// Why.
+        /// The reason.
         source: BlockingError,
     },
 }
@@ -172,7 +172,7 @@ pub enum RecvError {
         /// Why it cannot be read; it names the codec.
         source: DecodeError,
     },
-    /// The gate's codec turns messages into other bytes than those in memory. No message was taken.
+    /// The gate's codec encodes messages into bytes other than those in memory. No message was taken.
     #[error(
         "gate `{gate}` has no views of its messages: its codec is `{codec}`; only messages with `codec: raw` are read in place, \
          use `recv` for others"
@@ -188,7 +188,7 @@ pub enum RecvError {
     Blocking {
         /// The gate.
         gate: GateName,
-        /// Why.
+        /// The reason.
         source: BlockingError,
     },
 }
@@ -209,7 +209,7 @@ pub enum RecvTimeoutError {
         /// Why peers are not connected, if any is missing.
         reason: Option<String>,
     },
-    /// An error of every receiving call.
+    /// An error that any receiving call may return.
     #[error(transparent)]
     Recv(#[from] RecvError),
 }
@@ -223,7 +223,7 @@ pub enum CallError {
     Encode {
         /// The gate.
         gate: GateName,
-        /// Why.
+        /// The reason.
         source: EncodeError,
     },
     /// The request is longer than the replier accepts. It was not sent.
@@ -262,7 +262,7 @@ pub enum CallError {
         /// The replier.
         peers: Peers,
     },
-    /// The replier has refused the request, because it could not decode it for example. It did not act on it.
+    /// The replier has refused the request, for example because it could not decode it, and did not act on it.
     #[error("gate `{gate}` got no reply: {peers} could not decode the request")]
     Refused {
         /// The gate.
@@ -285,7 +285,7 @@ pub enum CallError {
     Blocking {
         /// The gate.
         gate: GateName,
-        /// Why.
+        /// The reason.
         source: BlockingError,
     },
 }
@@ -299,7 +299,7 @@ pub enum ReplyError {
     Encode {
         /// The gate.
         gate: GateName,
-        /// Why.
+        /// The reason.
         source: EncodeError,
     },
     /// The reply is longer than a requester accepts.
@@ -325,12 +325,12 @@ pub enum ReplyError {
     Blocking {
         /// The gate.
         gate: GateName,
-        /// Why.
+        /// The reason.
         source: BlockingError,
     },
 }
 
-/// Why something did not arrive, as the end of a sentence.
+/// Formats the reason as the end of a sentence; returns an empty text if there is none.
 fn because(reason: &Option<String>) -> String {
     reason.as_ref().map_or_else(String::new, |reason| format!(": {reason}"))
 }

@@ -22,7 +22,8 @@ pub const VARIABLES: [&str; 8] = [
     "SCL_TRANSPORT",
 ];
 
-/// What components refuse of the values of environment variables. The runtime folder is checked where it is opened.
+/// Returns the errors that components report for the values of environment variables. The runtime folder is checked
+/// where it is opened.
 pub fn wrong_variables(variables: Variables<'_>) -> Vec<OpenError> {
     let checks = [
         log::level(variables).err(),
@@ -34,7 +35,7 @@ pub fn wrong_variables(variables: Variables<'_>) -> Vec<OpenError> {
     checks.into_iter().flatten().collect()
 }
 
-/// Why ends of connections of a running component do not connect to their running peers: each gate, and what differs.
+/// Returns the gates of a running component that refuse to connect to a running peer, each with the difference.
 ///
 /// The texts call the component "this program". Only the ends that connect are checked (`sub`, `req` and `push`), as
 /// when they run. Each different plan is kept in memory until the process ends.

@@ -1,4 +1,4 @@
-//! What tools are shown of a gate, read without borrowing the gate and without waiting for it.
+//! The figures of a gate that tools show, read without borrowing the gate and without waiting for it.
 
 use crate::runtime_dir::GateFigures;
 use crate::sync::lock;
@@ -8,7 +8,7 @@ use std::sync::Mutex;
 /// plan and never more or fewer. Called twice a second, by a task that no gate may delay and that may delay no gate.
 pub(crate) type FigureSource = Box<dyn Fn(&mut GateFigures) -> bool + Send + Sync>;
 
-/// The figures of an end that is locked while its call waits for the socket. They cannot change meanwhile.
+/// The figures of an end that is locked while a call waits for its socket. They cannot change during the wait.
 #[derive(Default)]
 pub(crate) struct FiguresInWait(Mutex<InWait>);
 
@@ -24,7 +24,8 @@ impl FiguresInWait {
         Self(Mutex::new(InWait { is_waiting: false, figures }))
     }
 
-    /// Until the returned value is dropped, [`copy_to`](Self::copy_to) returns what `read` has read now.
+    /// Begins a wait: until the returned value is dropped, [`copy_to`](Self::copy_to) copies the figures that `read`
+    /// reads now.
     pub(crate) fn begin(&self, read: impl FnOnce(&mut GateFigures)) -> EndOfWait<'_> {
         let mut wait = lock(&self.0);
         read(&mut wait.figures);
@@ -32,7 +33,7 @@ impl FiguresInWait {
         EndOfWait(self)
     }
 
-    /// Leaves the figures as they are unless a call waits.
+    /// Copies the figures of a call that waits; leaves `figures` unchanged if none does.
     pub(crate) fn copy_to(&self, figures: &mut GateFigures) {
         let wait = lock(&self.0);
         if wait.is_waiting {
@@ -62,7 +63,7 @@ impl GateFigures {
         *self = Self { connections, ..*other };
     }
 
-    /// What is known of the connections of a gate whose peers share an endpoint.
+    /// Fills in what is known of each connection of a gate whose peers share an endpoint.
     pub(crate) fn share(&mut self) {
         let all = self.connections.len() as u64;
         for connection in &mut self.connections {
@@ -71,7 +72,7 @@ impl GateFigures {
         }
     }
 
-    /// The gate is gone: nobody is connected to it, and what it has done stays.
+    /// Marks the gate as dropped: no peer is connected and no message waits, while all other counts stay.
     pub(crate) fn close(&mut self) {
         (self.peers, self.waiting) = (0, 0);
         for connection in &mut self.connections {

@@ -60,8 +60,8 @@ pub trait AnyGate: sealed::Sealed {
     /// What the topology says about the gate.
     fn spec(&self) -> &'static GateSpec;
 
-    /// Tells the required peers that are not connected, for as long as the gate exists. Gates that listen for any
-    /// number of peers (`rep`, `pull`) have none.
+    /// Returns a watch that reports the required peers that are not connected, for as long as the gate exists. Gates
+    /// that listen for any number of peers (`rep`, `pull`) have none.
     #[doc(hidden)]
     fn watch(&self) -> Watch;
 }
@@ -69,7 +69,7 @@ pub trait AnyGate: sealed::Sealed {
 /// A gate that receives: `sub`, `pull` or `rep`. Only SCL's gates implement it.
 pub trait ReceivingGate: AnyGate {
     /// Ready when the gate has a message or a request, which `try_recv` then returns. It takes none, so it may be
-    /// called as often as one likes, also by the wait for several gates.
+    /// called any number of times, also to wait for several gates at once.
     ///
     /// ```no_run
     /// use scl::ReceivingGate;
@@ -89,8 +89,7 @@ pub trait ReceivingGate: AnyGate {
     fn poll_ready(&mut self, cx: &mut Context<'_>) -> Poll<Result<(), RecvError>>;
 }
 
-/// The limit of a connection that a message of this length exceeds: the peer, the length, and the peer's
-/// `max_size`.
+/// Returns the peer, the length and the peer's `max_size` if a message of this length exceeds that limit.
 fn exceeded(connection: Option<&'static ConnectionSpec>, length: usize) -> Option<(PeerName, u64, u64)> {
     let connection = connection.filter(|connection| length as u64 > connection.max_size)?;
     Some((PeerName::of(connection), length as u64, connection.max_size))

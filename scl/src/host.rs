@@ -1,8 +1,8 @@
 //! For bindings to other languages: what [`main`](macro@crate::main) does around a Rust program, piece by piece.
 //!
 //! A program whose main function is not Rust's needs signals and a log as any other component does, but its language
-//! may handle signals in a way of its own. A binding either lets SCL watch for them, with [`watch_signals`], or reports
-//! what it has seen, with [`request_stop`]. Either way a stop request ends the waiting calls of all gates with
+//! may handle signals in its own way. A binding either lets SCL watch for them, with [`watch_signals`], or reports the
+//! signals that it receives, with [`request_stop`]. Either way a stop request ends the waiting calls of all gates with
 //! [`BlockingError::Stopped`](crate::BlockingError::Stopped).
 //!
 //! ```no_run
@@ -40,22 +40,22 @@ pub fn start_log() -> Result<(), OpenError> {
     Ok(())
 }
 
-/// From now on a service manager such as systemd or `scl run`, if one has started the process, is told when the
+/// Starts reporting to the service manager that has started the process, such as systemd or `scl run`: when the
 /// components that are opened are ready, that a stop was requested, and that the program is alive, as `docs/service.md`
-/// describes. Without one, and when called again, does nothing.
+/// describes. Does nothing without a service manager, and when called again.
 pub fn notify_service_manager() {
     service::start(&environment::of_process);
 }
 
-/// Tells the service manager, if one has started the process, something that `sd_notify(3)` describes: `READY=1` and a
-/// line break. For programs without components; for others, [`notify_service_manager`] does it. Returns at once: a
-/// manager that does not read misses the notification, which is logged.
+/// Sends the service manager, if one has started the process, a notification that `sd_notify(3)` describes, such as
+/// `READY=1` and a line break. For programs without components; for others, [`notify_service_manager`] does it. Returns
+/// at once: if the manager does not read, the notification is lost, which is logged.
 pub fn tell_service_manager(text: &str) {
     service::tell(&environment::of_process, text);
 }
 
-/// From now on SIGTERM and SIGINT request a stop instead of ending the process. It is ended if it still runs after the
-/// [`grace_period`], or when a second signal arrives after [`ONE_REQUEST`]. Further calls do nothing.
+/// From now on SIGTERM and SIGINT request a stop instead of ending the process. The process is ended if it is still
+/// running after the [`grace_period`], or when a second signal arrives after [`ONE_REQUEST`]. Further calls do nothing.
 ///
 /// # Errors
 /// `SCL_STOP_WITHIN` is not a duration, or the operating system provides no thread or no file descriptor.
@@ -64,8 +64,8 @@ pub fn watch_signals() -> Result<()> {
 }
 
 /// Applies the real-time settings `SCL_SCHED` and `SCL_CPU` to the calling thread and to those that it starts from now
-/// on, and logs a warning for what the operating system refuses. To be called after [`watch_signals`], whose thread
-/// must run while a thread with these settings computes. Further calls do nothing.
+/// on, and logs a warning for anything that the operating system refuses. Call it after [`watch_signals`], whose thread
+/// must be able to run while a thread with these settings computes. Further calls do nothing.
 ///
 /// # Errors
 /// [`OpenError::Environment`] if a setting is not understood.
@@ -79,7 +79,7 @@ pub fn apply_real_time() -> Result<(), OpenError> {
     Ok(())
 }
 
-/// How long a program may take to end after a stop request: `SCL_STOP_WITHIN`, or 3 s.
+/// Returns how long a program may take to end after a stop request: `SCL_STOP_WITHIN`, or 3 s.
 ///
 /// # Errors
 /// [`OpenError::Environment`] if the value is not a duration of 1 us to a day.

@@ -1,8 +1,8 @@
 //! Typed components and gates, wired by one checked YAML file, over ZeroMQ.
 //!
 //! A system is made of several programs. One YAML file, the topology, says which components exist, which gates they
-//! have and which gates are connected. [`topology!`] checks that file while a program compiles and makes one struct a
-//! component, with one field a gate; [`main`](macro@main) opens a component and runs a program with it.
+//! have and which gates are connected. [`topology!`] checks that file while a program compiles and generates one struct
+//! per component, with one field per gate; [`main`](macro@main) opens a component and runs a program with it.
 //!
 //! ```yaml
 //! system: rover
@@ -59,16 +59,16 @@
 //! Large messages of fixed layout (`codec: raw`) are written in place with [`Pub::loan`] and read in place with
 //! [`Sub::recv_view`]: then they are never copied on a transport with shared memory.
 //!
-//! [`ReceivingGate::poll_ready`] tells whether a gate has something without taking it; [`untyped`] waits for several
-//! gates at once and has a file descriptor for event loops.
+//! [`ReceivingGate::poll_ready`] tells whether a gate has a message or request without taking it; [`untyped`] waits for
+//! several gates at once and has a file descriptor for event loops.
 //!
 //! Programs may start in any order, restart, and be killed: messages wait in the sending program, up to the receiving
 //! gate's `queue`, and connections come back by themselves.
 //!
 //! # Where programs meet
 //!
-//! In the runtime folder, see [`runtime_dir`], under names that the topology fixes. What is said there is plain ZeroMQ,
-//! so a program in any language can take a component's place.
+//! Programs meet in the runtime folder, see [`runtime_dir`], under names that the topology fixes. They speak plain
+//! ZeroMQ there, so a program in any language can take a component's place.
 //!
 //! # Features
 //!
@@ -149,13 +149,13 @@ pub use transport_kind::TransportKind;
 /// ```
 ///
 /// The file is looked for beside the calling source file, then in the package root, then in the workspace root. Cargo
-/// builds again when it changes, or a schema that it names. With `schemas:` in the file, each protobuf package becomes
-/// a module with its messages.
+/// rebuilds when it or a schema that it names changes. With `schemas:` in the file, each protobuf package becomes a
+/// module with its messages.
 ///
-/// A struct has the functions `open`, `open_blocking`, `ready` and `close`. In unit tests, `Component::test()` gives it
-/// together with the other ends of all its gates.
+/// A struct has the functions `open`, `open_blocking`, `ready` and `close`. In unit tests, `Component::test()` returns
+/// it together with the other ends of all its gates.
 ///
-/// `only = [..]` generates some of the components, which keeps the build of a system of hundreds short. `max_size =
+/// `only = [..]` generates only the listed components, which keeps builds short in a system of hundreds. `max_size =
 /// "8MiB"` allows a file of more than 1 MiB. `testable = true` is for a library that holds the topology of programs in
 /// other crates: `Component::test()` then exists for their tests too.
 ///
@@ -163,8 +163,8 @@ pub use transport_kind::TransportKind;
 /// where the macro is called. A program needs only the Rust types of the components that it opens.
 ///
 /// # Errors
-/// Everything that is wrong with the file becomes a compile error that shows its place there and what to write instead,
-/// all at once. `scl explain CODE` says more about each.
+/// Every mistake in the file becomes a compile error that shows its place there and what to write instead, all at once.
+/// `scl explain CODE` explains each in more detail.
 #[macro_export]
 macro_rules! topology {
     ($($input:tt)*) => {

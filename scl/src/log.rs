@@ -5,7 +5,7 @@ use crate::error::OpenError;
 use crate::sync::on_living_thread;
 use tracing::level_filters::LevelFilter;
 
-/// Reads `SCL_LOG`: the most detailed messages that are logged.
+/// Reads `SCL_LOG`: the most detailed level that is logged.
 ///
 /// # Errors
 /// [`OpenError::Environment`] if the value is not a level.
@@ -16,13 +16,13 @@ pub(crate) fn level(variables: Variables<'_>) -> Result<LevelFilter, OpenError> 
     Ok(environment::read(variables, "SCL_LOG", expected, parse)?.unwrap_or(LevelFilter::WARN))
 }
 
-/// Logs a warning about the end of a component. Its thread may be ending, too, and a log that keeps something in a
-/// destroyed thread-local value would panic there.
+/// Logs a warning about the end of a component, on another thread if the calling thread is ending: there, a log that
+/// uses a destroyed thread-local value would panic.
 pub(crate) fn warn(text: &str) {
     on_living_thread(|| tracing::warn!("{text}"));
 }
 
-/// Without the feature `logging` the program chooses what happens to its log.
+/// Does nothing: without the feature `logging`, the program chooses what happens to its log.
 #[cfg(not(feature = "logging"))]
 pub(crate) fn start(_level: LevelFilter) {}
 
@@ -35,8 +35,8 @@ pub(crate) fn start(level: LevelFilter) {
     let _already_set = log.with_target(false).without_time().try_init();
 }
 
-/// Colour only on terminals, never if `NO_COLOR` is set (<https://no-color.org>), and as `CLICOLOR` and
-/// `CLICOLOR_FORCE` say (<https://bixense.com/clicolors>).
+/// Returns true if the log is written in colour: only on terminals unless `CLICOLOR` or `CLICOLOR_FORCE` says otherwise
+/// (<https://bixense.com/clicolors>), and never if `NO_COLOR` is set (<https://no-color.org>).
 #[cfg(any(feature = "logging", test))]
 fn use_colour(terminal: bool, variables: Variables<'_>) -> bool {
     let is_set = |name| variables(name).is_some_and(|value| !value.is_empty());

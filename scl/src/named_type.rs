@@ -6,7 +6,7 @@ pub trait NamedType<const INDEX: usize> {
     type Type;
 }
 
-/// Makes a stand-in a message of a codec. It is never encoded: a component with such a gate cannot be opened.
+/// Implements a codec for a stand-in. No stand-in is ever encoded: a component with such a gate cannot be opened.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __stand_in_codec {
@@ -28,7 +28,7 @@ macro_rules! __stand_in_codec {
     };
 }
 
-/// For a codec that is off.
+/// Expands to nothing: the feature of the codec is off.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __no_stand_in_codec {

@@ -1,10 +1,10 @@
-//! What an observer of a tap is told.
+//! The events that an observer of a tap receives.
 
 pub use crate::tap_meta::ObservedKind;
 
 use bytes::Bytes;
 
-/// What happens at a tap.
+/// An event at a tap.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TapEvent {
     /// The component shows this observer every message that passes the gate from now on. What passed shortly before
@@ -12,8 +12,8 @@ pub enum TapEvent {
     Connected,
     /// A message, request or reply.
     Observed(Observation),
-    /// The component has closed, was killed, or cannot be understood. Follows [`Connected`](Self::Connected) only. The
-    /// observer connects again by itself.
+    /// The component has closed, was killed, or sent invalid data. Comes only after [`Connected`](Self::Connected). The
+    /// observer reconnects by itself.
     Disconnected,
 }
 
@@ -34,6 +34,6 @@ pub struct Observation {
     pub latched: bool,
     /// The number of the call that a request or reply belongs to; 0 for messages.
     pub call_id: u64,
-    /// What it is.
+    /// Whether it is a message, a request or a reply.
     pub kind: ObservedKind,
 }

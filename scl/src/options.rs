@@ -37,31 +37,32 @@ pub struct OpenOptions {
 }
 
 impl OpenOptions {
-    /// Options that all come from the environment.
+    /// Returns options that all come from the environment.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The folder in which gates meet. Only components with the same folder find each other.
+    /// Sets the folder in which gates meet. Only components with the same folder find each other.
     pub fn runtime_dir(mut self, folder: impl Into<PathBuf>) -> Self {
         self.runtime_dir = Some(folder.into());
         self
     }
 
-    /// The name of the system, so that one topology can run several times side by side.
+    /// Sets the name of the system, so that one topology can run several times side by side.
     pub fn system(mut self, name: impl Into<String>) -> Self {
         self.system = Some(name.into());
         self
     }
 
-    /// What the component's listening gates listen on. `SCL_TRANSPORT` then has no effect.
+    /// Sets what the component's listening gates listen on. `SCL_TRANSPORT` then has no effect.
     pub fn transport_kind(mut self, transport_kind: TransportKind) -> Self {
         self.transport_kind = Some(transport_kind);
         self
     }
 
-    /// The transport of the connections of one gate, named as `component.gate`: a gate of this component or of a peer.
-    /// Of several that apply to a connection, the last one counts. The listening end of the connection decides.
+    /// Sets the transport of the connections of one gate, named as `component.gate`: a gate of this component or of a
+    /// peer. If several settings apply to a connection, the last one counts. The listening end of the connection
+    /// decides.
     ///
     /// Opening fails if this component has no gate of this name.
     pub fn transport_of(mut self, gate: impl Into<String>, transport_kind: TransportKind) -> Self {
@@ -69,15 +70,15 @@ impl OpenOptions {
         self
     }
 
-    /// What [`transport_kind`](Self::transport_kind) and [`transport_of`](Self::transport_of) say, from a text like the
-    /// value of `SCL_TRANSPORT`, which then has no effect.
+    /// Sets what [`transport_kind`](Self::transport_kind) and [`transport_of`](Self::transport_of) set, from a text
+    /// like the value of `SCL_TRANSPORT`, which then has no effect.
     pub fn transports(mut self, choice: TransportChoice) -> Self {
         self.transport_kind = Some(choice.default_kind());
         self.transport_of.extend(choice.of_gates);
         self
     }
 
-    /// A transport of your own, or `scl::transport::memory::Memory` for gates within this process.
+    /// Uses a transport of your own, or `scl::transport::memory::Memory` for gates within this process.
     ///
     /// The component then uses no runtime folder: it reads and writes no files, the options of the runtime folder have
     /// no effect, and only the transport or a [`registry`](Self::registry) can keep the component from being opened
@@ -89,17 +90,17 @@ impl OpenOptions {
         self
     }
 
-    /// A registry of your own, beside a [`transport`](Self::transport) of your own: it keeps the component from being
-    /// opened twice, and knows which peers run. Without such a transport it has no effect, because the runtime folder
-    /// is a registry.
+    /// Uses a registry of your own, beside a [`transport`](Self::transport) of your own: it keeps the component from
+    /// being opened twice, and knows which peers run. Without such a transport it has no effect, because the runtime
+    /// folder is a registry.
     pub fn registry(mut self, registry: impl Registry) -> Self {
         self.registry = Some(Arc::new(registry));
         self
     }
 
-    /// For `test()`: on this transport, a component is alone with its counterpart, which plays all peers of a gate at
-    /// the endpoint of its first connection. The other connections are left out, and what nobody receives is no
-    /// warning.
+    /// Returns the options of `test()`: on this transport, a component is alone with its counterpart, which takes the
+    /// place of all peers of a gate, at the endpoint of its first connection. The other connections are left out, and
+    /// messages that are not received cause no warning.
     #[cfg(feature = "memory")]
     #[doc(hidden)]
     pub fn of_test(transport: crate::transport::memory::Memory) -> Self {
@@ -123,7 +124,7 @@ impl OpenOptions {
         Self::new().transport_choice(variables).map(drop)
     }
 
-    /// The name of the system: the chosen one, or `SCL_SYSTEM`, or the topology's.
+    /// Returns the name of the system: the chosen one, or `SCL_SYSTEM`, or the topology's.
     ///
     /// # Errors
     /// [`OpenError::Environment`] if `SCL_SYSTEM` is not UTF-8.
@@ -135,7 +136,8 @@ impl OpenOptions {
         Ok(name.unwrap_or_else(|| topology.to_owned()))
     }
 
-    /// The transports: those chosen, after those of `SCL_TRANSPORT`, else Unix sockets.
+    /// Returns the transports: the chosen default, or `SCL_TRANSPORT`, or Unix sockets; then those chosen for single
+    /// gates.
     ///
     /// # Errors
     /// [`OpenError::Environment`] if `SCL_TRANSPORT` is not understood.

@@ -1,4 +1,4 @@
-//! What generated code names. It carries no promise of stability.
+//! The items that generated code uses. They carry no promise of stability.
 
 #[cfg(feature = "protobuf")]
 pub mod floats;

@@ -14,8 +14,8 @@ use std::pin::Pin;
 use std::sync::{Arc, Mutex, Weak};
 use std::time::Duration;
 
-/// What makes this process the one that runs a component. Dropped after everything that the component has bound: then
-/// another process may run it.
+/// The registration of this process as the one that runs a component. Dropped after everything that the component has
+/// bound, because then another process may run it.
 #[derive(Debug)]
 pub(crate) struct Registration {
     files: Arc<Files>,
@@ -27,7 +27,7 @@ struct Files {
     dir: SystemDir,
     spec: &'static ComponentSpec,
     announcement: Announcement,
-    /// What the component has done before it did anything, unless it writes no stats.
+    /// The stats of a component that has done nothing yet; `None` if it writes no stats.
     initial_stats: Option<ComponentStats>,
     /// `None` once the component is closed.
     held: Mutex<Option<Held>>,
@@ -38,7 +38,7 @@ struct Files {
 #[derive(Debug)]
 struct Held {
     announcement: OwnedPath,
-    /// `None` if the component writes none, or they could not be created.
+    /// `None` if the component writes no stats, or the file could not be created.
     stats: Option<StatsFile>,
     lock: ComponentLock,
 }
@@ -78,7 +78,8 @@ impl Registration {
         if self.files.are_in_place() { Ok(false) } else { self.files.restore() }
     }
 
-    /// The figures of a component that has done nothing yet, and what writes later ones, unless it writes none.
+    /// Returns the figures of a component that has done nothing yet, and the writer for later ones, or `None` if it
+    /// writes no stats.
     pub(crate) fn stats(&self) -> Option<(ComponentStats, StatsWriter)> {
         Some((self.files.initial_stats.clone()?, StatsWriter(Arc::downgrade(&self.files))))
     }
@@ -154,8 +155,8 @@ impl Files {
         })
     }
 
-    /// Returns true if the lock's file or the announcement was missing. Sockets are restored by their owners, which
-    /// this wakes.
+    /// Creates missing files again. Returns true if the lock's file or the announcement was missing. Wakes the owners
+    /// of sockets, which restore those themselves.
     fn restore(&self) -> Result<bool, RuntimeDirError> {
         let mut held = lock(&self.held);
         let Some(held) = held.as_mut() else { return Ok(false) };
@@ -177,7 +178,7 @@ impl Files {
     }
 }
 
-/// A component without stats is as good as any; only tools miss them.
+/// Creates the stats file, or logs why it cannot be created: only tools need it, so the component runs without it.
 fn create_stats(dir: &SystemDir, spec: &ComponentSpec, stats: &ComponentStats) -> Option<StatsFile> {
     StatsFile::create(dir, spec.name, stats).inspect_err(|error| log_missing_stats(spec, error)).ok()
 }

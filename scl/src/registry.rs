@@ -1,9 +1,10 @@
-//! Registries: which process runs a component, and what is known of its neighbours, apart from how messages move.
+//! Registries: which process runs a component, and what is known about its neighbours. How messages move is up to the
+//! transport.
 //!
-//! Between programs that is the runtime folder ([`runtime_dir`](crate::runtime_dir)). A
+//! Between programs, the registry is the runtime folder ([`runtime_dir`](crate::runtime_dir)). A
 //! [`transport`](crate::OpenOptions::transport) of your own comes without a registry, unless you bring one with
-//! [`OpenOptions::registry`](crate::OpenOptions::registry): then a component can be opened once only, errors say who
-//! runs it and why a peer is missing, and closing waits for peers that are running but not connected yet.
+//! [`OpenOptions::registry`](crate::OpenOptions::registry): then a component can be opened only once, errors say which
+//! process runs it and why a peer is missing, and closing waits for peers that are running but not connected yet.
 
 use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::transport::PeerCheck;
@@ -11,7 +12,7 @@ use std::error::Error;
 use std::pin::Pin;
 use std::sync::Arc;
 
-/// Where the components of a system take their names and find each other.
+/// A registry, in which the components of a system take their names and find each other.
 ///
 /// ```
 /// use scl::OpenOptions;
@@ -61,23 +62,24 @@ pub trait Registry: Send + Sync + 'static {
 
 /// A component that is registered. Dropped after everything that the component has opened; then its name is free.
 pub trait Registered: Send + Sync {
-    /// Which process runs a component of the system; `None` if none does.
+    /// Returns which process runs a component of the system, or `None` if none does.
     fn neighbour(&self, component: &str) -> Option<Neighbour>;
 
-    /// What a connecting end of `gate` calls before it connects to a peer. The default accepts every peer.
+    /// Returns the check that a connecting end of `gate` calls before it connects to a peer. By default there is none,
+    /// so every peer is accepted.
     fn peer_check(&self, gate: &'static GateSpec, connection: &'static ConnectionSpec) -> Option<PeerCheck> {
         let _accepts_every_peer = (gate, connection);
         None
     }
 
-    /// What a sending end calls before it warns that it drops messages for `peer`, which was connected before. The
-    /// default misses every peer.
+    /// Returns the check that a sending end calls before it warns that it drops messages for `peer`, which was
+    /// connected before. By default there is none, so it always warns.
     fn end_check(&self, peer: &'static str) -> Option<EndCheck> {
         let _misses_every_peer = peer;
         None
     }
 
-    /// Why a peer is not connected, to follow its name in a text: `is not running`.
+    /// Explains why a peer is not connected, in words that follow the peer's name: `is not running`.
     fn explain_missing(&self, gate: &GateSpec, connection: &ConnectionSpec) -> String {
         let _of_any_gate = gate;
         let state =
@@ -91,15 +93,17 @@ pub trait Registered: Send + Sync {
     }
 }
 
-/// Returns true if a peer's program has closed it in order, such as one whose task is done: then it is not missed.
+/// Returns true if a peer's program has closed it in order, for example because its task is done: then dropped messages
+/// cause no warning.
 pub type EndCheck = Arc<dyn Fn() -> bool + Send + Sync>;
 
-/// Who runs a component.
+/// Which process runs a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Neighbour {
-    /// The calling process. Blocking calls do not wait for it, because its thread may be the one that waits.
+    /// The calling process. Blocking calls do not wait for such a component, because it may be run by the thread that
+    /// waits.
     ThisProcess,
-    /// Another one.
+    /// Another process.
     OtherProcess,
 }
 
@@ -107,12 +111,12 @@ pub enum Neighbour {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RegistryError {
-    /// It is running already.
+    /// The component is already running.
     #[error("component `{component}` is already running as {by}; stop it first")]
     Taken {
         /// The component.
         component: &'static str,
-        /// Who runs it: `process 4711`.
+        /// The process that runs it: `process 4711`.
         by: String,
     },
     /// The registry failed.
@@ -125,7 +129,8 @@ pub enum RegistryError {
     },
 }
 
-/// For a component on a transport of the user's without a registry: nothing is known of its neighbours.
+/// The registration of a component on the user's own transport without a registry: nothing is known about its
+/// neighbours.
 pub(crate) struct Unregistered;
 
 impl Registered for Unregistered {

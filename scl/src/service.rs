@@ -1,7 +1,7 @@
-//! Telling a service manager how this process fares, as `sd_notify(3)` describes: systemd, or `scl run`.
+//! Reports the state of this process to a service manager, systemd or `scl run`, as `sd_notify(3)` describes.
 //!
-//! The manager names a socket in `NOTIFY_SOCKET`. Each component of the process is a member; the process is ready when
-//! all members have been, and alive while all are. `docs/service.md` says what is sent when.
+//! The manager names a socket in `NOTIFY_SOCKET`. Each component of the process is a member; the process is ready once
+//! all members have been ready, and alive while all are alive. `docs/service.md` says what is sent when.
 //!
 //! The datagrams are sent without waiting: a manager that does not read must not hold up a control loop, which rules
 //! out libraries whose socket may block.
@@ -29,7 +29,7 @@ pub(crate) fn start(variables: Variables<'_>) {
     SERVICE.get_or_init(|| manager(variables).map(|socket| Arc::new(Service::new(socket, watchdog(variables)))));
 }
 
-/// Takes a component into what is reported. `follows_calls`: see [`Member`].
+/// Adds a component to those reported. Returns `None` if there is no service manager. `follows_calls`: see [`Member`].
 pub(crate) fn join(follows_calls: impl FnOnce() -> bool) -> Option<Arc<Member>> {
     Some(SERVICE.get()?.as_ref()?.join(follows_calls()))
 }
@@ -51,17 +51,18 @@ pub(crate) fn tell(variables: Variables<'_>, text: &str) {
 /// The connection to the service manager.
 pub(crate) struct Service {
     socket: Socket,
-    /// How soon the manager must hear that the process is alive, if it wants to.
+    /// The time within which the manager expects a report that the process is alive, if it wants any.
     watchdog: Option<Duration>,
     reported: Mutex<Reported>,
-    /// Whether the manager did not take the last change.
+    /// Whether the manager did not take the last notification of a change.
     untold: AtomicBool,
 }
 
 #[derive(Default)]
 struct Reported {
     members: Vec<Weak<Member>>,
-    /// What the manager has been told: it may not take a notification, which is then tried again.
+    /// Whether the manager knows that the process is ready. This, `status` and `stopping` change only when the manager
+    /// takes the notification; until then it is sent again.
     ready: bool,
     status: String,
     stopping: bool,
@@ -86,7 +87,7 @@ impl Service {
         self.report_changes();
     }
 
-    /// Reports what has changed of the readiness of the members, and whatever the manager did not take before.
+    /// Reports a stop request, changes in the readiness of the members, and whatever the manager did not take before.
     fn report_changes(&self) {
         let mut reported = lock(&self.reported);
         let members = reported.members();
@@ -110,7 +111,8 @@ impl Service {
         self.untold.store(!is_told, Ordering::Relaxed);
     }
 
-    /// Reports that the process is alive, if all members have been since the last time and that is not too short ago.
+    /// Reports that the process is alive, if all members have been alive since the last such report, and that was at
+    /// least `not_before` ago.
     fn report_alive(&self, not_before: Duration) {
         let mut reported = lock(&self.reported);
         let now = Instant::now();
@@ -124,7 +126,7 @@ impl Service {
     }
 }
 
-/// The socket of the service manager, if there is one that can be reached.
+/// Connects to the socket of the service manager. Returns `None` if there is no manager, or it cannot be reached.
 fn manager(variables: Variables<'_>) -> Option<Socket> {
     let address = variables("NOTIFY_SOCKET").filter(|address| !address.is_empty())?;
     let connected = Socket::connect(&address);
@@ -141,7 +143,7 @@ impl Reported {
     }
 }
 
-/// How many peers a status names at most.
+/// Maximum number of peers that a status names.
 const NAMED: usize = 8;
 
 fn status(members: &[Arc<Member>]) -> String {

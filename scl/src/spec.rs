@@ -33,7 +33,7 @@ pub struct Schema {
 pub struct GateSpec {
     /// The gate's name, as in the file.
     pub name: &'static str,
-    /// What it does.
+    /// What the gate does.
     pub kind: GateKind,
     /// The type as in the file, `rover.Command -> rover.Status`, or `bytes`.
     pub payload: &'static str,
@@ -54,7 +54,7 @@ pub struct GateSpec {
 }
 
 impl GateSpec {
-    /// The types of the messages that the gate sends, and that it receives.
+    /// Returns the types of the messages that the gate sends, and that it receives.
     #[cfg(feature = "protobuf")]
     pub(crate) fn sent_and_received(&self) -> (Option<&'static str>, Option<&'static str>) {
         match (self.kind, self.exchanged()) {
@@ -66,12 +66,12 @@ impl GateSpec {
         }
     }
 
-    /// The types of requests and replies.
+    /// Returns the types of requests and replies, if the gate exchanges them.
     pub(crate) fn exchanged(&self) -> Option<(&'static str, &'static str)> {
         self.payload.split_once(" -> ").filter(|_| self.kind.exchanges())
     }
 
-    /// Whether a receiving gate wants nothing but the newest message.
+    /// Returns true if a receiving gate wants only the newest message.
     pub(crate) fn newest_only(&self) -> bool {
         self.options.queue == 1 && self.options.when_full == WhenFull::DropOldest
     }
@@ -92,7 +92,7 @@ pub struct ConnectionSpec {
     pub required: bool,
     /// The receiving gate's queue, in messages.
     pub queue: u32,
-    /// What happens when it is full.
+    /// What happens to messages when that queue is full.
     pub when_full: WhenFull,
     /// The longest message that the peer accepts from this gate, in bytes.
     pub max_size: u64,

@@ -56,19 +56,19 @@ pub(crate) struct ComponentState {
     runtime_ended: Arc<AtomicBool>,
     /// Whether all calls of the gates have been ended for good.
     calls_ended: AtomicBool,
-    /// Whether it is one of the two components of a unit test.
+    /// Whether the component is one of the two in a unit test.
     pub(crate) is_test: bool,
     /// The message types of `schemas:`, decoded when the first gate needs them.
     #[cfg(feature = "protobuf")]
     message_types: OnceLock<Option<FileDescriptorSet>>,
-    /// What wakes the waiting calls of gates without a sending end.
+    /// Wakes the waiting calls that no sending end wakes.
     waiting_calls: Mutex<Vec<Weak<dyn WakeCall>>>,
     pub(crate) monitor: Arc<Monitor>,
     /// Writes the component's stats, if it has any.
     _stats: Option<AbortOnDrop>,
-    /// What a service manager is told of the component, if there is one.
+    /// The component as reported to the service manager, if there is one.
     member: Option<Arc<Member>>,
-    /// Tells it.
+    /// The task that reports the component to the service manager.
     reporting: OnceLock<AbortOnDrop>,
     /// Number of [`Owner`]s.
     owners: AtomicUsize,
@@ -84,7 +84,7 @@ struct Registered {
     _task: Option<AbortOnDrop>,
 }
 
-/// What generated code holds of a component besides its gates.
+/// The part of a component that generated code holds besides the gates.
 #[derive(Debug, Clone)]
 pub struct ComponentHandle(pub(crate) Owner);
 
@@ -111,7 +111,7 @@ impl Changes {
 }
 
 impl ComponentState {
-    /// Needs a tokio runtime. `is_test`: it is one of the two components of a unit test.
+    /// Must be called inside a tokio runtime. `is_test`: the component is one of the two in a unit test.
     pub(crate) fn new(
         spec: &'static ComponentSpec,
         registration: Box<dyn RegisteredComponent>,
@@ -156,7 +156,7 @@ impl ComponentState {
         }
     }
 
-    /// The message types of `schemas:`, if there are any.
+    /// Returns the message types of `schemas:`, if there are any.
     #[cfg(feature = "protobuf")]
     pub(crate) fn message_types(&self) -> Option<&FileDescriptorSet> {
         let decode = || scl_shape::decode(self.spec.schema?.descriptors).ok();
@@ -167,7 +167,7 @@ impl ComponentState {
         self.changes.clone()
     }
 
-    /// Keeps a connection moving, whether its gate is used or not.
+    /// Drives an end in a task, so that its connection makes progress whether its gate is used or not.
     pub(crate) fn drive<E: SendingEnd + 'static>(&self, end: E) -> Arc<Mutex<E>> {
         let end = Arc::new(Mutex::new(end));
         // The task holds the end weakly, so that the end is dropped with its gate, and not only when the runtime drops
@@ -188,13 +188,13 @@ impl ComponentState {
         lock(&self.receiving).push(end);
     }
 
-    /// The program is about to end, perhaps with gates that nobody drops.
+    /// Acknowledges what the program has received, because it is about to end, perhaps without dropping its gates.
     fn acknowledge_last(&self) {
         let ends = lock(&self.receiving).iter().filter_map(Weak::upgrade).collect::<Vec<_>>();
         ends.iter().for_each(|end| lock(end).acknowledge_last());
     }
 
-    /// A gate was dropped. Its end is dropped too, as soon as its peer has taken everything, or after [`LINGER`].
+    /// Releases the end of a dropped gate: drops it as soon as its peer has taken everything, or after [`LINGER`].
     pub(crate) fn release(self: &Arc<Self>, end: Arc<Mutex<dyn SendingEnd>>) {
         // Ends enter the runtime, which is impossible on a thread that is ending.
         on_living_thread(|| self.release_here(&end));
@@ -242,22 +242,22 @@ impl ComponentState {
         !self.process.is_own()
     }
 
-    /// Why peers are missing, for error texts: `` `sensor` is not running ``.
+    /// Explains why peers are missing, for error texts: `` `sensor` is not running ``. Returns `None` if none is.
     pub(crate) fn why_missing(&self, gate: &GateSpec, missing: &[Missing]) -> Option<String> {
         let reasons = missing.iter().map(|missing| self.explain(gate, missing));
         let reasons: Vec<String> = reasons.collect();
         (!reasons.is_empty()).then(|| reasons.join("; "))
     }
 
-    /// Why a peer is missing, as a sentence.
+    /// Explains why a peer is missing, as a sentence.
     pub(crate) fn explain(&self, gate: &GateSpec, missing: &Missing) -> String {
         let Missing { connection, refusal } = missing;
         let reason = || self.registration.explain_missing(gate, connection);
         refusal.clone().unwrap_or_else(|| format!("{} {}", PeerName::of(connection), reason()))
     }
 
-    /// Returns true if another process runs a component. One of this process cannot be waited for while its thread may
-    /// be the one that waits.
+    /// Returns true if another process runs a component. A component of this process cannot be waited for, because the
+    /// waiting thread may be the one that runs it.
     fn runs_elsewhere(&self, component: &str) -> bool {
         self.registration.neighbour(component) == Some(Neighbour::OtherProcess)
     }
@@ -277,7 +277,7 @@ impl ComponentState {
         self.flushed_in(started.elapsed(), left)
     }
 
-    /// [`flush`](Self::flush) from a plain thread. Also after a stop request.
+    /// [`flush`](Self::flush) from a plain thread. Works after a stop request, too.
     pub(crate) fn flush_blocking(&self, flush: Flush, timeout: Duration) -> Result<(), NotFlushed> {
         match runtime::refuse_to_wait() {
             // Do not use another thread unless necessary: while `dlclose` runs a destructor, it holds a lock that new
@@ -303,7 +303,8 @@ impl ComponentState {
         }
     }
 
-    /// In a unit test, a peer that is gone will not come back.
+    /// Returns which peers to wait for: in a unit test only connected ones, because a peer that is gone will not come
+    /// back.
     fn awaited(&self, flush: Flush) -> Flush {
         if self.is_test { Flush::Connected } else { flush }
     }
@@ -315,7 +316,7 @@ impl ComponentState {
         flushed.or_else(|left| if self.is_test && !left.is_failure() { Ok(()) } else { Err(left) })
     }
 
-    /// Hands over what is left of a component that is dropped.
+    /// Hands over the messages left in a component that is dropped, and logs those that no peer takes.
     fn hand_over(&self, ends: &[Arc<Mutex<dyn SendingEnd>>]) {
         if *lock(&self.flushed) {
             return;
@@ -344,7 +345,7 @@ impl ComponentState {
     }
 }
 
-/// Hands over what is left, within [`LINGER`], on the calling thread if it is not ending, and without a runtime.
+/// Hands over the messages left, within [`LINGER`], on the calling thread unless it is ending, and without a runtime.
 impl Drop for ComponentState {
     fn drop(&mut self) {
         debug_assert!(!self.is_inherited(), "an owner keeps what a forked child inherits");

@@ -75,7 +75,7 @@ pub fn stop_requested() -> impl Future<Output = ()> + Send + 'static {
 /// [`stop_requested`] for a plain thread. Do not call it in async code, which it would block.
 ///
 /// # Panics
-/// As [`stop_requested`].
+/// Same as [`stop_requested`].
 pub fn stop_requested_blocking() {
     handle_stop();
     STOP.wait_requested_blocking();
@@ -98,21 +98,21 @@ pub fn stop_requested_blocking() {
 /// ```
 ///
 /// # Panics
-/// As [`stop_requested`].
+/// Same as [`stop_requested`].
 pub fn is_stop_requested() -> bool {
     handle_stop();
     STOP.is_requested()
 }
 
-/// Requests the stop, for a binding that watches for signals itself. Ending the process after the grace period is left
-/// to the binding, too.
+/// Requests a stop, for a binding that watches for signals itself. Ending the process after the grace period is left to
+/// the binding, too.
 pub fn request(signal: StopSignal) {
     STOP.request(signal.exit_code());
     service::stopping();
 }
 
-/// From now on the program handles stop requests itself, as after [`stop_requested`](crate::stop_requested): its gates
-/// keep working after the request.
+/// Makes the program handle stop requests itself, as [`stop_requested`](crate::stop_requested) does: its gates keep
+/// working after the request.
 pub fn handle() {
     STOP.handle();
 }
@@ -129,8 +129,8 @@ pub fn gates_stopped() -> bool {
     STOP.gates_stopped()
 }
 
-/// Returns true if a stop was requested. Unlike [`is_stop_requested`](crate::is_stop_requested), asking does not mean
-/// that the program handles the request itself.
+/// Returns true if a stop was requested. Unlike [`is_stop_requested`](crate::is_stop_requested), this does not make the
+/// program handle the request itself.
 pub fn was_requested() -> bool {
     STOP.is_requested()
 }
@@ -138,7 +138,7 @@ pub fn was_requested() -> bool {
 /// Waits for a future, or until [`gates_stopped`], whichever comes first.
 ///
 /// # Errors
-/// [`BlockingError::Stopped`].
+/// [`BlockingError::Stopped`] if the gates were stopped first.
 pub(crate) async fn until_stopped<F: Future>(future: F) -> Result<F::Output, BlockingError> {
     until(&STOP, future).await
 }

@@ -1,4 +1,4 @@
-//! Small things about threads and tasks that several parts need.
+//! Small helpers for threads and tasks that several modules need.
 
 use scl_fork::ProcessMark;
 use std::future::poll_fn;
@@ -9,12 +9,12 @@ use std::thread::{self, ScopedJoinHandle, Thread};
 use tokio::runtime::Handle;
 use tokio::task::AbortHandle;
 
-/// Locks; a panic elsewhere while it was locked does not spread, since no lock here guards a half-done change.
+/// Locks a mutex. A panic while it was locked elsewhere does not spread, since no lock here guards a half-done change.
 pub(crate) fn lock<T: ?Sized>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Locks without waiting; `None` while another thread holds the lock.
+/// Locks a mutex without waiting. Returns `None` while another thread holds the lock.
 pub(crate) fn try_lock<T: ?Sized>(mutex: &Mutex<T>) -> Option<MutexGuard<'_, T>> {
     match mutex.try_lock() {
         Ok(guard) => Some(guard),
@@ -23,7 +23,8 @@ pub(crate) fn try_lock<T: ?Sized>(mutex: &Mutex<T>) -> Option<MutexGuard<'_, T>>
     }
 }
 
-/// Returns true if thread-local values of the calling thread are destroyed: tokio's, without which it cannot wait.
+/// Returns true if tokio's thread-local values of the calling thread, without which it cannot wait, have been
+/// destroyed.
 pub(crate) fn is_thread_ending() -> bool {
     Handle::try_current().is_err_and(|error| error.is_thread_local_destroyed())
 }
@@ -33,7 +34,7 @@ pub(crate) fn on_living_thread<T: Send>(call: impl Fn() -> T + Sync) -> T {
     if is_thread_ending() { on_another_thread(call) } else { call() }
 }
 
-/// Makes a call on a thread of its own, which has its thread-local values, and waits for it.
+/// Makes a call on a new thread, whose thread-local values exist, and waits for it.
 pub(crate) fn on_another_thread<T: Send>(call: impl Fn() -> T + Sync) -> T {
     thread::scope(|threads| {
         let spawned = thread::Builder::new().spawn_scoped(threads, &call);
@@ -46,7 +47,7 @@ pub(crate) fn on_another_thread<T: Send>(call: impl Fn() -> T + Sync) -> T {
     })
 }
 
-/// Keeps the waker of a task, which is usually the one that is kept already.
+/// Keeps the waker of a task. Cheap if that waker is kept already, as it usually is.
 pub(crate) fn keep_waker(kept: &mut Option<Waker>, waker: &Waker) {
     match kept {
         Some(kept) => kept.clone_from(waker),
@@ -54,7 +55,7 @@ pub(crate) fn keep_waker(kept: &mut Option<Waker>, waker: &Waker) {
     }
 }
 
-/// A waker that unparks the calling thread.
+/// Returns a waker that unparks the calling thread.
 pub(crate) fn unparks_this_thread() -> Waker {
     struct Unpark(Thread);
 
@@ -67,7 +68,8 @@ pub(crate) fn unparks_this_thread() -> Waker {
     Arc::new(Unpark(thread::current())).into()
 }
 
-/// Ends a task with its owner. In a forked child the task and its runtime are the parent's, and dropping does nothing.
+/// Aborts a task when dropped. In a forked child, the task and its runtime belong to the parent, and dropping does
+/// nothing.
 #[derive(Debug)]
 pub(crate) struct AbortOnDrop {
     task: AbortHandle,
@@ -79,8 +81,8 @@ impl AbortOnDrop {
         Self { task: runtime.spawn(task).abort_handle(), process: ProcessMark::new() }
     }
 
-    /// A task that drives an end as long as it exists. It holds the end weakly, so that the end is gone with its gate,
-    /// and not only when the runtime drops the task.
+    /// Spawns a task that drives an end as long as the end exists. The task holds it weakly, so that the end is dropped
+    /// with its gate, and not only when the runtime drops the task.
     pub(crate) fn drive<E: Send + Sync + 'static>(
         runtime: &Handle,
         end: &Arc<E>,

@@ -53,12 +53,12 @@ impl Observer {
         poll_fn(|cx| self.poll_next(cx)).await
     }
 
-    /// [`next`](Self::next) as a poll, for several observers in one task.
+    /// Like [`next`](Self::next), as a poll function, for several observers in one task.
     pub fn poll_next(&mut self, cx: &mut Context<'_>) -> Poll<TapEvent> {
         self.reader.poll_next(cx)
     }
 
-    /// Number of messages so far that were not what a tap sends, and were passed over.
+    /// Returns the number of messages skipped so far because they were not valid messages of a tap.
     pub fn rejected(&self) -> u64 {
         self.reader.rejected()
     }

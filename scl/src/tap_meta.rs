@@ -3,7 +3,7 @@
 
 use rustix::time::{ClockId, clock_gettime};
 
-/// What is said about a message that passes a gate.
+/// Metadata of a message that passes a gate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct TapMeta {
     pub(crate) sequence: u64,
@@ -16,7 +16,7 @@ pub(crate) struct TapMeta {
     pub(crate) latched: bool,
 }
 
-/// What an observed message is.
+/// The kind of an observed message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "zeromq"), expect(unreachable_pub, reason = "only observers need it"))]
 pub enum ObservedKind {
@@ -53,7 +53,7 @@ impl TapMeta {
     }
 }
 
-/// The time, in nanoseconds since 1970.
+/// Returns the time, in nanoseconds since 1970.
 pub(crate) fn now_ns() -> u64 {
     let now = clock_gettime(ClockId::Realtime);
     now.tv_sec.unsigned_abs() * 1_000_000_000 + now.tv_nsec.unsigned_abs()

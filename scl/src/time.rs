@@ -50,7 +50,7 @@ enum Schedule {
 ///
 /// While tokio's clock is paused, as in `#[tokio::test(start_paused = true)]`, the timer follows that clock: a thousand
 /// ticks take no time. Tokio rounds up to milliseconds there, so the ticks of a shorter period come several at a time.
-/// The clock is looked up in each call; when it was paused or resumed in between, the timer starts again.
+/// Each call checks which clock is in use; when it was paused or resumed in between, the timer starts again.
 ///
 /// # Errors
 /// The period is zero, there is no tokio runtime, or the process has no file descriptor left.
@@ -65,7 +65,7 @@ pub fn interval(period: Duration) -> io::Result<Interval> {
 }
 
 impl Interval {
-    /// Waits for the next tick. Missed ticks are returned at once, one by one, so that their number stays right.
+    /// Waits for the next tick. Missed ticks are returned at once, one by one, so that their number stays correct.
     ///
     /// # Errors
     /// The timer has failed, for example because its runtime has ended. There will be no more ticks.

@@ -34,10 +34,10 @@ pub use sender::{Disconnected, Driven, Link, Peer, PeerKind, Resumed, Sender, Se
 ///
 /// Its methods are called inside a tokio runtime of any kind.
 pub trait Transport: Send + Sync + 'static {
-    /// What this transport promises. A component whose gates need more is refused when it is opened, with the gate, its
-    /// option and the guarantee that is missing.
+    /// Returns what this transport promises. Opening a component whose gates need more fails, with an error that names
+    /// the gate, its option and the missing guarantee.
     ///
-    /// `transport_conformance!`, of the feature `conformance`, tests what is declared here.
+    /// The macro `transport_conformance!` (feature `conformance`) tests what is declared here.
     fn guarantees(&self) -> Guarantees;
 
     /// Opens the publishing end of one connection. This end listens.
@@ -76,7 +76,7 @@ pub trait Transport: Send + Sync + 'static {
     /// The endpoint cannot be opened.
     fn reply(&self, endpoint: &Endpoint) -> Result<Box<dyn Replier>, TransportError>;
 
-    /// Opens a tap, where tools listen to a gate. A transport without taps returns `None`, which is the default.
+    /// Opens a tap, at which tools observe a gate. A transport without taps returns `None`, which is the default.
     ///
     /// # Errors
     /// The endpoint cannot be opened.
@@ -93,7 +93,7 @@ pub enum TransportError {
     /// The endpoint could not be created in the runtime folder.
     #[error(transparent)]
     RuntimeDir(#[from] crate::runtime_dir::RuntimeDirError),
-    /// The transport refused.
+    /// The transport refused to open the endpoint.
     #[error("the transport cannot open `{endpoint}`: {reason}")]
     Refused {
         /// The endpoint's name.

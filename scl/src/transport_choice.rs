@@ -6,9 +6,9 @@ use std::str::FromStr;
 
 /// The transports of a system's connections, as in `SCL_TRANSPORT`: one for all, then exceptions by gate.
 ///
-/// The listening end of a connection decides (`pub`, `pull`, `rep`), the connecting end finds it. An exception names a
-/// gate at either end. Of several that apply, the last one counts. Exceptions for gates of other components than the
-/// one being opened are left to those, unless they are its peers.
+/// The listening end of a connection (`pub`, `pull`, `rep`) decides; the connecting end finds it. An exception names a
+/// gate at either end. Of several that apply, the last one counts. When a component is opened, exceptions for gates of
+/// other components matter only if those gates are its peers.
 ///
 /// ```
 /// let all: scl::TransportChoice = "shm".parse()?;
@@ -19,7 +19,7 @@ use std::str::FromStr;
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct TransportChoice {
     pub(crate) default: TransportKind,
-    /// `component.gate`, in order.
+    /// The exceptions, by `component.gate`, in order.
     pub(crate) of_gates: Vec<(String, TransportKind)>,
 }
 
@@ -56,13 +56,13 @@ impl TransportChoice {
     /// The values of `SCL_TRANSPORT`, for messages.
     pub(crate) const EXPECTED: &str = "`ipc`, `tcp` or `shm`, or with exceptions like `ipc,camera.frames=shm`";
 
-    /// The transport of all connections without an exception.
+    /// Returns the transport of all connections without an exception.
     pub fn default_kind(&self) -> TransportKind {
         self.default
     }
 
-    /// The transport of an end of a gate: of one connection, of all connections of a gate that listens once for all of
-    /// its peers, or, without connections, of its tap, where only tools connect.
+    /// Returns the transport of an end of a gate: of one connection, of all connections of a gate that listens once for
+    /// all of its peers, or, without connections, of its tap, where only tools connect.
     pub(crate) fn of(&self, spec: &ComponentSpec, gate: &GateSpec, connections: &[ConnectionSpec]) -> TransportKind {
         let applies = |component: &str, name: &str| {
             (component, name) == (spec.name, gate.name)
@@ -72,7 +72,7 @@ impl TransportChoice {
         found.map_or(self.default, |(.., kind)| kind)
     }
 
-    /// The first exception for a gate of this component that it does not have.
+    /// Returns the first exception that names a gate which this component does not have.
     pub(crate) fn unknown_gate(&self, spec: &ComponentSpec) -> Option<(&str, TransportKind)> {
         let has = |name: &str| spec.gates.iter().any(|gate| gate.name == name);
         let mut own = self.entries().filter(|(component, ..)| *component == spec.name);

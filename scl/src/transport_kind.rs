@@ -1,6 +1,6 @@
 //! What the listening gates of a component listen on.
 
-/// What a component listens on. Connecting gates find either by themselves, so the components of a system may differ.
+/// What a component listens on. Connecting gates find out by themselves, so the components of a system may differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum TransportKind {
     /// Unix sockets in the runtime folder.
@@ -22,12 +22,12 @@ impl TransportKind {
         [ipc, tcp, shm]
     };
 
-    /// The transport that a word means.
+    /// Returns the transport that a word names.
     pub(crate) fn parse(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|(_, it)| *it == word).map(|(kind, _)| kind)
     }
 
-    /// Its word.
+    /// Returns the word for this transport.
     pub(crate) fn word(self) -> &'static str {
         Self::WORDS[self as usize]
     }

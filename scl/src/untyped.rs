@@ -1,8 +1,7 @@
 //! Components without generated code: opened at run time from a [`Plan`], with gates by name and bytes as messages.
 //!
-//! For programs that learn only when they run which component they are: tools, recorders, gateways, bindings for other
-//! languages. Everything else uses [`topology!`](crate::topology), which checks names, kinds and types while it
-//! compiles.
+//! For programs that learn only at run time which component they are: tools, recorders, gateways, bindings for other
+//! languages. Everything else uses [`topology!`](crate::topology), which checks names, kinds and types at compile time.
 //!
 //! An untyped component keeps every promise of a typed one, because it consists of the same gates: it takes the same
 //! lock, announces itself, and compares contracts and messages with its peers, which may be typed or not. Only encoding
@@ -80,7 +79,7 @@ pub struct Component {
     spec: &'static ComponentSpec,
     /// In the order of `spec.gates`; `None` once taken.
     gates: Vec<Option<Gate>>,
-    /// Of all gates, also of those that were taken.
+    /// The watches of all gates, including those that were taken.
     watches: Vec<Watch>,
     /// The last field: fields are dropped in order, and the gates go first.
     handle: ComponentHandle,
@@ -91,7 +90,7 @@ impl Component {
     /// it and opens its gates. Peers connect by themselves, in whatever order they start.
     ///
     /// Each different plan is kept in memory until the process ends, usually some kilobytes; opening an equal plan
-    /// again needs no more. All of them may take 64 MiB.
+    /// again needs no more. All plans together may take up to 64 MiB.
     ///
     /// # Errors
     /// [`OpenError`]: another process runs this component, the runtime folder cannot be used, the plan contradicts
@@ -119,7 +118,7 @@ impl Component {
     /// from as many threads as it likes.
     ///
     /// # Errors
-    /// Those of [`open`](Self::open), except that no runtime is needed: it starts one of its own.
+    /// Those of [`open`](Self::open), except that no runtime is needed: the component starts its own.
     pub fn open_blocking(plan: &Plan) -> Result<Self, OpenError> {
         Self::open_blocking_with(plan, OpenOptions::new())
     }
@@ -148,7 +147,7 @@ impl Component {
         Ok(Self { spec, gates: gates.into_iter().map(Some).collect(), watches, handle: opener.handle() })
     }
 
-    /// What the plan says about the component and its gates.
+    /// Returns what the plan says about the component and its gates.
     pub fn spec(&self) -> &ComponentSpec {
         self.spec
     }
@@ -257,7 +256,7 @@ impl Component {
     /// [`close`](Self::close) from a plain thread.
     ///
     /// After a stop request it waits for connected peers only, because all programs are stopping, and no longer than
-    /// 500 ms, and what they have not taken is no error.
+    /// 500 ms. Messages that they have not taken are then logged, but are no error.
     ///
     /// # Errors
     /// Those of `close`; inside async code and in a forked child, [`BlockingError`](crate::BlockingError), and the
@@ -275,18 +274,18 @@ impl Component {
         Ok(())
     }
 
-    /// A handle that ends the calls of the component and its gates, from any thread.
+    /// Returns a handle that ends the calls of the component and its gates, from any thread.
     pub fn closer(&self) -> Closer {
         Closer { state: Arc::downgrade(&self.handle.0) }
     }
 
-    /// A handle that waits for futures of the gates, from any plain thread.
+    /// Returns a handle that waits for futures of the gates, from any plain thread.
     pub fn driver(&self) -> Driver {
         Driver { state: Arc::downgrade(&self.handle.0) }
     }
 
-    /// A file descriptor for event loops, which is readable while any gate that receives has something. See
-    /// [`Readiness`].
+    /// Returns a file descriptor for event loops, which is readable while any receiving gate has a message or a
+    /// request. See [`Readiness`].
     ///
     /// # Errors
     /// The operating system provides no file descriptor.
@@ -294,9 +293,9 @@ impl Component {
         Readiness::open(self, |_gate| true)
     }
 
-    /// [`readiness`](Self::readiness) of some gates only, also of such that were taken. Without any, the descriptor
-    /// reports wake-ups and stop requests: for event loops that await futures, and do not want to hear of messages that
-    /// nobody awaits.
+    /// [`readiness`](Self::readiness) of some gates only, which may have been taken. Without any gate, the descriptor
+    /// reports only wake-ups and stop requests: for event loops that await futures and need not be woken for messages
+    /// that no future awaits.
     ///
     /// # Errors
     /// [`GateError::Unknown`] if the component has no gate with one of the names; the operating system provides no file

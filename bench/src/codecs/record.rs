@@ -31,7 +31,7 @@ pub(super) struct Record {
     height: f32,
 }
 
-/// The same with fields of fixed size, the widest first so that no padding is needed.
+/// The same record with fields of fixed size, the widest first so that no padding is needed.
 #[derive(Debug, Clone, Default, PartialEq, FromBytes, IntoBytes, KnownLayout, Immutable)]
 #[repr(C)]
 pub(super) struct FlatRecord {

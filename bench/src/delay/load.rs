@@ -33,7 +33,7 @@ impl Load {
         Ok(load)
     }
 
-    /// Repeats the work on a thread of its own until the load ends, or the work returns false.
+    /// Repeats the work on a separate thread until the load is dropped or the work returns false.
     fn repeat(&mut self, mut work: impl FnMut() -> bool + Send + 'static) -> scl::Result<()> {
         let is_ended = Arc::clone(&self.is_ended);
         let repeated = move || while !is_ended.load(Ordering::Relaxed) && work() {};

@@ -9,8 +9,8 @@ pub(super) const BYTES: usize = 20;
 
 pub(super) const PERIOD: Duration = Duration::from_millis(1);
 
-/// Messages before a subscriber is stopped or resumed. Enough to fill the socket of a stopped subscriber, which holds
-/// about 278 messages.
+/// Number of messages before a subscriber is stopped or resumed. Enough to fill the socket of a stopped subscriber,
+/// which holds about 278 messages.
 pub(super) const BATCH: u32 = 1000;
 
 #[derive(Debug, Clone, Copy, PartialEq)]

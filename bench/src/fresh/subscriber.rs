@@ -64,7 +64,7 @@ async fn open_receiver(id: &str, folder: &str) -> scl::Result<Receiver> {
     })
 }
 
-/// Receives until the values are new ones, and some of these.
+/// Receives until [`STEADY`] values were new, that is less than five periods old, on arrival.
 async fn receive_steadily(receiver: &mut Receiver) -> scl::Result<()> {
     let mut new_values = 0;
     while new_values < STEADY {
@@ -76,7 +76,7 @@ async fn receive_steadily(receiver: &mut Receiver) -> scl::Result<()> {
     Ok(())
 }
 
-/// When the first value after a pause was sent.
+/// Receives the first value after a pause and returns the time at which it was sent.
 async fn first_value(receiver: &mut Receiver, id: &str) -> scl::Result<u64> {
     match receiver {
         Receiver::Sub(gate, _) if id == "scl-latest" => loop {

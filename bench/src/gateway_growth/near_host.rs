@@ -1,4 +1,4 @@
-//! The near host: its components are in this process, and its gateway is what is measured.
+//! The near host: its components run in this process, and its gateway is measured.
 
 use super::GatewayGrowthOptions;
 use super::system::{ASKING, NEAR, REQUEST, hosts, plan, topology};
@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 use tokio::runtime::Runtime;
 use tokio::time::sleep;
 
-/// Hundreds of connections are matched one after the other.
+/// Long, because hundreds of connections are matched one after the other.
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(120);
 
 /// The size of every message.
@@ -128,8 +128,8 @@ impl NearHost {
         Ok(Self { requests, publishers, _components: components })
     }
 
-    /// The processor time of a process in percent of one core, while every connection publishes `rate` messages per
-    /// second.
+    /// Measures the processor time of a process, in percent of one core, while every publishing connection carries
+    /// `rate` messages per second.
     async fn processor_percent(&mut self, process: u32, time: Duration, rate: u32) -> scl::Result<f64> {
         let (before, started) = (processor_ms(process)?, Instant::now());
         if rate == 0 {
@@ -147,7 +147,7 @@ impl NearHost {
         Ok((processor_ms(process)? - before) / started.elapsed().as_secs_f64() / 10.0)
     }
 
-    /// The durations of requests, one after the other.
+    /// Makes requests, one after the other, and returns their durations.
     async fn exchange(&mut self, messages: usize) -> scl::Result<Durations> {
         let message = Bytes::from(vec![7; BYTES]);
         let mut durations = Durations::new()?;

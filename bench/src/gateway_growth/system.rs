@@ -1,7 +1,7 @@
 //! A system with a number of connections between one host and some others.
 //!
-//! The first connection asks and answers, so that a round trip takes one connection. All others publish, from the near
-//! host to the far hosts in turn.
+//! The first connection carries requests and replies, so that a round trip takes one connection. All others carry
+//! published messages from the near host to the far hosts in turn.
 
 use crate::gateway::Host;
 use scl::plan::SystemPlan;
@@ -17,7 +17,7 @@ const NEAR_COMPONENTS: usize = 10;
 /// The gate of the first connection.
 pub(super) const REQUEST: &str = "request";
 
-/// The component of the near host that asks.
+/// The component of the near host that sends the requests.
 pub(super) const ASKING: &str = "near0";
 
 /// The topology file of a system with `connections` connections between the near host and `far_hosts` others.
@@ -65,12 +65,12 @@ pub(super) fn plan(folder: &Path) -> scl::Result<SystemPlan> {
     loaded.system_plan().ok_or_else(rejected)
 }
 
-/// Components without a gate are left out.
+/// Returns the numbers of the near host's components, leaving out those without a gate.
 fn near_components(connections: usize) -> impl Iterator<Item = usize> {
     0..connections.min(NEAR_COMPONENTS)
 }
 
-/// Hosts without a connection are left out.
+/// Returns the numbers of the far hosts, leaving out those without a connection.
 fn used_far_hosts(connections: usize, far_hosts: usize) -> impl Iterator<Item = usize> {
     0..connections.min(far_hosts)
 }

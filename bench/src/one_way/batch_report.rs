@@ -1,6 +1,6 @@
 //! What a receiver reports about a batch.
 
-/// Durations in nanoseconds.
+/// The durations measured for a batch, in nanoseconds.
 #[derive(Debug, PartialEq)]
 pub(crate) struct BatchReport {
     /// From sending the first message to receiving the last one.

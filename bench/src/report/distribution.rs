@@ -6,7 +6,7 @@ use crate::durations::Durations;
 
 const QUANTILES: [(&str, f64); 5] = [("50%", 0.5), ("90%", 0.9), ("99%", 0.99), ("99.9%", 0.999), ("99.99%", 0.9999)];
 
-/// Few enough that a line with six quantiles fits into 100 columns.
+/// Number of bins: few enough that a line with six quantiles fits into 100 columns.
 const BINS: usize = 16;
 
 /// Lines to print below a table; empty if it has no durations.

@@ -9,7 +9,7 @@ pub(super) fn text_table(heading: &str, columns: impl Iterator<Item = String>) -
     Table::with_headings(&[heading], &columns)
 }
 
-/// About four digits, whatever the magnitude.
+/// Formats a value with two decimals, or with none if it is whole or at least 1000.
 pub(super) fn format_value(value: f64) -> String {
     let digits = if value.fract() == 0.0 || value.abs() >= 1000.0 { 0 } else { 2 };
     format!("{value:.digits$}")

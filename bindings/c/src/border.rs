@@ -1,5 +1,5 @@
-//! The border between C and Rust: panics end here, pointers are checked before they are used, and calls of threads that
-//! are ending are made elsewhere.
+//! The border between C and Rust: panics are caught, pointers are checked before they are used, and calls by threads
+//! that are ending are made on another thread.
 
 use crate::error::Failure;
 use crate::status::*;
@@ -17,7 +17,7 @@ pub(crate) fn status(call: impl FnOnce() -> Result<(), Failure>) -> scl_status {
     }
 }
 
-/// Runs a call that returns something else than a status.
+/// Runs a call that returns a value instead of a status. A panic becomes `SCL_PANIC`.
 pub(crate) fn value<T>(call: impl FnOnce() -> Result<T, Failure>) -> Result<T, scl_status> {
     let result = if thread::is_ending() { thread::call_elsewhere(|| caught(call)) } else { caught(call) };
     result.map_err(Failure::report)
@@ -34,7 +34,7 @@ fn panicked(payload: &(dyn Any + Send)) -> Failure {
     Failure::new(SCL_PANIC, format!("bug in SCL, please report it: {text}"))
 }
 
-/// What a timeout of the interface means.
+/// The meaning of a timeout argument.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Wait {
     /// 0: the call does not wait.
@@ -54,7 +54,7 @@ impl Wait {
         }
     }
 
-    /// The time limit for calls to which no limit is merely a long one.
+    /// Returns the time limit as a duration, for calls that take `Duration::MAX` as no limit.
     pub(crate) fn limit(self) -> Duration {
         match self {
             Self::No => Duration::ZERO,
@@ -64,7 +64,7 @@ impl Wait {
     }
 }
 
-/// A text argument.
+/// Reads a text argument; NULL and text that is not UTF-8 are errors.
 ///
 /// # Safety
 /// `text` is NULL or points to a text that ends with NUL and stays unchanged for `'a`.
@@ -77,7 +77,7 @@ pub(crate) unsafe fn text<'a>(text: *const c_char, name: &str) -> Result<&'a str
     text.to_str().map_err(|_| Failure::argument(format!("`{name}` is not UTF-8: {text:?}")))
 }
 
-/// A text argument that may quote bytes of a message: what is not UTF-8 is replaced.
+/// Reads a text argument that may quote bytes of a message: what is not UTF-8 is replaced, NULL is an error.
 ///
 /// # Safety
 /// As for [`text`].
@@ -89,7 +89,7 @@ pub(crate) unsafe fn lossy_text(text: *const c_char, name: &str) -> Result<Strin
     Ok(unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned())
 }
 
-/// A bytes argument.
+/// Reads a bytes argument; NULL is an error unless `len` is 0.
 ///
 /// # Safety
 /// `data` is NULL or points to `len` bytes that stay unchanged for `'a`.
@@ -114,7 +114,7 @@ fn check_length(len: usize, name: &str) -> Result<(), Failure> {
     }
 }
 
-/// An argument that a result is stored in.
+/// Checks an argument that a result is stored in; NULL is an error.
 ///
 /// # Safety
 /// `result` is NULL or points to memory for a `T` that nothing else uses for `'a`.
@@ -123,10 +123,10 @@ pub(crate) unsafe fn result<'a, T>(result: *mut T, name: &str) -> Result<&'a mut
     unsafe { result.as_mut() }.ok_or_else(|| null(name))
 }
 
-/// Stores the pointer that a call makes, or NULL.
+/// Stores the pointer that `make` returns, or NULL if it fails.
 ///
 /// # Safety
-/// That of [`result`].
+/// As for [`result`].
 pub(crate) unsafe fn give<T>(
     result: *mut *mut T,
     name: &str,
@@ -139,7 +139,7 @@ pub(crate) unsafe fn give<T>(
     Ok(())
 }
 
-/// Refuses a buffer of the program that cannot be one.
+/// Refuses a buffer of the program that is NULL but not empty, or longer than any object can be.
 pub(crate) fn check_buffer(buffer: *const c_void, capacity: usize) -> Result<(), Failure> {
     check_length(capacity, "buffer")?;
     if buffer.is_null() && capacity > 0 {
@@ -166,7 +166,7 @@ pub(crate) unsafe fn store(bytes: &[u8], buffer: *mut c_void, capacity: usize) -
     Ok(())
 }
 
-/// Memory of `len` bytes for the program to write to.
+/// Resizes `buffer` to `len` bytes and returns its start, for the program to write to.
 pub(crate) fn room(buffer: &mut Vec<u8>, len: usize) -> Result<*mut c_void, Failure> {
     check_length(len, "buffer")?;
     let missing = len.saturating_sub(buffer.len());

@@ -179,7 +179,7 @@ fn read(plan: &[u8], name: &str) -> Result<Plan, Failure> {
     system.component(name).cloned().map_err(|error| Failure::of(SCL_NAME, &error))
 }
 
-/// Gives handles to a component and its gates.
+/// Registers a component and its gates, and returns the handle of the component.
 fn insert(mut component: Component) -> Result<usize, Failure> {
     let spec = component.spec();
     let (name, specs, mut gates) = (spec.name, spec.gates, Vec::new());
@@ -197,7 +197,7 @@ fn insert(mut component: Component) -> Result<usize, Failure> {
     COMPONENTS.insert(Arc::new(Opened { name, component, closer, gates, readiness: OnceLock::new() }))
 }
 
-/// What `#[scl::main]` does for a Rust program, before its first component is opened.
+/// Does what `#[scl::main]` does for a Rust program before its first component is opened.
 fn set_up(options: &Options) -> Result<(), Failure> {
     host::start_log()?;
     host::notify_service_manager();
@@ -225,7 +225,7 @@ fn remove(gates: &[(&str, usize)]) {
     gates.iter().for_each(|(_, gate)| drop(GATES.remove(*gate)));
 }
 
-/// The component of a handle.
+/// Returns the component of a handle.
 pub(crate) fn find(component: *mut scl_component) -> Result<Arc<Opened>, Failure> {
     COMPONENTS.get(component as usize)
 }
@@ -236,14 +236,14 @@ impl Opened {
         self.gates.iter().any(|(_, handle)| *handle == gate as usize)
     }
 
-    /// Makes a call to the component, which is not closed before it ends.
+    /// Makes a call to the component, which stays open until the call ends.
     pub(crate) fn with<T>(&self, call: impl FnOnce(&Component) -> Result<T, Failure>) -> Result<T, Failure> {
         let component = self.component.read().unwrap_or_else(PoisonError::into_inner);
         let closed = Failure::usual(SCL_CLOSED, c"the component was closed by another thread");
         call(component.as_ref().ok_or(closed)?)
     }
 
-    /// The descriptor for event loops.
+    /// Returns the descriptor for event loops, which the first call opens.
     pub(crate) fn readiness(&self) -> Result<&Readiness, Failure> {
         if let Some(readiness) = self.readiness.get() {
             return Ok(readiness);

@@ -1,4 +1,4 @@
-//! Failures: a status and a text, which the thread keeps.
+//! Failures: a status and a text, which is kept as the error of the thread.
 
 use crate::status::*;
 use crate::texts;
@@ -10,7 +10,7 @@ use std::borrow::Cow;
 use std::error::Error;
 use std::ffi::{CStr, CString, c_char};
 
-/// Why a call did not do what it was asked to do.
+/// Why a call failed.
 #[derive(Debug)]
 pub(crate) struct Failure {
     pub(crate) status: scl_status,
@@ -35,7 +35,7 @@ impl Failure {
         Self { status, text: CString::new(bytes).map_or(Cow::Borrowed(c""), Cow::Owned) }
     }
 
-    /// A failure that is a usual result, so it costs no memory.
+    /// Makes a failure that is a usual result; its text is static, so nothing is allocated.
     pub(crate) const fn usual(status: scl_status, text: &'static CStr) -> Self {
         Self { status, text: Cow::Borrowed(text) }
     }
@@ -44,12 +44,12 @@ impl Failure {
         Self::new(SCL_ARGUMENT, text)
     }
 
-    /// An error with its causes.
+    /// Makes a failure whose text is an error with its causes.
     pub(crate) fn of(status: scl_status, error: &(dyn Error + 'static)) -> Self {
         Self::new(status, text_with_causes(error))
     }
 
-    /// An error of `scl`, with the status that belongs to it.
+    /// Makes a failure from an error of `scl`, with the matching status.
     pub(crate) fn of_any(error: &(dyn Error + 'static)) -> Self {
         let status = match ErrorKind::of(error) {
             ErrorKind::Blocking(BlockingError::Stopped) => SCL_STOPPED,

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Number of forks between this process and the one that loaded the library.
 static FORKS: AtomicUsize = AtomicUsize::new(0);
 
-/// What the standard library does not offer of the C library.
+/// Functions of the C library that the standard library does not offer.
 ///
 /// cbindgen:ignore
 mod libc {
@@ -24,7 +24,7 @@ unsafe extern "C" fn count_fork() {
     FORKS.fetch_add(1, Ordering::Relaxed);
 }
 
-/// Starts to count. Called before the first handle is given out.
+/// Starts to count forks. Called before the first handle is given out.
 pub(crate) fn watch() {
     static WATCHED: OnceLock<c_int> = OnceLock::new();
     // SAFETY: the handler is a function of this library, which is never unloaded because it has thread-local values. It

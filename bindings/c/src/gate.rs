@@ -18,10 +18,10 @@ pub struct scl_gate {
 
 /// What a gate handle stands for.
 pub(crate) struct OpenGate {
-    /// `component.gate`, for messages.
+    /// `component.gate`, for error texts.
     name: String,
     pub(crate) gate: Gate,
-    /// A message that was too long for the buffer of `scl_recv_into`. It comes before those that the gate has.
+    /// A message that was too long for the buffer of `scl_recv_into`. It is returned before those in the gate's queue.
     pub(crate) kept: Option<Bytes>,
     /// The memory of `scl_buffer`.
     pub(crate) buffer: Vec<u8>,
@@ -82,10 +82,11 @@ pub(crate) fn lock(gate: *const scl_gate) -> Result<Locked<'static, OpenGate>, F
 }
 
 impl OpenGate {
-    /// A message of the program. Without a copy if it was made in the gate's own buffer and is long.
+    /// Returns the message that the program sends. It is copied unless it is the whole of the gate's own buffer and
+    /// longer than `KEPT_CAPACITY`.
     ///
     /// # Safety
-    /// That of `border::bytes`.
+    /// As for `border::bytes`.
     pub(crate) unsafe fn outgoing(&mut self, data: *const c_void, len: usize) -> Result<Bytes, Failure> {
         let own = data.cast::<u8>() == self.buffer.as_ptr() && len == self.buffer.len();
         if own && len > KEPT_CAPACITY {

@@ -1,4 +1,4 @@
-//! For code that `scl generate` writes: failures of its own, told like those of the library.
+//! Functions for code that `scl generate` writes, so that it reports its own failures like those of the library.
 
 use crate::border;
 use crate::error::Failure;

@@ -1,8 +1,8 @@
-//! The C library. `include/scl.h` is written from the functions of this crate; their documentation is for C
+//! The C library. `include/scl.h` is generated from the public functions of this crate, so their documentation is for C
 //! programmers.
 //!
-//! Every function of the interface is a thin front: it checks its pointers (`border`), finds the handle (`registry`)
-//! and calls the crate `scl`. Panics end at the border.
+//! Every function of the interface is a thin wrapper: it checks its pointers (`border`), finds the handle (`registry`)
+//! and calls the crate `scl`. Panics are caught at the border.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 // The header lists the functions in the order of these modules.

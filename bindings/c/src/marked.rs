@@ -1,5 +1,5 @@
-//! What the program holds by a pointer: messages and requests. Each begins with a mark while it lives, so that a
-//! pointer to one that was freed is an error where that can be known.
+//! Objects that the program holds by pointer: messages and requests. Each begins with a mark while it is live, so that
+//! using a freed one is reported as an error where that can be detected.
 
 use crate::border;
 use crate::error::Failure;
@@ -7,9 +7,9 @@ use crate::status::*;
 use scl::bytes::Bytes;
 use std::ffi::c_void;
 
-/// A kind of these objects.
+/// A kind of object with a mark.
 pub(crate) trait Kind {
-    /// Of every live object of this kind, and of no other.
+    /// The mark of every live object of this kind, and of no other.
     const MARK: u64;
     const NAME: &'static str;
     /// What may have happened to an object without the mark.
@@ -32,6 +32,8 @@ impl<K: Kind> Marked<K> {
         Box::into_raw(Box::new(Self { mark: K::MARK, inner }))
     }
 
+    /// Returns the object if it is live.
+    ///
     /// # Safety
     /// `object` is NULL, or points to at least 8 readable bytes.
     pub(crate) unsafe fn live<'a>(object: *const Self) -> Result<&'a Self, Failure> {
@@ -53,7 +55,7 @@ impl<K: Kind> Marked<K> {
     /// Takes an object back from the program.
     ///
     /// # Safety
-    /// That of [`live`](Self::live).
+    /// As for [`live`](Self::live).
     pub(crate) unsafe fn take_back(object: *mut Self) -> Result<K, Failure> {
         // SAFETY: guaranteed by the caller.
         unsafe { Self::live(object) }?;
@@ -69,7 +71,7 @@ impl<K: Kind> Marked<K> {
     /// Frees an object; NULL is allowed.
     ///
     /// # Safety
-    /// That of [`live`](Self::live).
+    /// As for [`live`](Self::live).
     pub(crate) unsafe fn free(object: *mut Self) {
         if object.is_null() {
             return;
@@ -78,10 +80,10 @@ impl<K: Kind> Marked<K> {
         let _reported = border::value(|| unsafe { Self::take_back(object) }.map(drop));
     }
 
-    /// The start of the bytes of an object, whose number is stored in `*len`.
+    /// Returns the start of an object's bytes, and stores their number in `*len`. NULL gives NULL and the length 0.
     ///
     /// # Safety
-    /// That of [`live`](Self::live), and `len` is NULL or points to a `size_t`.
+    /// As for [`live`](Self::live), and `len` is NULL or points to a `size_t`.
     pub(crate) unsafe fn data(object: *const Self, len: *mut usize) -> *const c_void {
         let data = match object.is_null() {
             // NULL is not an error here: the call that returned it has already set the error text.

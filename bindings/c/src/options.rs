@@ -5,7 +5,7 @@ use scl::{OpenOptions, TransportChoice};
 use serde::Deserialize;
 use serde::de::{Deserializer, Error};
 
-/// What `options_json` may contain. What is not given comes from the environment, as in Rust.
+/// The options in `options_json`. Those that are missing come from the environment, as in Rust.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct Options {

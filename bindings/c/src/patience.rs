@@ -1,4 +1,4 @@
-//! The time limit of a receiving call that goes on after an undecodable message was skipped.
+//! The time limit of a receiving call that continues after an undecodable message was skipped.
 
 use crate::border::Wait;
 use std::time::{Duration, Instant};
@@ -13,14 +13,15 @@ const LONGEST_SKIP: Duration = Duration::from_millis(10);
 /// The timeout of the last receiving call of a gate.
 pub(crate) struct Patience {
     wait: Wait,
-    /// When it began; for a call that does not wait, when it skipped its first message.
+    /// When the call began; for a call that does not wait, when it skipped its first message.
     began: Option<Instant>,
 }
 
 impl Patience {
     pub(crate) const NONE: Self = Self { wait: Wait::No, began: None };
 
-    /// How long a receiving call with this timeout waits; `None` if it has been held up for too long.
+    /// Returns how long a receiving call with this timeout waits, or `None` if undecodable messages have held it up for
+    /// too long.
     pub(crate) fn of(&mut self, timeout_ns: i64) -> Option<Wait> {
         if timeout_ns != SCL_REST {
             self.wait = Wait::of(timeout_ns);

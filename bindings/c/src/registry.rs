@@ -1,8 +1,8 @@
-//! The registry of live handles. A handle is not an address but an index and a generation, so a closed handle, a
-//! made-up one and one of another kind are known as such; nothing is read through them.
+//! The registry of live handles. A handle is not an address but an index and a generation, so closed handles, made-up
+//! ones and those of another kind are detected without reading any memory through them.
 //!
-//! The memory of a slot is never given back, only used again. A slot's generation grows with each use, so an old handle
-//! is mistaken for a new one only after as many uses of one slot as there are generations (2^40; 2^16 on 32 bits).
+//! The memory of a slot is never freed, only reused. A slot's generation grows with each use, so an old handle is
+//! mistaken for a new one only after as many uses of one slot as there are generations (2^41; 2^17 on 32 bits).
 
 use crate::error::Failure;
 use crate::fork;
@@ -21,7 +21,7 @@ const CHUNKS: usize = INDEX_BITS as usize - FIRST.ilog2() as usize;
 
 pub(crate) struct Registry<T> {
     tag: usize,
-    /// What a handle stands for, for messages.
+    /// What a handle stands for, for error texts.
     what: &'static str,
     chunks: [OnceLock<Box<[Slot<T>]>>; CHUNKS],
     free: Mutex<Free>,
@@ -29,7 +29,7 @@ pub(crate) struct Registry<T> {
 
 struct Slot<T> {
     generation: AtomicUsize,
-    /// The process that the handle belongs to.
+    /// Fork count of the process that the handle belongs to.
     forks: AtomicUsize,
     value: Mutex<Option<T>>,
 }
@@ -110,7 +110,8 @@ impl<T> Registry<T> {
         Ok(value)
     }
 
-    /// A copy of the value of a handle, whatever other threads do with it.
+    /// Returns a copy of the value of a handle. If another thread has it locked, waits instead of failing with
+    /// `SCL_BUSY`.
     pub(crate) fn get(&self, handle: usize) -> Result<T, Failure>
     where
         T: Clone,

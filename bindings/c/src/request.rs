@@ -117,7 +117,7 @@ fn take(open: &mut OpenGate, timeout_ns: i64) -> Result<Request<Bytes, Bytes>, F
     }
 }
 
-/// The request of a handle, which is freed.
+/// Frees the handle of a request and returns the request.
 ///
 /// # Safety
 /// `request` is NULL, or points to at least 8 readable bytes.

@@ -62,7 +62,7 @@ pub const SCL_PANIC: scl_status = -31;
 /// Any other failure.
 pub const SCL_FAILED: scl_status = -32;
 
-/// The names, for messages.
+/// The names of all statuses.
 const NAMES: &[(scl_status, &CStr)] = &[
     (SCL_OK, c"SCL_OK"),
     (SCL_NOTHING, c"SCL_NOTHING"),

@@ -9,9 +9,9 @@ use std::ffi::{CStr, c_char};
 use std::mem;
 use std::sync::{Mutex, PoisonError};
 
-/// How many texts of a thread are there at the same time. `scl_error` promises it.
+/// Number of texts that are kept for a thread. The documentation of `scl_error` promises it.
 const KEPT: usize = 16;
-/// Enough for most texts, so that their memory is seldom replaced by a larger one.
+/// Smallest capacity of a buffer: enough for most texts, so that buffers are seldom replaced by larger ones.
 const SMALLEST: usize = 256;
 
 thread_local! {
@@ -20,7 +20,7 @@ thread_local! {
     static TEXTS: RefCell<Texts> = const { RefCell::new(Texts::new()) };
 }
 
-/// Memory that no thread uses now.
+/// Buffers that no thread uses now.
 static SPARE: Mutex<Vec<Buffer>> = Mutex::new(Vec::new());
 
 /// The texts of threads whose own `TEXTS` are destroyed.
@@ -31,12 +31,13 @@ pub(crate) fn last() -> *const c_char {
     LAST.get()
 }
 
-/// Makes the place for the texts of this thread, which is destroyed before those that it made earlier.
+/// Creates the thread-local storage for the texts of this thread. It is destroyed before thread-local values that were
+/// created earlier.
 pub(crate) fn prepare_thread() {
     let _kept = TEXTS.try_with(|_| ());
 }
 
-/// Makes a text the last one of this thread.
+/// Keeps a text as this thread's last error.
 pub(crate) fn keep(text: Cow<'static, CStr>) {
     LAST.set(match text {
         Cow::Borrowed(text) => text.as_ptr(),

@@ -1,6 +1,6 @@
-//! Calls of threads that are ending.
+//! Calls by threads that are ending.
 //!
-//! A program may make its last calls late: in destructors of static and thread-local objects, in functions of `atexit`.
+//! A program may make its last calls late: in destructors of static and thread-local objects, or in `atexit` handlers.
 //! By then the thread-local values of this library are destroyed, and tokio panics without its own. Such calls are made
 //! on a thread that lives as long as the call.
 
@@ -13,10 +13,10 @@ use std::thread;
 
 #[derive(Clone, Copy)]
 enum Life {
-    /// It has not called the library yet.
+    /// The thread has not called the library yet.
     Unknown,
     Running,
-    /// Its thread-local values are destroyed.
+    /// The thread's thread-local values are destroyed.
     Ending,
 }
 
@@ -26,7 +26,7 @@ thread_local! {
     static END: End = const { End };
 }
 
-/// Notes that the thread ends.
+/// Marks the thread as ending when it is destroyed.
 struct End;
 
 impl Drop for End {
@@ -64,7 +64,7 @@ pub(crate) fn call_elsewhere<T>(call: impl FnOnce() -> Result<T, Failure>) -> Re
     }
 }
 
-/// Something of a thread that waits until another one has used it.
+/// A value that a thread lends to another one; the lender waits until that one is done.
 struct Lent<T>(T);
 
 // SAFETY: the two threads never run at the same time, and nothing that a call captures or returns is tied to a thread:

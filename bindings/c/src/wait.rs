@@ -13,7 +13,7 @@ use std::ffi::c_int;
 use std::os::fd::AsRawFd;
 use std::time::Duration;
 
-/// Most gates that one call waits for: one bit each.
+/// Maximum number of gates that one call waits for: one bit each.
 const MOST: usize = 64;
 
 /// Waits until at least one of `count` gates of a component has a message or a request, and sets the bits of those that
@@ -62,6 +62,8 @@ pub unsafe extern "C" fn scl_fd(component: *mut scl_component) -> c_int {
     border::value(|| Ok(component::find(component)?.readiness()?.as_raw_fd())).unwrap_or(-1)
 }
 
+/// Returns the handles in an array. NULL and invalid counts are refused.
+///
 /// # Safety
 /// `gates` is NULL or points to `count` handles.
 unsafe fn list<'a>(gates: *const *mut scl_gate, count: usize) -> Result<&'a [*mut scl_gate], Failure> {
@@ -75,7 +77,7 @@ unsafe fn list<'a>(gates: *const *mut scl_gate, count: usize) -> Result<&'a [*mu
     Ok(unsafe { std::slice::from_raw_parts(gates, count) })
 }
 
-/// The gates that have a message of an `scl_recv_into` with too small a buffer.
+/// Returns the bits of the gates that keep a message because the buffer of `scl_recv_into` was too small for it.
 fn kept(gates: &[Locked<'_, OpenGate>]) -> u64 {
     let kept = gates.iter().enumerate().filter(|(_, gate)| gate.kept.is_some());
     kept.fold(0, |bits, (index, _)| bits | 1 << index)

@@ -1,21 +1,21 @@
-//! CBOR of other encoders, in the form that SCL's decoders read.
+//! Converts CBOR of other encoders to the form that SCL's decoders read.
 //!
-//! Encoders of other languages may write floats of 16 bits and tags wherever they like (RFC 8949): cbor2 with
-//! `canonical=True` and QCBOR shorten each float that they can. The deserializer that SCL uses reads neither.
+//! Encoders of other languages may write 16-bit floats and tags anywhere (RFC 8949): cbor2 with `canonical=True` and
+//! QCBOR shorten each float that they can. The deserializer that SCL uses reads neither.
 #![deny(missing_docs)]
 
 const BYTES: u8 = 2;
 const TEXT: u8 = 3;
 const TAG: u8 = 6;
 const SIMPLE: u8 = 7;
-/// Tags of whole numbers of more than 64 bits, which are read as such.
+/// Tags of integers of more than 64 bits, which the deserializer reads.
 const BIG_NUMBERS: [u64; 2] = [2, 3];
-/// The low bits of the first byte: a float of 16 bits.
+/// The low bits of the first byte of a 16-bit float.
 const HALF: u8 = 25;
-/// The first byte of a float of 32 bits.
+/// The first byte of a 32-bit float.
 const SINGLE: u8 = 0xfa;
 
-/// Removes tags, and widens floats of 16 bits; returns `None` if there are none, or if this is no CBOR.
+/// Removes tags, and widens 16-bit floats to 32 bits. Returns `None` if the frame has neither, or is not CBOR.
 ///
 /// A tag says what an item means; the item under it stays as it is. Tags of big numbers are kept.
 ///
@@ -72,7 +72,7 @@ fn argument(item: &[u8]) -> Option<(u64, usize)> {
     Some((argument, 1 + length))
 }
 
-/// A number of 16 bits (IEEE 754 binary16) as one of 32.
+/// Widens a 16-bit float (IEEE 754 binary16) to 32 bits.
 fn widened(half: u16) -> f32 {
     let sign = if half >> 15 == 0 { 1.0 } else { -1.0 };
     let (exponent, fraction) = (half >> 10 & 0x1f, half & 0x3ff);

@@ -1,5 +1,5 @@
-//! How long `scl generate` takes as a process, beside the code generator of the paper: 2 s, and 0.1 s with its cache,
-//! on an ARMv7 with 500 MHz.
+//! Measures how long the process `scl generate` takes, for comparison with the code generator of the paper: 2 s, or 0.1
+//! s with its cache, on a 500 MHz ARMv7.
 //!
 //! `cargo bench -p scl-cli --bench generate` prints a line per output: the time into a fresh folder, and the time when
 //! everything is up to date already. The system is about as large as the largest ones of the paper's authors: 26
@@ -65,7 +65,8 @@ fn milliseconds(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 
-/// Each component publishes to the next, and every second one asks the next.
+/// Writes a topology with a schema, and returns the topology's path. Each component publishes to the next, and every
+/// second one also sends requests to the next.
 fn write_system(folder: &Path) -> std::io::Result<PathBuf> {
     let mut schema = "syntax = \"proto3\";\npackage bench;\n".to_owned();
     for message in 0..MESSAGES {

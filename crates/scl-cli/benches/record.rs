@@ -1,4 +1,5 @@
-//! What `scl record` costs: its processor time for ten gates at 1 kHz, and the delay of the gates beside without it.
+//! Measures the cost of `scl record`: its processor time for ten gates at 1 kHz, and the delay of the gates with and
+//! without it.
 //!
 //! `cargo bench -p scl-cli --bench record`. Two processes, a source and a sink, are connected by ten gates; a recorder
 //! runs in every second phase.
@@ -64,7 +65,7 @@ fn measure() -> Result<()> {
     Ok(())
 }
 
-/// What was measured in the phases of one kind.
+/// Measurements from all phases of one kind: with the recorder, or without it.
 #[derive(Default)]
 struct Phases {
     p50: Vec<f64>,
@@ -91,7 +92,7 @@ impl Phases {
     }
 }
 
-/// A component in a process of its own.
+/// A component that runs in a separate process.
 struct Role {
     process: Child,
     input: ChildStdin,
@@ -138,7 +139,7 @@ impl Recorder {
         Ok(Self { process, file: folder.join("cost.mcap") })
     }
 
-    /// Messages recorded and lost, and the size of the file.
+    /// Stops the recorder. Returns the numbers of messages recorded and lost, and the size of the file in bytes.
     fn stop(self) -> Result<(u64, u64, u64)> {
         Command::new("kill").args(["-INT", &self.process.id().to_string()]).status()?;
         let report: serde_json::Value = serde_json::from_slice(&self.process.wait_with_output()?.stdout)?;
@@ -167,7 +168,8 @@ fn source() -> Result<()> {
     Ok(())
 }
 
-/// Receives from all gates, and answers with the delays between `begin` and `end`.
+/// Receives from all gates. Prints the median and the 99th percentile of the delays between the commands `begin` and
+/// `end`.
 fn sink() -> Result<()> {
     let delays = Arc::new(Mutex::new(Vec::new()));
     let mut component = open("sink")?;

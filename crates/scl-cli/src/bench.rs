@@ -1,4 +1,4 @@
-//! `scl bench`: SCL beside raw sockets and other libraries, on this machine.
+//! `scl bench`: compares SCL with raw sockets and other libraries on this machine.
 
 use clap::Args;
 use scl_bench::BenchArguments;

@@ -11,7 +11,7 @@ use scl_value::{MessageType, read_yaml, to_json, to_yaml};
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// How long closing may take; nothing is left to be sent then.
+/// Timeout for closing the component; nothing is left to be sent by then.
 const CLOSE: Duration = Duration::from_secs(1);
 
 /// Send a request to a `rep` gate, in place of a component that asks there, and print the reply.
@@ -102,7 +102,7 @@ async fn run(arguments: &CallArguments) -> Result<ExitCode, Problem> {
     }
 }
 
-/// Only `rep` gates take requests.
+/// Returns an error unless the gate is a `rep` gate: no other kind takes requests.
 fn check_kind(plan: &Plan, gate: &GatePlan) -> Result<(), Problem> {
     if gate.kind == GateKind::Rep {
         return Ok(());
@@ -124,7 +124,8 @@ fn types(plan: &Plan, gate: &GatePlan) -> Result<(MessageType, MessageType), Pro
     Ok((message_type(plan, gate, types.next())?, message_type(plan, gate, types.next())?))
 }
 
-/// A request with defaults could move an actuator, so it is sent only if it is written.
+/// Reports that the request is missing. A request with defaults is sent only if the user writes it, because it could
+/// move an actuator.
 fn without_request(arguments: &CallArguments) -> ExitCode {
     let problem = Problem::new("there is no request, so nothing was sent; an example is on standard output");
     print_err(&problem.help(format!("`scl call {} '{{}}'` sends one with defaults", arguments.gate)).to_string());
@@ -143,7 +144,8 @@ fn print_template(arguments: &CallArguments, gate: &GatePlan, requests: &Message
     Ok(())
 }
 
-/// The connection to the component that asks.
+/// Finds the gate's connection to the component in whose place the request is sent: the one named with `--as`, else the
+/// only one that is not running.
 fn find_requester<'g>(
     arguments: &CallArguments,
     plans: &Plans,

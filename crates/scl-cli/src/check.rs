@@ -1,4 +1,5 @@
-//! `scl check`: says about topology files what the macro would say, and about launch files what `scl run` would say.
+//! `scl check`: reports what the macro would report about topology files, and what `scl run` would report about launch
+//! files.
 
 mod checked;
 mod deny;
@@ -80,7 +81,7 @@ enum Format {
     Cargo,
 }
 
-/// The body of `scl check`: the worst of all files is the exit code.
+/// The body of `scl check`. The exit code is the worst of those of all files.
 pub(crate) fn check(arguments: &CheckArguments) -> ExitCode {
     let from_stdin = arguments.files.iter().filter(|file| file.as_os_str() == STDIN).count();
     let prints_text = arguments.fix && (arguments.dry_run || from_stdin > 0);

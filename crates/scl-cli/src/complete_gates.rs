@@ -19,8 +19,7 @@ pub(crate) struct CompleteGatesArguments {
     prefix: String,
 }
 
-/// The body of `scl complete-gates`. Without a system there is nothing to offer, and nothing to say: the user is
-/// typing.
+/// The body of `scl complete-gates`. If no system is found, it prints nothing, not even an error: the user is typing.
 pub(crate) fn complete_gates(arguments: &CompleteGatesArguments) -> ExitCode {
     let system = arguments.system.as_deref().filter(|name| !name.is_empty());
     if let Ok(system) = System::find(system) {

@@ -90,7 +90,7 @@ struct Side {
     system: String,
 }
 
-/// Both sides, or `None` for those that are not sound. Both are read, so that the problems of both are told.
+/// Returns both sides, or `None` for a side with errors. Both are read, so that the errors of both are reported.
 fn sides(arguments: &DiffArguments) -> Result<(Option<Side>, Option<Side>), Problem> {
     let DiffArguments { old, new, file, max_size, .. } = arguments;
     if let Some(new) = new {

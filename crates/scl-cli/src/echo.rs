@@ -170,7 +170,8 @@ async fn run(arguments: &EchoArguments) -> Result<ExitCode, Problem> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Says what is waited for, and where messages of gates that receive are seen.
+/// Prints which of the named gates and components are not running yet, and at which gates the messages of receiving
+/// gates are shown.
 fn note_where_seen(system: &System, selection: &Selection, names: &[String]) {
     for name in selection.waiting() {
         print_err(&format!("note: `{name}` is not running; waiting until it starts\n"));
@@ -202,7 +203,7 @@ fn check_all(
     }
 }
 
-/// Fields and conditions must fit at least one of the gates.
+/// Returns the first error if `check` fails for every gate: fields and conditions must fit at least one.
 fn check_field<E: Into<Problem>>(gates: &[Watched], check: impl Fn(&Watched) -> Result<(), E>) -> Result<(), Problem> {
     let mut errors = gates.iter().map(check);
     match errors.next() {
@@ -223,7 +224,7 @@ fn report_silence(arguments: &EchoArguments, shown: u64) -> ExitCode {
     ExitCode::FAILURE
 }
 
-/// Whether a message has one of the fields, if there are any.
+/// Whether a message has at least one of the fields. True if there are no fields, and for a payload shown as bytes.
 fn has_any(message: &Value, fields: &[FieldPath]) -> bool {
     fields.is_empty() || matches!(message, Value::Opaque(_)) || fields.iter().any(|path| path.find(message).is_some())
 }

@@ -8,7 +8,7 @@ pub(crate) const COULD_NOT_DO: u8 = 2;
 
 /// What a command returns.
 pub(crate) trait Outcome {
-    /// A problem is printed and means that the command could not do its work.
+    /// Returns the exit code. A problem is printed, and its exit code is [`COULD_NOT_DO`].
     fn exit_code(self) -> ExitCode;
 }
 

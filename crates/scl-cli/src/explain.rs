@@ -56,12 +56,12 @@ pub(crate) fn explain(arguments: &ExplainArguments) -> ExitCode {
     }
 }
 
-/// A word with a digit in it; no word of the topology file has one.
+/// Whether a word looks like a code: it starts with `SCL` or contains a digit, unlike the words of the topology file.
 fn is_like_code(code: &str) -> bool {
     code.starts_with("SCL") || code.bytes().any(|byte| byte.is_ascii_digit())
 }
 
-/// Says that the topology file has no such word, and which one may have been meant.
+/// Returns the message that there is no such word, with similar words that may have been meant.
 fn unknown_word(written: &str, word: &str) -> String {
     let mut text =
         format!("error: `{written}` is neither a code of the checker nor a word of the topology or the launch file\n");
@@ -98,20 +98,20 @@ pub(crate) fn explain_rule(code: &str) -> Option<String> {
     catalogue::explain(code).or(of_launch_files)
 }
 
-/// This program reads no launch files.
+/// Returns nothing: this build reads no launch files.
 #[cfg(not(feature = "run"))]
 fn launch_keys() -> Vec<(Entry, &'static [&'static str])> {
     Vec::new()
 }
 
-/// `scl0502`, `[SCL0502]`, `502` and `scl::SCL0502`, as editors show it, are all `SCL0502`.
+/// Normalizes a code: `scl0502`, `[SCL0502]`, `502` and `scl::SCL0502`, as editors show it, all become `SCL0502`.
 pub(crate) fn full_code(written: &str) -> String {
     let word = written.trim_matches(['[', ']', ' ']).rsplit(':').next().unwrap_or_default().to_ascii_uppercase();
     let is_number = !word.is_empty() && word.bytes().all(|byte| byte.is_ascii_digit());
     if is_number { format!("SCL{word:0>4}") } else { word }
 }
 
-/// Says that there is no such code, and which one may have been meant.
+/// Returns the message that there is no such code, with similar codes that may have been meant.
 pub(crate) fn unknown(written: &str, code: &str) -> String {
     let mut text = format!("error: there is no check `{written}`\n");
     let rules = all_rules();

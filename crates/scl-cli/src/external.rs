@@ -1,4 +1,4 @@
-//! `scl x` for a program `scl-x` beside `scl` or in `PATH`: the user's, or a part of SCL that is installed apart.
+//! `scl x` for a program `scl-x` beside `scl` or in `PATH`: the user's, or a part of SCL that is installed separately.
 
 use crate::exit::COULD_NOT_DO;
 use clap::Command as CommandLine;
@@ -11,7 +11,7 @@ use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-/// Becomes the program `scl-x`; `words` are `x` and its arguments. Returns only if that fails.
+/// Replaces this process with the program `scl-x`; `words` are `x` and its arguments. Returns only if that fails.
 pub(crate) fn run_external(words: &[OsString], command_line: &CommandLine) -> ExitCode {
     let Some((name, arguments)) = words.split_first() else { return ExitCode::from(COULD_NOT_DO) };
     let problem = match find(name) {

@@ -122,7 +122,7 @@ impl GenerateArguments {
         self.output.is_none() && self.target == Language::Zmq && !self.check
     }
 
-    /// What the arguments ask for that cannot be done.
+    /// Returns an error message if the arguments do not go together.
     fn contradiction(&self) -> Option<&'static str> {
         match self {
             Self { target, format: Some(_), .. } if *target != Language::Zmq => {
@@ -155,7 +155,7 @@ impl Language {
     }
 }
 
-/// Leaves the components with these names; all of them if there are no names.
+/// Keeps only the components with these names, or all if there are no names. Returns error messages for unknown names.
 fn select(system: &mut System, names: &[String]) -> Result<(), String> {
     let plans = system.components.iter().map(|component| component.plan.clone()).collect();
     let plan = SystemPlan { system: system.name.clone(), components: plans };

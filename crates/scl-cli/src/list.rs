@@ -93,7 +93,7 @@ fn component_table(components: &[Component], now: SystemTime) -> String {
     table.text()
 }
 
-/// The state of a component, with the time for which it has hung.
+/// Returns the state of a component, and if it hangs, for how long.
 pub(crate) fn state_text(component: &Component, now: SystemTime) -> String {
     match component.silent_for(now) {
         Some(silence) => format!("hangs for {}", age_text(silence)),
@@ -101,7 +101,7 @@ pub(crate) fn state_text(component: &Component, now: SystemTime) -> String {
     }
 }
 
-/// One word, so that scripts can split the lines.
+/// Returns the state in one word, so that scripts can split the lines.
 fn state_word(component: &Component, now: SystemTime) -> &'static str {
     match component.activity(now) {
         Activity::Ready => "running",

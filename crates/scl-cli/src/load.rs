@@ -79,7 +79,8 @@ pub(crate) fn system_of_folder() -> Option<String> {
     checked.or_else(|| Some(loaded.model.system?.value))
 }
 
-/// The topology file in the working folder, if its system is called like the file for want of another name.
+/// Returns the topology file in the working folder if it gives its system no name, so that the system is named after
+/// the file.
 #[cfg(feature = "run")]
 pub(crate) fn named_after_here() -> Option<std::path::PathBuf> {
     let path = Path::new(TOPOLOGY);
@@ -94,13 +95,14 @@ pub(crate) fn show_diagnostics<'d>(loaded: &Loaded, shown: impl IntoIterator<Ite
     shown.into_iter().for_each(|it| print_err(&format!("{}\n\n", render(it, &loaded.sources))));
 }
 
-/// The exit code of a command that needs a sound topology: 1 if the file has errors, which are shown.
+/// Shows the errors, and returns the exit code of a command that needs a topology without errors: 1, or 2 if the file
+/// could not be read.
 pub(crate) fn unsound(loaded: &Loaded) -> ExitCode {
     show_errors(loaded);
     ExitCode::from(if loaded.file.is_some() { 1 } else { COULD_NOT_DO })
 }
 
-/// Shows the errors alone, for the commands that cannot go on with them.
+/// Shows only the errors, for commands that cannot continue with them.
 pub(crate) fn show_errors(loaded: &Loaded) {
     show_diagnostics(loaded, loaded.diagnostics.iter().filter(|it| it.severity == Severity::Error));
 }

@@ -16,7 +16,7 @@ use std::process::ExitCode;
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
-/// Number of lines before those that are followed.
+/// Number of earlier lines that are shown before new ones are followed.
 const LINES_BEFORE: usize = 10;
 
 /// How often a followed log is examined.
@@ -89,7 +89,7 @@ pub(crate) fn log(arguments: &LogArguments) -> Result<ExitCode, Problem> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Prints what there is, or the last lines of it.
+/// Prints the existing entries, or only the last of them.
 fn print_existing(arguments: &LogArguments, reader: &mut LogReader, printer: &mut Printer) -> io::Result<()> {
     let kept = arguments.lines.or((arguments.follow && arguments.since.is_none()).then_some(LINES_BEFORE));
     let mut last = VecDeque::new();
@@ -128,7 +128,7 @@ impl Printer {
         Self { earliest, stream: arguments.stream, is_json, run: None, escapes }
     }
 
-    /// Whether an entry is asked for.
+    /// Whether the arguments select an entry.
     fn wants(&self, entry: &LogEntry) -> bool {
         let is_late = self.earliest.as_ref().is_none_or(|earliest| entry.time >= *earliest);
         is_late && self.stream.is_none_or(|stream| stream.is(entry.stream))

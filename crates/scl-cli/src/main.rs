@@ -81,7 +81,7 @@ struct CommandLine {
     command: Command,
 }
 
-/// Declares the commands: what each needs of this build, its arguments, and the function that runs it.
+/// Declares the commands: the feature that each needs, its arguments, and the function that runs it.
 macro_rules! commands {
     ($($(#[cfg($needs:meta)])? $(#[command($($clap:tt)*)])? $name:ident($arguments:ty) => $run:expr;)*) => {
         #[derive(Subcommand)]

@@ -46,16 +46,16 @@ pub(crate) trait Shown: Meter {
     /// The cells of a line; `None` without messages.
     fn cells(figures: &Self::Figures) -> Option<Vec<String>>;
 
-    /// The same as JSON.
+    /// The figures as JSON.
     fn json(figures: &Self::Figures) -> Value;
 
-    /// What has to be said about the summary.
+    /// A remark to print below the summary, if one is needed.
     fn remark(_figures: &Self::Figures) -> Option<String> {
         None
     }
 }
 
-/// Measures these gates, or all if there are none, until the end that was asked for.
+/// Measures these gates, or all if `gates` is empty, until the requested time is over or a stop request arrives.
 pub(crate) async fn measure<M: Shown + 'static>(
     arguments: &MeasureArguments,
     gates: &[String],
@@ -111,7 +111,7 @@ struct Output {
     is_json: bool,
     /// Whether lines begin with the name of a gate.
     several: bool,
-    /// Lines since the first header.
+    /// Number of intervals printed so far.
     lines: usize,
 }
 
@@ -155,7 +155,8 @@ impl Output {
     }
 }
 
-/// The width of the column of names, which takes what the figures leave of the terminal, but at least some letters.
+/// Returns the width of the column of names: that of the longest name, cut to what the figures leave of the terminal,
+/// but not below `SHORTEST_NAME`.
 fn name_width<M: Shown>(reports: &[GateReport<M::Figures>]) -> usize {
     let longest = reports.iter().map(|report| report.gate.len()).max().unwrap_or(0).max("GATE".len());
     let figures: usize = M::COLUMNS.iter().map(|(_, width)| GAP.len() + width).sum();

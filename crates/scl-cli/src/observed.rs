@@ -1,4 +1,4 @@
-//! What the commands that look at a running system share: which system.
+//! The option `--system`, which the commands that work with a running system share.
 
 use clap::Args;
 
@@ -11,7 +11,7 @@ pub(crate) struct SystemArgument {
 }
 
 impl SystemArgument {
-    /// Its name, if the user gives one.
+    /// Returns the name of the system, if the user has given one.
     pub(crate) fn name(&self) -> Option<&str> {
         self.system.as_deref()
     }

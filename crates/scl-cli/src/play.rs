@@ -25,7 +25,7 @@ pub(crate) struct PlayArguments {
 /// The plans of the components of a system.
 pub(crate) struct Plans {
     source: Source,
-    /// The name of the system if it is not that of the plans.
+    /// The name of the system that the user has given, if any.
     system: Option<String>,
 }
 
@@ -76,7 +76,7 @@ impl Plans {
         }
     }
 
-    /// The plan of the component of a gate, and the gate's own.
+    /// Returns the plan of a gate's component, and that of the gate itself.
     pub(crate) fn gate(&self, name: &str) -> Result<(Plan, GatePlan), Problem> {
         let Some((component, gate)) = name.split_once('.') else {
             let problem = Problem::new(format!("`{}` is not the name of a gate", escape(name)));
@@ -94,7 +94,7 @@ impl Plans {
         self.holder(component).is_some()
     }
 
-    /// The process that runs a component, as far as it can be told.
+    /// Describes the process that runs a component; `None` if none is known.
     pub(crate) fn holder(&self, component: &str) -> Option<String> {
         match self.dir()?.state(component) {
             ComponentState::Running(holder) => Some(holder.to_string()),
@@ -116,7 +116,8 @@ impl Plans {
         Component::open_with(&plan, options).await.map_err(|error| problem_of(&error))
     }
 
-    /// The name of the system in whose folder the components meet, if the environment does not choose it.
+    /// Returns the system in whose runtime folder the components meet; `None` leaves the choice to the environment and
+    /// the plan.
     fn system_name(&self) -> Option<String> {
         match &self.source {
             Source::Announcements(system) => Some(system.name().to_owned()),

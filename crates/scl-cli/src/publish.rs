@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 /// How long closing waits until the peers have taken all messages.
 const FLUSH: Duration = Duration::from_secs(5);
 
-/// The messages a second of `-n` without `--rate`.
+/// Messages per second with `-n` but without `--rate`.
 const DEFAULT_RATE: f64 = 1.0;
 
 /// Send messages at a `pub` or `push` gate, in place of its component, which must not be running.
@@ -101,7 +101,7 @@ async fn run(arguments: &PubArguments) -> Result<ExitCode, Problem> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Sends the messages, and returns how many those were.
+/// Sends the messages, and returns how many were sent.
 async fn send_all(
     arguments: &PubArguments,
     messages: &mut Messages,
@@ -138,7 +138,7 @@ fn timer_problem(error: &io::Error) -> Problem {
     Problem::new(format!("the timer of `--rate` has failed: {error}"))
 }
 
-/// Only `pub` and `push` gates send by themselves.
+/// Returns an error unless the gate is a `pub` or `push` gate: no other kind sends messages by itself.
 fn check_kind(plan: &Plan, gate: &GatePlan) -> Result<(), Problem> {
     if matches!(gate.kind, GateKind::Pub | GateKind::Push) {
         return Ok(());

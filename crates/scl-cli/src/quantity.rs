@@ -1,6 +1,6 @@
 //! Quantities as text of few characters: `99.95ms`, `1.000kHz`. Tables have no room for more.
 
-/// A duration of some nanoseconds, which may be negative.
+/// Formats a duration in nanoseconds, which may be negative.
 pub(crate) fn duration(nanoseconds: f64) -> String {
     match nanoseconds.abs() {
         ns if ns < 999.95 => format!("{nanoseconds:.0}ns"),

@@ -144,7 +144,8 @@ fn options(arguments: &RecordArguments, system: &System) -> Result<Options, Prob
     })
 }
 
-/// The topology and launch file: those that are named, else those of the working folder if they are about this system.
+/// Reads the topology and launch file to attach: those that the user names, else those in the working folder if its
+/// topology describes this system.
 fn attached_files(arguments: &RecordArguments, system: &System) -> Result<Vec<AttachedFile>, Problem> {
     let is_ours = describes(Path::new(TOPOLOGY), system);
     let chosen = [(TOPOLOGY, &arguments.topology), (LAUNCH, &arguments.launch)];

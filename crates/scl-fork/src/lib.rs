@@ -1,9 +1,9 @@
 //! Values that belong to the process that created them.
 //!
 //! A process that forks shares open files, sockets and memory with its child, and the child has a copy of every value.
-//! What releases something shared must not do so there: it is still in use in the parent. And what the threads of the
-//! parent had locked, or half changed, at the moment of the fork stays so in the child, which has none of these
-//! threads.
+//! A value that releases something shared must not do so in the child, because the parent still uses it. And whatever
+//! the parent's threads had locked or half changed at the moment of the fork stays so in the child, which has none of
+//! these threads.
 //!
 //! ```
 //! use scl_fork::ProcessOwned;
@@ -27,7 +27,7 @@ pub struct ProcessMark(Mark);
 enum Mark {
     /// Counts forks without a system call: the C library does not cache the process id.
     Forks(Guard),
-    /// Where the C library refused to count.
+    /// The process id, if the C library could not register the fork handler.
     Process(u32),
 }
 
@@ -60,7 +60,7 @@ impl Default for ProcessMark {
     }
 }
 
-/// A value that is dropped in the process that created it only. A forked child keeps it as it is until its end.
+/// A value that is dropped only in the process that created it. A forked child leaks it instead.
 #[derive(Debug)]
 pub struct ProcessOwned<T> {
     /// `None` only while it is dropped.
@@ -79,7 +79,7 @@ impl<T> ProcessOwned<T> {
         self.process.is_own()
     }
 
-    /// The value itself, which is dropped as any other from then on.
+    /// Returns the value, which from then on is dropped like any other.
     pub fn into_inner(mut self) -> T {
         self.value.take().unwrap_or_else(|| unreachable!("{GONE}"))
     }

@@ -1,4 +1,4 @@
-//! `scl gateway check`: whether the gateway of a host can run with the files that are there.
+//! `scl gateway check`: checks whether a host's gateway can run with its launch file and certificates.
 
 use crate::files::{FileArguments, check_certificates, find_host};
 use clap::Args;

@@ -1,4 +1,4 @@
-//! Which host runs which components, as the launch file says, and the plan of the system.
+//! The plan of a system and its hosts: which host runs which components, according to the launch file.
 
 pub use scl_run::{Deployment, Host};
 
@@ -21,12 +21,12 @@ pub struct System {
 }
 
 impl System {
-    /// Reads a launch file, or the one in a folder, and its topology file; `topology` is for another topology file than
-    /// the launch file names.
+    /// Reads a launch file and its topology file. `launch` is the launch file or its folder; `topology` replaces the
+    /// topology file that the launch file names.
     ///
     /// # Errors
     ///
-    /// Every mistake of both files, as texts for the user.
+    /// Returns all errors in both files, as texts for the user.
     pub fn load(launch: &Path, topology: Option<&Path>) -> Result<Self, Vec<String>> {
         let read = RefCell::new((None, Vec::new()));
         let names = |path: &Path| {

@@ -8,7 +8,7 @@ use std::error::Error;
 use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
 
-/// When the user is told that a certificate will expire.
+/// Certificates that expire within this time are reported to the user.
 const SOON: Duration = Duration::from_secs(30 * 24 * 3600);
 
 /// Which files.
@@ -23,7 +23,7 @@ pub(crate) struct FileArguments {
 }
 
 impl FileArguments {
-    /// Reads them; all mistakes are shown and `None` is returned.
+    /// Reads the launch file and the topology file. Prints all errors and returns `None` if they have any.
     pub(crate) fn load(&self) -> Option<System> {
         match System::load(&self.launch, self.topology.as_deref()) {
             Ok(system) => Some(system),
@@ -35,7 +35,7 @@ impl FileArguments {
     }
 }
 
-/// The host with this name; an unknown one is shown and `None` is returned.
+/// Returns the host with this name. Prints an error and returns `None` if there is none.
 pub(crate) fn find_host<'s>(system: &'s System, name: &str) -> Option<&'s Host> {
     let host = system.deployment.host(name);
     if host.is_none() {
@@ -44,7 +44,8 @@ pub(crate) fn find_host<'s>(system: &'s System, name: &str) -> Option<&'s Host> 
     host
 }
 
-/// The certificates of a host, if the system has any. Problems are shown and an error is returned.
+/// Checks and returns the certificate files of a host; `None` if the system has no certificates. Prints all problems
+/// and returns an error if there are any.
 pub(crate) fn check_certificates(system: &System, host: &Host) -> Result<Option<HostFiles>, ()> {
     let Some(folder) = &system.deployment.certificates else { return Ok(None) };
     let files = HostFiles::of(folder, &host.name);
@@ -68,7 +69,7 @@ pub(crate) fn show(problem: &Problem) {
     print_err(&format!("{problem}\n"));
 }
 
-/// A problem with its way out.
+/// Adds help to a problem: how to solve it.
 fn explained(problem: &KeyProblem, host: &str) -> Problem {
     let renew = format!("make a new one: `scl gateway keys --host {host} --force`, and copy its folder to the host");
     let copy = || "run `scl gateway keys` on one machine, and copy the host's folder from there".to_owned();
@@ -89,7 +90,7 @@ fn explained(problem: &KeyProblem, host: &str) -> Problem {
     with_cause(problem).help(help)
 }
 
-/// An error, with its cause as a note.
+/// Converts an error into a problem, with the error's cause as a note.
 pub(crate) fn with_cause(error: &dyn Error) -> Problem {
     let problem = Problem::new(error.to_string());
     error.source().into_iter().fold(problem, |problem, cause| problem.note(cause.to_string()))

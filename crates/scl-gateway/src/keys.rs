@@ -21,14 +21,15 @@ use std::path::{Path, PathBuf};
 pub struct HostFiles {
     /// Certificate of the authority that signed the certificates of all hosts.
     pub authority: PathBuf,
-    /// The host's certificate: common name is the host's name, alternative names its addresses, for server and client.
+    /// The host's certificate, for server and client: the common name is the host's name, the alternative names are its
+    /// addresses.
     pub certificate: PathBuf,
     /// Its private key.
     pub key: PathBuf,
 }
 
 impl HostFiles {
-    /// Where they are in the folder of the certificates.
+    /// Returns the paths of a host's files in the folder of the certificates.
     pub fn of(certificates: &Path, host: &str) -> Self {
         let folder = certificates.join(host);
         Self {

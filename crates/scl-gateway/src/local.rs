@@ -1,8 +1,8 @@
 //! The side of the gateway that faces the components of its own host.
 //!
-//! The gateway announces the components that run here to the other hosts, shows those that run there in the runtime
-//! folder of this host, and has one task per route that carries messages or requests, see `pump`. It needs a
-//! tokio runtime, of which a current-thread one is enough; no task ever blocks.
+//! The gateway announces the components of this host to the other hosts, mirrors their components in the runtime folder
+//! of this host, and runs one task per route to carry messages or requests, see `pump`. It needs a tokio runtime; a
+//! current-thread runtime is enough, because no task ever blocks.
 
 mod mirroring;
 mod neighbours;
@@ -25,24 +25,24 @@ use tokio::sync::mpsc::{self, UnboundedSender};
 use tokio::sync::watch;
 use tokio::task::JoinSet;
 
-/// How long messages may take that are on their way when the gateway ends.
+/// How long the gateway waits for messages in flight when it stops.
 const STOP_LIMIT: Duration = Duration::from_millis(1500);
 
-/// A gateway at work. At SIGUSR1 it logs what each route has carried so far.
+/// A running gateway. On SIGUSR1 it logs what each route has carried so far.
 #[derive(Debug)]
 pub struct Gateway {
     wire: Arc<Wire>,
     routes: Arc<Routes>,
     stop: watch::Sender<bool>,
-    /// Aborted when dropped: first the routes with their ends, then what shows and announces components.
+    /// Aborted when dropped: first the routes with their ends, then the tasks that mirror and announce components.
     pumps: JoinSet<()>,
     tasks: JoinSet<()>,
 }
 
 impl Gateway {
-    /// Starts the gateway: `dir` is the folder of the system on this host, and `kind` what the ends listen on that
-    /// stand in for components of other hosts. Called inside a tokio runtime. Returns at once; other hosts and
-    /// components may come later.
+    /// Starts the gateway. `dir` is the folder of the system on this host, and `kind` is the transport on which the
+    /// ends of mirrored components listen. Must be called inside a tokio runtime. Returns at once; other hosts and
+    /// components may start later.
     pub fn start(dir: SystemDir, kind: TransportKind, wire: Wire) -> Self {
         let wire = Arc::new(wire);
         let mut tasks = JoinSet::new();
@@ -71,13 +71,13 @@ impl Gateway {
         Self { wire, routes, stop, pumps, tasks }
     }
 
-    /// The keys of the routes, and what they have carried so far, in the order of the options of the wire.
+    /// Returns the key of each route and what it has carried so far, in the order of the wire's options.
     pub fn figures(&self) -> &[(String, Arc<Counts>)] {
         &self.routes
     }
 
-    /// Ends the gateway: what is on its way is delivered if that takes no longer than a second or two, components of
-    /// other hosts vanish from the runtime folder, and the other hosts are told. What each route has carried is logged.
+    /// Stops the gateway: delivers messages in flight if that takes no longer than a second or two, logs what each
+    /// route has carried, removes the components of other hosts from the runtime folder, and notifies the other hosts.
     pub async fn close(mut self) {
         self.stop.send_replace(true);
         let all_done = async { while self.pumps.join_next().await.is_some() {} };
@@ -94,7 +94,7 @@ impl Gateway {
 /// The keys of the routes, and what they have carried.
 type Routes = Vec<(String, Arc<Counts>)>;
 
-/// Writes a line into the log for each route that has carried something.
+/// Logs one line for each route whose counts are not all 0.
 fn log_figures(routes: &Routes) {
     for (key, counts) in routes {
         if counts.carried() + counts.given_up() + counts.held() > 0 {

@@ -74,7 +74,7 @@ fn make(arguments: &KeysArguments, system: &System) -> Option<()> {
     }
 }
 
-/// Which files go to which host, and when they expire.
+/// Reports which folder goes to which host, and when its certificate expires.
 fn report(issued: &[Issued], folder: &Path) -> String {
     let line = |it: &Issued| {
         let what = if it.is_new { "new" } else { "kept" };

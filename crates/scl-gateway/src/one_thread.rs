@@ -1,9 +1,9 @@
-//! Lets the network library read and write its connections on one thread.
+//! Makes the network library read and write its connections on one thread.
 //!
-//! Its TLS connections (zenoh 1.10) are used by one task that reads and one that writes, without a lock between them,
-//! though both change the state of TLS. On two threads that is a data race: under load, healthy connections end with
-//! "handshake not complete" several times in a second. The library takes its threads from an environment variable
-//! alone, which a running program cannot set safely. So this program starts itself again, as the same process.
+//! In zenoh 1.10, one task reads from a TLS connection and another one writes to it, without a lock, though both change
+//! the TLS state. On two threads that is a data race: under load, healthy connections break with "handshake not
+//! complete" several times per second. The library's threads can only be configured through an environment variable,
+//! which a running program cannot set safely. So this program executes itself again, as the same process.
 
 use scl_terminal::Problem;
 use std::os::unix::process::CommandExt;
@@ -12,11 +12,11 @@ use std::process::Command;
 const VARIABLE: &str = "ZENOH_RUNTIME";
 const VALUE: &str = "(rx: (handover: tx), tx: (worker_threads: 1))";
 
-/// Returns if the variable is set, as it is after the program has started itself again.
+/// Returns if the environment variable is set; otherwise sets it and executes the program again.
 ///
 /// # Errors
 ///
-/// The program cannot start itself.
+/// The program cannot execute itself again.
 pub(crate) fn ensure() -> Result<(), Problem> {
     if std::env::var_os(VARIABLE).is_some_and(|value| value == VALUE) {
         return Ok(());

@@ -1,4 +1,4 @@
-//! Routes at work: each is one task that joins an end in the runtime folder with an end of the wire.
+//! Running routes: each is one task that connects an end in the runtime folder with an end of the wire.
 //!
 //! | route | where messages or requests leave | where they arrive |
 //! |---|---|---|
@@ -7,10 +7,10 @@
 //! | `req` to `rep` | [`requesting`]: replies in place of the replier | [`replying`]: requests |
 //!
 //! A message is acknowledged to the component that sent it when the component at the far end has taken it, so queues,
-//! waiting and flushes are those of the two components. While the far end is not there, neither is the near one, and
-//! messages wait in the sending component.
+//! waiting and flushes work as if the two components were connected directly. While the far end is closed, so is the
+//! near one, and messages wait in the sending component.
 //!
-//! The end in the runtime folder, of a route on which messages leave:
+//! States of the end in the runtime folder, for a route on which messages leave this host:
 //!
 //! ```text
 //!          the far end is matched and shown here, the publisher runs
@@ -21,7 +21,7 @@
 //!     └──────────────────────────────────────────────────────────── finishing   takes everything
 //! ```
 //!
-//! and of one on which they arrive:
+//! and for a route on which messages arrive:
 //!
 //! ```text
 //!          the far end is matched, or messages are left       the component connects: an epoch begins
@@ -59,18 +59,18 @@ use std::sync::Arc;
 use std::task::{Context, Poll};
 use tokio::sync::watch;
 
-/// What a route joins.
+/// A route and the components at its two ends.
 pub(crate) struct Ends {
     pub(crate) route: Route,
-    /// The far component, in whose place the local end is opened; `None` where any component may connect.
+    /// The mirror of the far component, for which the local end is opened; `None` if any component may connect.
     pub(crate) mirror: Option<View<Mirror>>,
-    /// The component here; `None` where any component may connect.
+    /// The component here; `None` if any component may connect.
     pub(crate) component: Option<View<Announced>>,
     pub(crate) transport: Arc<ZeroMq>,
     pub(crate) counts: Arc<Counts>,
 }
 
-/// A route at work: its end of the wire, and its end in the runtime folder, which `S` has.
+/// A running route: its end of the wire, `W`, and the state of its end in the runtime folder, `S`.
 pub(crate) struct Pump<W, S> {
     route: Route,
     wire: W,
@@ -81,17 +81,17 @@ pub(crate) struct Pump<W, S> {
     /// Whether the far end of the wire is open.
     matched: bool,
     attempts: Attempts,
-    /// The gateway ends.
+    /// Whether the gateway is stopping.
     stopping: bool,
     state: S,
 }
 
-/// What a pump does.
+/// How a pump carries messages or requests.
 pub(crate) trait Carry {
-    /// Does what can be done now. Ready when the gateway ends and nothing is left to be done.
+    /// Makes as much progress as possible. Ready when the gateway is stopping and nothing is left to do.
     fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()>;
 
-    /// The component here has started or ended.
+    /// Called when the component here has started or stopped.
     fn component_changed(&mut self) {}
 }
 
@@ -105,8 +105,9 @@ where
         Self { route, wire, mirror, component, transport, counts, matched, attempts, stopping, state }
     }
 
-    /// Runs until the gateway ends. Then what is on its way from components here is taken, what has arrived for them is
-    /// handed over, and what the far side does not acknowledge soon is left unacknowledged here, too.
+    /// Runs until the gateway stops. Then it still takes messages in flight from components here and hands over
+    /// messages that have arrived for them; messages that the far side does not acknowledge soon stay unacknowledged
+    /// here, too.
     pub(crate) async fn run(mut self, mut stop: watch::Receiver<bool>) {
         let (mut mirror, mut component) = (self.mirror.clone(), self.component.clone());
         loop {
@@ -137,7 +138,7 @@ async fn changed_if_any<T>(view: &mut Option<View<T>>) -> bool {
     }
 }
 
-/// What runs now.
+/// Returns the current run or mirror of the component, if it is running.
 fn running<T>(view: &Option<View<T>>) -> Option<Held<T>> {
     view.as_ref()?.borrow().clone()
 }

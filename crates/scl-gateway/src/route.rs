@@ -1,15 +1,16 @@
 //! The connections that cross hosts, computed from the plan of the system and the hosts of the launch file.
 //!
-//! Every host computes them alone and all must get the same, so nothing here depends on the host that asks.
+//! Every host computes them on its own, and all must get the same result, so no route depends on the host that computes
+//! it.
 
 use crate::deployment::Deployment;
 use scl_plan::{ConnectionPlan, GateKind, GatePlan, Plan, SystemPlan};
 
-/// One way between two hosts. For `pub` and `sub` a connection; for `pull` and `rep`, whose socket serves many peers,
-/// everything that one host sends to that gate.
+/// A path from one host to another. For `pub` and `sub` it is one connection; for `pull` and `rep`, whose socket serves
+/// many peers, it carries everything that one host sends to that gate.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Route {
-    /// What travels.
+    /// Whether the route carries messages or requests.
     pub pattern: Pattern,
     /// Where messages or requests come from.
     pub from: RouteEnd,
@@ -30,7 +31,7 @@ pub struct Route {
     pub key: String,
 }
 
-/// What travels on a route.
+/// What a route carries.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pattern {
     /// Messages in one direction.
@@ -47,9 +48,9 @@ pub enum Pattern {
 pub struct RouteEnd {
     /// The host.
     pub host: String,
-    /// The component; `None` for any of the host that connects there.
+    /// The component; `None` if any component of the host may connect there.
     pub component: Option<String>,
-    /// Its gate; `None` with the component.
+    /// The component's gate; `None` if `component` is.
     pub gate: Option<String>,
 }
 
@@ -72,7 +73,7 @@ pub fn routes(system: &SystemPlan, deployment: &Deployment, host: &str) -> Vec<R
     routes
 }
 
-/// Adds a route, or what is new of it where another component of the same host has it already.
+/// Adds a route. If another component of the same host has it already, only raises its `max_size` as needed.
 fn add(routes: &mut Vec<Route>, route: Route) {
     match routes.iter_mut().find(|known| known.key == route.key) {
         // The rest depends only on the receiving gate, even `lossless`: a gate may make its senders wait only if all of

@@ -1,4 +1,4 @@
-//! `scl gateway run`: the gateway of a host, until it is told to stop.
+//! `scl gateway run`: runs the gateway of a host until SIGTERM or SIGINT.
 
 use crate::files::{FileArguments, check_certificates, find_host, show};
 use crate::log;
@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &RunArguments) -> ExitCode {
     }
 }
 
-/// Problems are shown and `None` is returned.
+/// Runs the gateway. Prints problems and returns `None` if it cannot run.
 fn try_run(arguments: &RunArguments) -> Option<()> {
     shown(one_thread::ensure())?;
     shown(log::start())?;
@@ -103,7 +103,7 @@ fn raise_descriptor_limit() {
     }
 }
 
-/// The folder where the components of this host meet.
+/// Returns the folder of the system on this host, from the arguments and the environment.
 fn system_dir(arguments: &RunArguments, system: &System) -> Result<SystemDir, Problem> {
     let own = arguments.runtime_dir.as_ref().map(|folder| folder.clone().into_os_string());
     let variable = |name: &str| match (name, &own) {
@@ -116,8 +116,8 @@ fn system_dir(arguments: &RunArguments, system: &System) -> Result<SystemDir, Pr
     dir.map_err(|error| Problem::new(text_with_causes(&error)))
 }
 
-/// What the ends listen on that stand in for components of other hosts. What is chosen for single gates, and shared
-/// memory, does not concern connections to other hosts.
+/// Returns the transport on which the ends of mirrored components listen. The choices for single gates and for shared
+/// memory do not apply to connections to other hosts.
 fn transport_kind() -> Result<TransportKind, Problem> {
     let value = std::env::var_os("SCL_TRANSPORT").unwrap_or_default();
     let choice = match &*value.to_string_lossy() {

@@ -4,7 +4,7 @@ use std::ops::Deref;
 use std::sync::Arc;
 use tokio::sync::{oneshot, watch};
 
-/// Where a value is put for the tasks that use it.
+/// Holds a value for the tasks that use it.
 #[derive(Debug)]
 pub(crate) struct Slot<T> {
     value: watch::Sender<Option<Held<T>>>,
@@ -14,7 +14,7 @@ pub(crate) struct Slot<T> {
 /// A handle of the value, which exists until the last handle is dropped.
 pub(crate) type Held<T> = Arc<Inner<T>>;
 
-/// Where a task sees what is in the slot.
+/// A task's view of the slot.
 pub(crate) type View<T> = watch::Receiver<Option<Held<T>>>;
 
 /// Fields are dropped in this order, so the value is gone when that is reported.

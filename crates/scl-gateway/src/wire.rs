@@ -51,21 +51,20 @@ pub use self::sender::WireSender;
 pub use self::stream::{ReceiverEvent, SenderEvent};
 use crate::route::Route;
 
-/// Most messages of one route that are on their way without an acknowledgement; a smaller queue of the receiving gate
-/// lowers it.
+/// Maximum number of unacknowledged messages of one route; less if the receiving gate's queue is smaller.
 pub const WINDOW_MESSAGES: u32 = 64;
 
-/// Most bytes of one route that are on their way without an acknowledgement. A larger message travels alone.
+/// Maximum number of unacknowledged bytes of one route. A larger message is sent alone.
 pub const WINDOW_BYTES: u64 = 256 * 1024;
 
-/// What every handle needs of the wire.
+/// The part of the wire that every handle needs.
 #[derive(Debug, Clone)]
 struct Link {
     options: Arc<WireOptions>,
     commands: Commands,
     /// The table of connected gateways.
     presence: Presence,
-    /// The number of this gateway's run.
+    /// Identifies this run of the gateway.
     instance: String,
 }
 
@@ -81,9 +80,9 @@ impl Wire {
     ///
     /// # Errors
     ///
-    /// Fails if an address is malformed, without TLS on an address that is not loopback, if a file of the certificates
-    /// cannot be used, or if the address is taken. A second gateway of the same host, here or elsewhere, is found when
-    /// both are connected to one network: see [`Neighbour::Refused`].
+    /// Fails if an address is malformed, if there is no TLS for an address that is not loopback, if a certificate file
+    /// cannot be used, or if the address is taken. A second gateway of the same host, here or elsewhere, is detected
+    /// when both are connected to one network: see [`Neighbour::Refused`].
     pub async fn open(options: WireOptions) -> Result<Wire, WireError> {
         let options = Arc::new(options);
         let failed = |reason: String| WireError::Start { host: options.host.clone(), reason };
@@ -108,40 +107,42 @@ impl Wire {
         &self.link.options
     }
 
-    /// The end at which messages leave this host. It must be `route.from.host`. At most one per route.
+    /// Returns the end at which messages leave this host, which must be `route.from.host`. At most one may exist per
+    /// route.
     pub fn sender(&self, route: &Route) -> WireSender {
         WireSender::new(&self.link, route)
     }
 
-    /// The end at which messages arrive at this host. It must be `route.to.host`. At most one per route.
+    /// Returns the end at which messages arrive at this host, which must be `route.to.host`. At most one may exist per
+    /// route.
     pub fn receiver(&self, route: &Route) -> WireReceiver {
         WireReceiver::new(&self.link, route)
     }
 
-    /// The end at which requests leave this host: the `req` gates are here, the `rep` gate is remote.
+    /// Returns the end at which requests leave this host: the `req` gates are here, the `rep` gate is remote.
     pub fn requester(&self, route: &Route) -> WireRequester {
         WireRequester::new(&self.link, route)
     }
 
-    /// The end at which requests arrive at this host: the `rep` gate is here.
+    /// Returns the end at which requests arrive at this host: the `rep` gate is here.
     pub fn replier(&self, route: &Route) -> WireReplier {
         WireReplier::new(&self.link, route)
     }
 
-    /// Tells the other hosts that `component` runs here, until the result is dropped. `content` is its announcement and
-    /// schema, up to some MiB, handed to each neighbour as [`Neighbour::Started`].
+    /// Announces to the other hosts that `component` runs here, until the result is dropped. `content` is its
+    /// announcement and schema, up to a few MiB, which each neighbour receives in [`Neighbour::Started`].
     pub fn announce(&self, component: &str, content: Bytes) -> Announced {
         let WireOptions { system, host, .. } = self.options();
         let key = keys::component(system, component, host, &self.link.instance, random());
         Announced { _declared: Declared::new(&self.link.commands, |id| Command::Announce { id, key, content }) }
     }
 
-    /// What the other hosts run, and what is wrong with them. Never ends.
+    /// Polls for the next event: what the other hosts run, and what is wrong with them. Never ends.
     pub fn poll_neighbour(&self, cx: &mut Context<'_>) -> Poll<Neighbour> {
         self.neighbours.poll(cx)
     }
 
-    /// Withdraws everything and closes all connections. What is on its way is not waited for.
+    /// Withdraws everything and closes all connections. Does not wait for messages in flight.
     pub async fn close(self) {
         let (done, closed) = oneshot::channel();
         self.link.commands.send(Command::Close { done: Some(done) });

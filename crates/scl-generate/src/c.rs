@@ -68,12 +68,12 @@ fn functions(system: &System, component: &Component) -> Vec<Function> {
     functions.chain(wait::function(&prefix, component)).collect()
 }
 
-/// What the names of a component begin with: `rover_sensor`.
+/// The prefix of a component's names: `rover_sensor`.
 fn prefix(system: &System, component: &Component) -> String {
     format!("{}_{}", system.snake_name(), component.snake_name)
 }
 
-/// The messages with structs, each once.
+/// The messages that have structs, without duplicates.
 fn messages(system: &System) -> Vec<crate::MessageUse> {
     let used = system.gates().flat_map(|gate| gate.types.iter().filter(|used| Content::of(gate, used).is_struct()));
     let by_name: BTreeMap<&str, &crate::MessageUse> = used.map(|used| (used.dotted.as_str(), used)).collect();

@@ -1,4 +1,4 @@
-//! Names of the topology that would be one name in another language: SCL1101 and SCL1102.
+//! Names of the topology that would become the same name in another language: SCL1101 and SCL1102.
 
 use crate::system::{Component, Gate, MessageUse};
 use scl_topology::diagnostic::Diagnostic;
@@ -72,7 +72,7 @@ impl Origin {
     }
 }
 
-/// Every two declarations of one name in one scope that stand for different things.
+/// Reports declarations of the same name in the same scope that stand for different things.
 pub(crate) fn find(declarations: &[Declaration]) -> Vec<Diagnostic> {
     let mut first: HashMap<(&str, &str), &Declaration> = HashMap::new();
     let mut told: HashSet<(&Origin, &Origin)> = HashSet::new();

@@ -1,16 +1,17 @@
-//! Texts of the topology file inside comments of other languages, which they must not end.
+//! Texts of the topology file inside comments of other languages. A text must not end its comment.
 
 /// The lines of a text for a block comment of C and C++.
 pub(crate) fn c_lines(text: &str) -> Vec<String> {
     lines(text).map(|line| without_trigraphs(&line).replace("*/", "* /").replace("/*", "/ *")).collect()
 }
 
-/// The lines of a text for line comments of C++. A backslash at the end of a line would make the next one a part of it.
+/// The lines of a text for line comments of C++. Backslashes at the end of a line are removed, because they would
+/// continue the comment on the next line.
 pub(crate) fn cpp_lines(text: &str) -> Vec<String> {
     lines(text).map(|line| without_trigraphs(line.trim_end_matches('\\')).trim_end().to_owned()).collect()
 }
 
-/// Without the trigraph of a backslash, which compilers warn of even in comments.
+/// Breaks up the trigraph of a backslash, which compilers warn about even in comments.
 fn without_trigraphs(line: &str) -> String {
     line.replace("??/", "?? /")
 }

@@ -12,7 +12,7 @@ use crate::writer::Writer;
 use messages::Messages;
 pub(crate) use messages::unwritable;
 
-/// Namespaces that a system must not become: those of the standard library and of SCL itself.
+/// Namespaces that a system must not use: those of the standard library and of SCL itself.
 const TAKEN_NAMESPACES: [&str; 2] = ["std", "scl"];
 
 /// The functions of `scl::Component`, which a gate of the same name would hide.
@@ -84,7 +84,7 @@ fn write_component(out: &mut Writer, component: &Component, messages: &Messages)
     });
 }
 
-/// The functions that open the component.
+/// Writes the functions that open the component.
 fn write_opening(out: &mut Writer, component: &Component) {
     let (class, name) = (&component.class_name, &component.name);
     let for_test =
@@ -163,7 +163,7 @@ fn peers(gate: &Gate) -> String {
     }
 }
 
-/// What the bytes of a gate are that has a type for which there is none in C++.
+/// The note that says what the bytes of a gate are, if its type does not exist in C++.
 fn bytes_note(gate: &Gate) -> Option<String> {
     let foreign: Vec<_> = gate.types.iter().filter(|used| !used.in_schemas).collect();
     let codec = &gate.plan.codec;

@@ -1,11 +1,11 @@
-//! Names of the topology as identifiers of other languages: keywords get a trailing underscore, as `protoc` does it.
+//! Names of the topology as identifiers of other languages: keywords get a trailing underscore, as in `protoc`.
 
 use scl_topology::keywords::{is_cpp, is_python};
 
 /// Keywords of C that are not keywords of C++, and macros that gcc defines unless told to follow the standard.
 const C_ONLY: [&str; 6] = ["errno", "linux", "restrict", "typeof", "typeof_unqual", "unix"];
 
-/// An identifier of C and C++. Both languages escape the keywords of both, so that a C header works in C++.
+/// An identifier of C and C++. The keywords of both languages are escaped in both, so that a C header works in C++.
 pub(crate) fn c_family(name: &str) -> String {
     escaped(name, is_cpp(name) || C_ONLY.contains(&name))
 }

@@ -4,8 +4,8 @@
 //! Loaded --System::of--> System --find clashes--> names that work --generate--> files --write--> folder
 //! ```
 //!
-//! Each language is one module with two functions: `declarations` lists the names that its files declare, so that two
-//! that would be one are reported with their places in the topology file, and `files` makes the texts.
+//! Each language is one module with two functions: `declarations` lists the names that its files declare, so that
+//! clashes are reported with their places in the topology file, and `files` generates the texts.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 #![deny(missing_docs)]
 
@@ -26,7 +26,7 @@ pub use zmq::Format;
 
 use scl_topology::diagnostic::Diagnostic;
 
-/// What to make.
+/// What to generate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Target {
     /// The sockets of the system, for programs with only a ZeroMQ library.
@@ -56,7 +56,8 @@ pub fn generate(system: &System, target: Target) -> Result<Vec<File>, Vec<Diagno
     })
 }
 
-/// Names of the topology that would be one name in that language, or none, each with its places in the topology file.
+/// Finds names of the topology that would clash or be invalid in that language, each with its places in the topology
+/// file.
 pub fn find_clashes(system: &System, target: Target) -> Vec<Diagnostic> {
     let declarations = match target {
         Target::Zmq(_) => Vec::new(),

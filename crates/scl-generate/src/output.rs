@@ -19,7 +19,7 @@ pub struct File {
 /// What [`write()`] did.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
-    /// The file is new, or had another content.
+    /// The file did not exist, or had different content.
     Written,
     /// The file had this content, and was not touched.
     Unchanged,
@@ -34,7 +34,7 @@ pub enum OutputError {
     Folder {
         /// The folder.
         folder: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
     /// The file cannot be written.
@@ -42,18 +42,18 @@ pub enum OutputError {
     File {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
 }
 
-/// Writes a file into a folder, which is made if need be, unless it has this content already.
+/// Writes a file into a folder, unless the file has this content already. Creates the folder if needed.
 ///
-/// The file is replaced as a whole: a reader, and another program that writes it, never meets a part of it. Any number
-/// of programs may write it at once. A symbolic link stays, and what it leads to is replaced.
+/// The file is replaced as a whole: neither a reader nor another writer ever sees a partial file. Any number of
+/// programs may write it at once. A symbolic link stays, and its target is replaced.
 ///
 /// # Errors
-/// [`OutputError`]: the folder or the file cannot be written. The file is then as it was.
+/// [`OutputError`]: the folder or the file cannot be written. The file is then unchanged.
 pub fn write(folder: &Path, file: &File) -> Result<Outcome, OutputError> {
     if is_current(folder, file) {
         return Ok(Outcome::Unchanged);

@@ -84,12 +84,13 @@ fn module_name(system: &System) -> String {
     format!("{}_scl", system.snake_name())
 }
 
-/// The imports for type checkers that the module turns out to need.
+/// Collects the imports that the module needs for type checkers.
 #[derive(Default)]
 struct Imports(std::cell::RefCell<BTreeSet<(&'static str, String, String)>>);
 
 impl Imports {
-    /// The name under which `module.name` is imported: with an underscore, so that no message has it.
+    /// Adds an import of `module.name`, and returns the name under which it is imported, with an underscore, so that no
+    /// message has it.
     fn of(&self, module: &'static str, name: &str) -> String {
         let alias = format!("_{name}");
         self.0.borrow_mut().insert((module, name.to_owned(), alias.clone()));

@@ -30,7 +30,7 @@ pub struct Component {
     pub name: String,
     /// Its name in `CamelCase`, for classes: the same in all languages, and different for all components of a system.
     pub class_name: String,
-    /// Its name in `snake_case`. Other than `class_name`, two components may have the same.
+    /// Its name in `snake_case`. Unlike `class_name`, it may be the same for two components.
     pub snake_name: String,
     /// `doc:`.
     pub doc: Option<String>,
@@ -101,7 +101,7 @@ impl System {
         self.components.iter().flat_map(|component| component.counterpart.as_deref().into_iter().chain([component]))
     }
 
-    /// The gates of all these.
+    /// The gates of all components and counterparts.
     pub(crate) fn gates(&self) -> impl Iterator<Item = &Gate> {
         self.components_and_counterparts().flat_map(|component| &component.gates)
     }
@@ -174,7 +174,7 @@ impl Gate {
         self.plan.connections.iter().map(|it| format!("{}.{}", it.peer_component, it.peer_gate))
     }
 
-    /// The same as a list in a comment.
+    /// The peers as a list for a comment.
     pub(crate) fn quoted_peers(&self) -> String {
         quoted_list(self.peers())
     }
@@ -196,7 +196,7 @@ impl Gate {
     }
 }
 
-/// The last part of a path, safe to stand in a comment: a name of a file may hold line breaks.
+/// The last part of a path, safe for a comment: a file name may contain line breaks.
 fn file_name(path: &str) -> String {
     let name = Path::new(path).file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     name.chars().map(|letter| if letter.is_control() { '?' } else { letter }).collect()

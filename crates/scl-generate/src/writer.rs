@@ -8,7 +8,7 @@ pub(crate) struct Writer {
 }
 
 impl Writer {
-    /// Adds a line; of a text of several lines, each.
+    /// Adds a line, or each line of a text that has several.
     pub(crate) fn line(&mut self, text: impl AsRef<str>) {
         for line in text.as_ref().split('\n') {
             if !line.is_empty() {

@@ -5,7 +5,7 @@ use crate::system::{Component, Gate, System};
 use scl_plan::Payload;
 use serde::{Serialize, Serializer};
 
-/// The version of the format. It grows when a field changes its meaning or goes; new fields may come.
+/// The version of the format. It grows when a field changes its meaning or is removed, but not when a field is added.
 const VERSION: u64 = 1;
 
 /// How the configuration is written.
@@ -132,7 +132,8 @@ fn payload(payload: &Payload) -> Option<PayloadEntry<'_>> {
     }
 }
 
-/// Where the folder of a system lies depends on the user and the environment of the program.
+/// The address of an endpoint, with a placeholder for the folder of the system, which depends on the user and the
+/// environment of the program.
 fn address(endpoint: &str) -> String {
     format!("ipc://{{folder}}/{endpoint}")
 }

@@ -1,7 +1,7 @@
 //! Reads a topology file, and the schema files it names, from disk, and has them checked.
 //!
-//! The macro and the command line share it, so that both read alike and say the same words. It is the only place of SCL
-//! that reads these files; what is in them, `scl-topology` judges.
+//! The macro and the command line share this crate, so that both read files in the same way and report the same
+//! messages. It is the only part of SCL that reads these files; `scl-topology` judges their content.
 //!
 //! ```text
 //! Request --read--> text --parse--> Model --compile--> messages --check--> Topology --resolve--> Plan
@@ -34,7 +34,7 @@ use scl_topology::source::{FileId, Sources};
 use scl_topology::topology::Topology;
 use std::path::PathBuf;
 
-/// Everything that came out of reading one topology file. A stage that could not go on leaves what it has.
+/// The result of reading one topology file. A stage that cannot continue leaves what it has.
 #[derive(Debug, Default)]
 pub struct Loaded {
     /// The texts that the diagnostics point into.
@@ -43,7 +43,8 @@ pub struct Loaded {
     pub file: Option<FileId>,
     /// The file as written, as far as it could be read.
     pub model: Model,
-    /// The checked topology; `None` exactly if one of the diagnostics is an error.
+    /// The checked topology; `None` if one of the diagnostics is an error, or if the file was only read, as by
+    /// [`read()`].
     pub topology: Option<Topology>,
     /// What was found, sorted by position: errors, warnings and lints.
     pub diagnostics: Vec<Diagnostic>,
@@ -51,27 +52,27 @@ pub struct Loaded {
     pub files_read: Vec<PathBuf>,
     /// The compiled schemas; `None` if the file names none, or if one of them is wrong.
     pub schemas: Option<Schemas>,
-    /// What schemas that did not compile seem to declare.
+    /// What the schemas seem to declare if one of them is wrong; otherwise empty.
     pub outlines: Vec<Outline>,
 }
 
 /// Reads, parses and checks one topology file.
 ///
-/// Never panics and never waits: what is no regular file is not opened, and no file is read past its limit. Each
-/// problem is in [`Loaded::diagnostics`], all of them at once.
+/// Never panics and never blocks: anything but a regular file is not opened, and no file is read past its limit. All
+/// problems are reported together, in [`Loaded::diagnostics`].
 pub fn load(request: &Request) -> Loaded {
     checked(request, read(request))
 }
 
 /// As [`load`], with the bytes of the topology file from elsewhere, for example standard input.
 ///
-/// The request's path is not read; it says where schemas are looked for and gives the system its default name. Bytes
-/// past the limit, and bytes that are no UTF-8, are refused as those of a file.
+/// The request's path is not read; it determines where schemas are searched for and the system's default name. Bytes
+/// past the limit and invalid UTF-8 are refused as in a file.
 pub fn load_bytes(request: &Request, bytes: Vec<u8>) -> Loaded {
     checked(request, read_bytes(request, bytes))
 }
 
-/// Reads a file of any kind, without a look at what is in it: its text, or the problem that there is none.
+/// Reads a file of any kind without parsing it. The result contains its text, or a diagnostic if it cannot be read.
 pub fn read(request: &Request) -> Loaded {
     let text = read::read_text(&request.path, request.max_size);
     let files_read = if text.is_ok() { vec![request.path.clone()] } else { Vec::new() };

@@ -1,12 +1,12 @@
-//! Panics of the compilers and generators of schemas, as errors.
+//! Turns panics of schema compilers and code generators into errors.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Note for a problem that only a bug can cause.
 pub const BUG: &str = "this is a bug of SCL; please report it with the topology and its schemas";
 
-/// Runs `work`, which panics on what it does not support: a panic inside the macro would hide every other problem of
-/// the file.
+/// Runs `work`, which may panic on input that it does not support, and catches the panic: inside the macro, it would
+/// hide every other problem of the file.
 ///
 /// # Errors
 /// The text of the panic.

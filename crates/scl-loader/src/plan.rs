@@ -7,8 +7,9 @@ use scl_topology::socket_paths::SocketPaths;
 use scl_topology::source::Span;
 use scl_topology::topology::{ComponentId, Topology};
 
-/// The paths of sockets on Linux: the runtime folder of the user with the largest id there is, and `sun_path` without
-/// its final zero. The longest usual folder counts, so that one file works for every user.
+/// Returns the limits of socket paths on Linux: the runtime folder of the user with the largest possible id, and the
+/// length of `sun_path` without its terminating NUL. The longest usual folder is assumed, so that a file that passes
+/// the check works for every user.
 pub(crate) fn socket_paths() -> SocketPaths {
     SocketPaths { longest_root: "/run/user/4294967295/scl".to_owned(), limit: 107 }
 }
@@ -22,7 +23,7 @@ impl Loaded {
         Some(SystemPlan { system: topology.system().to_owned(), components: components.collect() })
     }
 
-    /// The plan of one component of [`Loaded::topology`]. `location` tells where a declaration stands, for example
+    /// The plan of one component of [`Loaded::topology`]. `location` returns the place of a declaration, for example
     /// `topology.yaml:4:11`.
     pub fn plan(&self, topology: &Topology, component: ComponentId, location: &dyn Fn(Span) -> String) -> Plan {
         let plan = resolve(topology, component, location);
@@ -30,14 +31,14 @@ impl Loaded {
         Plan { schema, ..plan }
     }
 
-    /// `None` without `schemas:`, and if no gate carries one of its messages.
+    /// Returns the schema of a plan's messages; `None` without `schemas:`, or if no gate carries one of its messages.
     #[cfg(feature = "protobuf")]
     fn schema_of(&self, plan: &Plan) -> Option<scl_plan::Schema> {
         let messages = plan.gates.iter().flat_map(|gate| gate.payload.types()).collect();
         self.schemas.as_ref()?.descriptors_of(&messages)
     }
 
-    /// Without the feature `protobuf`, a topology with `schemas:` is an error.
+    /// Returns `None`: without the feature `protobuf`, `schemas:` is an error.
     #[cfg(not(feature = "protobuf"))]
     fn schema_of(&self, _plan: &Plan) -> Option<scl_plan::Schema> {
         None

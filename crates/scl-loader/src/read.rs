@@ -1,13 +1,13 @@
-//! A path becomes a text, or the reason why not.
+//! Reads the file at a path as text, or says why that is not possible.
 
 use std::fs::{self, File, FileType};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Why a file gave no text.
+/// Why a file could not be read as text.
 #[derive(Debug)]
 pub(crate) enum Unreadable {
-    /// Nothing has this name.
+    /// The file does not exist.
     Missing,
     /// A symbolic link that leads nowhere or in a circle.
     BrokenLink(io::Error),
@@ -15,7 +15,7 @@ pub(crate) enum Unreadable {
     NotAFile(&'static str),
     /// The operating system refused.
     Refused(io::Error),
-    /// More bytes than allowed; as many as the file says that it has.
+    /// More bytes than allowed: the size that the file reports, or else the number of bytes that were read.
     TooLarge(u64),
     /// Not UTF-8.
     NotUtf8(BadByte),
@@ -40,7 +40,7 @@ pub(crate) struct BadByte {
 
 /// Reads a regular file of at most `max_size` bytes.
 ///
-/// The kind is looked at before the file is opened, because opening a pipe waits for its other end.
+/// The file type is checked before the file is opened, because opening a pipe blocks until its other end is opened.
 pub(crate) fn read_text(path: &Path, max_size: u64) -> Result<String, Unreadable> {
     let about = fs::metadata(path).map_err(|error| classify(path, error))?;
     let kind = about.file_type();
@@ -57,7 +57,7 @@ pub(crate) fn read_text(path: &Path, max_size: u64) -> Result<String, Unreadable
     decode(bytes, max_size)
 }
 
-/// The text of at most `max_size` bytes.
+/// Decodes bytes as UTF-8, if there are at most `max_size`.
 pub(crate) fn decode(bytes: Vec<u8>, max_size: u64) -> Result<String, Unreadable> {
     if bytes.len() as u64 > max_size {
         return Err(Unreadable::TooLarge(bytes.len() as u64));

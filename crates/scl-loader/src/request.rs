@@ -8,16 +8,16 @@ use std::path::PathBuf;
 pub struct Request {
     /// The path to read.
     pub path: PathBuf,
-    /// What kind of file messages call it: `topology` by default.
+    /// The kind of the file, as messages call it: `topology` by default.
     pub kind: &'static str,
     /// How messages name the file, for example relative to the working folder.
     pub shown_as: String,
-    /// The most bytes that a file may have, the topology as well as each schema. [`Request::MAX_SIZE`] by default.
+    /// Maximum size in bytes of the topology file, and of each schema. [`Request::MAX_SIZE`] by default.
     pub max_size: u64,
-    /// Every place in which the file was looked for, to be listed if it is nowhere.
+    /// Every place where the file was searched for, to be listed if it is not found.
     pub looked_in: Vec<LookedIn>,
-    /// The crates that a Rust program with this topology can name: a package of the schemas may hide one. Those that
-    /// every program has by default.
+    /// The crates that a Rust program with this topology can name; the module of a schema's package may hide one. By
+    /// default, those that every program has.
     pub crates: BTreeSet<String>,
 }
 
@@ -33,7 +33,7 @@ pub struct LookedIn {
 }
 
 impl Request {
-    /// The limit of a file's size unless another is asked for: 1 MiB.
+    /// The default limit of a file's size: 1 MiB.
     pub const MAX_SIZE: u64 = 1024 * 1024;
 
     /// A request for the file at `path`, which messages call by that path.

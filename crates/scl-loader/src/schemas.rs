@@ -54,14 +54,14 @@ pub struct Schemas {
     pub folders: Vec<String>,
 }
 
-/// What this stage hands on.
+/// The result of compiling the schemas.
 #[derive(Default)]
 pub(crate) struct Compiled {
     /// The messages by entry of `schemas:`; `None` unless every file compiled.
     pub(crate) messages: Option<Vec<SchemaMessages>>,
-    /// The compiled files; `None` likewise, and if there are none.
+    /// The compiled files; `None` unless every file compiled and their Rust names do not clash, or if there are none.
     pub(crate) schemas: Option<Schemas>,
-    /// What broken schemas seem to declare; empty if every file compiled.
+    /// What the schemas seem to declare if one of them is wrong; otherwise empty.
     pub(crate) outlines: Vec<Outline>,
     /// The schema files that were read, wrong ones included.
     pub(crate) files_read: Vec<PathBuf>,

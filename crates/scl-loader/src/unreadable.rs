@@ -1,4 +1,4 @@
-//! The words for a topology file that gives no text: `SCL0001` to `SCL0004`.
+//! Diagnostics for a topology file that cannot be read as text: `SCL0001` to `SCL0004`.
 
 use crate::read::{BadByte, Unreadable};
 use crate::request::Request;
@@ -10,7 +10,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
 
-/// No folder is searched further than this for a similar name: it may be a very full one.
+/// Maximum number of entries of a folder that are searched for a similar name; a folder may be very full.
 const MOST_ENTRIES: usize = 1_000;
 
 /// Length of a byte order mark, which positions in a text do not count.
@@ -97,7 +97,7 @@ fn not_utf8(request: &Request, bad: BadByte, sources: &mut Sources) -> Diagnosti
     }
 }
 
-/// A name in one of the folders that was looked in which is nearly the wanted one; `.yml` and `.yaml` count as the
+/// Finds a name that is similar to the wanted one in the folders that were searched. `.yml` and `.yaml` count as the
 /// same.
 pub(crate) fn similar_file(wanted: &Path, looked_in: &[&Path]) -> Option<String> {
     let name = wanted.file_name()?.to_str()?;

@@ -4,7 +4,7 @@ use scl_terminal::Problem;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// A repository and one of its commits, or whichever is the newest.
+/// A repository and one of its commits, or the newest one if `None`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Revision {
     /// As cargo accepts it: with a scheme, without a password.
@@ -22,7 +22,7 @@ impl Revision {
     }
 }
 
-/// The commit that is checked out in the folder, a repository's top folder.
+/// The commit that is checked out in the folder; `None` if it is not the top folder of a repository.
 pub(crate) fn head(repository: &Path) -> Option<String> {
     // The folder may be part of an unrelated repository.
     let top = git(repository, &["rev-parse", "--show-toplevel"])?;
@@ -48,7 +48,8 @@ pub(crate) fn published(repository: &Path) -> Option<Revision> {
     Some(Revision { url, commit: Some(commit) })
 }
 
-/// A URL as cargo accepts it; `None` for a path. Passwords and tokens do not belong into a manifest.
+/// Returns a URL as cargo accepts it; `None` for a path. Removes passwords and tokens from http URLs: they do not
+/// belong in a manifest.
 fn with_scheme(url: &str) -> Option<String> {
     if url.contains(|letter: char| letter.is_whitespace() || letter.is_control()) {
         return None;
@@ -67,7 +68,7 @@ fn with_scheme(url: &str) -> Option<String> {
     is_host.then(|| format!("ssh://{host}/{}", path.trim_start_matches('/')))
 }
 
-/// What a git command prints, without the last line's end; `None` if it fails or there is no git.
+/// Returns the output of a git command, without trailing whitespace; `None` if it fails or git is not installed.
 fn git(repository: &Path, arguments: &[&str]) -> Option<String> {
     let mut command = Command::new("git");
     command.arg("-C").arg(repository).args(arguments).stdin(Stdio::null()).stderr(Stdio::null());

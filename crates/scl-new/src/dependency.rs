@@ -108,7 +108,8 @@ impl Dependency {
         }
     }
 
-    /// The versions that SCL is tested with. Cargo removes the packages that the project does not use.
+    /// The lock file with the versions that SCL is tested with. Cargo removes the packages that the project does not
+    /// use.
     pub(crate) fn lock_file(&self) -> Option<String> {
         match self {
             Self::Folder { found, .. } => std::fs::read_to_string(found.join("../Cargo.lock")).ok(),
@@ -144,12 +145,12 @@ fn is_scl(folder: &Path) -> bool {
     })
 }
 
-/// A text as one word of a shell.
+/// Quotes a text as one word of a shell.
 fn shell_text(text: &str) -> String {
     format!("'{}'", text.replace('\'', r"'\''"))
 }
 
-/// A text as TOML writes it.
+/// Quotes a text as a TOML string.
 fn toml_text(text: &str) -> String {
     let letter = |letter: char| match letter {
         '"' | '\\' => format!("\\{letter}"),

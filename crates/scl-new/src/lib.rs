@@ -1,7 +1,7 @@
-//! New projects, for `scl new`: templates of files, written all or none.
+//! New projects, for `scl new`: templates of files, all of which are written, or none.
 //!
-//! The templates are the folders below `templates/`, kept inside the binary. They are valid as they are and made for a
-//! system `rover`; [`create`] puts in the name and where SCL is. A folder with a `Cargo.toml` would be left out when
+//! The templates are the folders below `templates/`, embedded in the binary. They are valid projects for a system
+//! `rover`; [`create`] replaces its name and the dependency on SCL. A folder with a `Cargo.toml` would be left out when
 //! this crate is packaged, which is why that one file has another name.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 #![deny(missing_docs)]
@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 pub struct Project {
     /// The name of the folder, the system and the cargo package.
     pub name: String,
-    /// Which files.
+    /// The template of its files.
     pub template: Template,
     /// Where the project finds SCL.
     pub scl: Source,
@@ -39,7 +39,7 @@ pub enum Source {
     Folder(PathBuf),
     /// A git repository that others can reach.
     Git {
-        /// With a scheme, or as ssh writes it.
+        /// With a scheme, or in the form `user@host:path`.
         url: String,
         /// A commit or a tag; by default the commit that this program was built from.
         revision: Option<String>,
@@ -61,8 +61,8 @@ pub struct Created {
 ///
 /// # Errors
 ///
-/// If the name cannot be used, something with that name exists, SCL is not where it should be, the URL is none, or the
-/// files cannot be written. Nothing is left behind then.
+/// If the name cannot be used, a file or folder with that name exists, the folder does not contain SCL, the URL is
+/// invalid, or the files cannot be written. Nothing is left behind then.
 pub fn create(parent: &Path, project: &Project) -> Result<Created, Problem> {
     name::check(&project.name, &project.template.programs())?;
     write::check_absent(parent, &project.name)?;

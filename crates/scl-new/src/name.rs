@@ -16,7 +16,7 @@ const OF_TYPES: [&str; 16] = [
     "bool", "char", "f32", "f64", "i8", "i16", "i32", "i64", "i128", "isize", "str", "u8", "u16", "u32", "u64", "usize",
 ];
 
-/// How code spells the name: the package of the messages, and the module that is made of it.
+/// The name as code spells it: the package of the messages, and the module that is generated from it.
 pub(crate) fn code_name(name: &str) -> String {
     name.replace('-', "_").to_ascii_lowercase()
 }
@@ -68,14 +68,14 @@ pub(crate) fn check(name: &str, programs: &[&str]) -> Result<(), Problem> {
     Ok(())
 }
 
-/// What the checker says about a system that is called so in the file.
+/// Returns the first error that the checker reports for a system whose name is written like this in the file.
 fn checker_problem(written: &str) -> Option<Diagnostic> {
     let text = format!("system: {written}\ncomponents:\n  - name: sensor\n    gates: []\n");
     let found = load_bytes(&Request::new("topology.yaml"), text.into_bytes());
     found.diagnostics.into_iter().find(|it| it.severity == Severity::Error)
 }
 
-/// The checker's words without the place, which is in no file.
+/// Converts an error of the checker. Its place is left out, because no file of the user contains it.
 fn as_problem(name: &str, found: &Diagnostic) -> Problem {
     let problem =
         Problem::new(format!("[{}] {}", found.code(), found.message)).at(format!("`{}`", name.escape_debug()));

@@ -18,10 +18,10 @@ const NAME: &str = "rover";
 /// The line of `Cargo.toml` that says where SCL is.
 const DEPENDENCY: &str = "scl = { package = \"scl-gates\", version = \"0.1.0\" }";
 
-/// The command of the CI file that installs `scl`, without options that do not depend on where SCL is.
+/// The command of the CI file that installs `scl`, up to the options that do not depend on where SCL is.
 const INSTALL: &str = "cargo install scl-cli --version 0.1.0";
 
-/// The step of the CI file after which a path to SCL is explained.
+/// The step of the CI file after which a note is inserted if the project names SCL by a path.
 const CHECKOUT: &str = "      - uses: actions/checkout@v4\n";
 
 const NOTE_ON_PATH: &str = "      # Cargo.toml and the last steps name SCL by its path on the machine on which this project was made.\n      \
@@ -98,7 +98,7 @@ impl Template {
     }
 }
 
-/// Code cannot spell every name, so the words that are no code come first.
+/// Replaces the name of the template. Code cannot spell every name, so the places that are not code are replaced first.
 fn with_name(text: &str, name: &str) -> String {
     let with_whole_name = ["name = \"rover\"", "system: rover\n", "# rover\n"]
         .iter()

@@ -1,4 +1,4 @@
-//! A folder of files, written all or none: beside its place first, then renamed.
+//! Writes a folder of files, all of them or none: into a temporary folder beside it first, which is then renamed.
 
 use scl_terminal::Problem;
 use std::fs::Permissions;
@@ -7,7 +7,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use tempfile::{Builder, TempDir};
 
-/// Refuses a name that something in `parent` has.
+/// Rejects a name that a file or folder in `parent` already has.
 pub(crate) fn check_absent(parent: &Path, name: &str) -> Result<(), Problem> {
     let existing = match std::fs::symlink_metadata(parent.join(name)) {
         Ok(existing) => existing,
@@ -27,7 +27,7 @@ pub(crate) fn write_all(parent: &Path, name: &str, files: &[(String, String)]) -
     })
 }
 
-/// Writes the files into a folder that is removed unless it is renamed.
+/// Writes the files into a temporary folder in `parent`, which is removed unless it is renamed.
 fn write_draft(parent: &Path, files: &[(String, String)]) -> io::Result<TempDir> {
     // The umask decides who may read the project; temporary folders are private by default.
     let draft = Builder::new().permissions(Permissions::from_mode(0o777)).tempdir_in(parent)?;

@@ -1,4 +1,4 @@
-//! A gate at 1 kHz and its subscriber, to measure what tools cost:
+//! A publisher at 1 kHz and its subscriber, to measure the overhead of tools:
 //! `cargo run --release -p scl-observe --example ticks`.
 //!
 //! Prints every two seconds how long messages took from gate to gate.

@@ -11,7 +11,7 @@ pub struct BandwidthMeter {
     total: Bytes,
 }
 
-/// The bytes in an interval, or in the whole time.
+/// The bytes in an interval, or since the measurement began.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BandwidthFigures {
     /// Messages seen, requests and replies included.
@@ -30,13 +30,13 @@ struct Bytes {
     bytes: u64,
     min: u64,
     max: u64,
-    /// Bytes of the messages whose predecessor is known, and the time that they took.
+    /// Bytes of the messages whose predecessor is known, and the time since those predecessors.
     timed_bytes: u64,
     duration_ns: u64,
 }
 
 impl BandwidthMeter {
-    /// Counts a message by its size in bytes and the time when it was sent. A reply belongs to the time before it.
+    /// Counts a message, given its size in bytes and its send time. A reply adds bytes but no time.
     fn observe(&mut self, kind: ObservedKind, size: usize, sent_ns: u64) {
         let size = size as u64;
         let duration_ns = match kind {

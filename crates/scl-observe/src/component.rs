@@ -32,7 +32,7 @@ impl Component {
         Self { name: name.to_owned(), state, announcement, stats }
     }
 
-    /// A component of which only its peers know.
+    /// A component known only from its peers' plans.
     pub(crate) fn stopped(name: &str) -> Self {
         Self { name: name.to_owned(), state: ComponentState::Stopped, announcement: None, stats: None }
     }
@@ -52,8 +52,8 @@ impl Component {
         self.plan().map_or(&[], |plan| &plan.gates)
     }
 
-    /// What the ends of a gate listen on, `ipc`, `tcp` or `shm`, each with the peers it is for. Empty for a gate that
-    /// only connects.
+    /// Returns the transports on which a gate listens, `ipc`, `tcp` or `shm`, each with the peers that it serves. Empty
+    /// for a gate that only connects.
     pub fn transports(&self, gate: &str) -> Vec<(&str, Vec<&str>)> {
         let endpoints = self.announcement.iter().flat_map(|announcement| &announcement.endpoints);
         let mut transports: Vec<(&str, Vec<&str>)> = Vec::new();
@@ -67,15 +67,15 @@ impl Component {
         transports
     }
 
-    /// For how long a running component has not written its figures, if that is so long that it hangs: its runtime does
-    /// not run, or the process is stopped.
+    /// Returns for how long a running component has not written its figures, if that is long enough to conclude that it
+    /// hangs: its runtime does not run, or the process is stopped.
     pub fn silent_for(&self, now: SystemTime) -> Option<Duration> {
         let stats = self.stats.as_ref().filter(|_| self.is_running())?;
         let age = now.duration_since(stats.written).ok()?;
         (age > SHORTEST_SILENCE.max(stats.period * MISSED_PERIODS)).then_some(age)
     }
 
-    /// What it does now.
+    /// Returns what the component is doing now.
     pub fn activity(&self, now: SystemTime) -> Activity {
         match self.state {
             ComponentState::Stopped => Activity::Stopped,
@@ -90,7 +90,7 @@ impl Component {
     }
 }
 
-/// What a component does.
+/// What a component is doing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Activity {
     /// It runs. Whether all required peers are connected is unknown, because it writes no figures.

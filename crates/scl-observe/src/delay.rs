@@ -11,7 +11,7 @@ pub struct DelayMeter {
     total: Delays,
 }
 
-/// The delays in an interval, or in the whole time.
+/// The delays in an interval, or since the measurement began.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DelayFigures {
     /// Messages seen, requests and replies included.

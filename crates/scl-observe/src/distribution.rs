@@ -8,7 +8,7 @@ const DIGITS: u8 = 3;
 /// Collects values. Minimum, maximum, mean and standard deviation are exact, percentiles to 0.1 %.
 #[derive(Debug, Clone, Default)]
 pub struct Distribution {
-    /// Values from 0 on.
+    /// Values of 0 and above.
     positive: Option<Histogram<u64>>,
     /// Values below 0, without their sign.
     negative: Option<Histogram<u64>>,
@@ -17,11 +17,11 @@ pub struct Distribution {
     max: i64,
     mean: f64,
     /// Sum of the squared differences from the mean (Welford's algorithm), because histograms round too much for a
-    /// jitter that is small beside the values.
+    /// jitter that is small compared with the values.
     squares: f64,
 }
 
-/// What is shown of a distribution, in nanoseconds.
+/// Summary of a distribution, in nanoseconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spread {
     /// Smallest value.
@@ -58,7 +58,7 @@ impl Distribution {
         self.squares += difference * (value as f64 - self.mean);
     }
 
-    /// What is shown of the values; `None` if nothing was added.
+    /// Returns a summary of the values; `None` if there are none.
     pub fn spread(&self) -> Option<Spread> {
         (self.count > 0).then(|| Spread {
             min: self.min,

@@ -23,7 +23,7 @@ pub struct Finding {
     pub check: &'static str,
     /// How bad it is.
     pub severity: Severity,
-    /// What is the case.
+    /// What was found.
     pub message: String,
     /// What to do.
     pub help: Option<String>,
@@ -42,13 +42,13 @@ pub enum Severity {
     Error,
 }
 
-/// What the checks look at.
+/// The environment variables and systems that the checks examine.
 struct Examined<'e> {
     variables: &'e [(OsString, OsString)],
     systems: Vec<(System, Vec<Component>)>,
 }
 
-/// Makes all checks: of this machine, this user, these environment variables, and of one or all systems.
+/// Runs all checks: of this machine, this user, these environment variables, and of one or all systems.
 ///
 /// It only reads. The checks of systems are left out if nothing has run yet.
 ///

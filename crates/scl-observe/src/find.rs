@@ -58,11 +58,11 @@ impl System {
         created.map(|dir| Self::new(name, dir)).map_err(|error| problem_of(&error))
     }
 
-    /// The systems of which a query without a name shows all: the one with this name, else `$SCL_SYSTEM`, else all that
-    /// run, else what [`find`](Self::find) finds.
+    /// Finds the systems for a query that, without a name, shows all of them: the one with this name, else
+    /// `$SCL_SYSTEM`, else all that run, else what [`find`](Self::find) finds.
     ///
     /// # Errors
-    /// Those of `find`, but for several that run.
+    /// Those of `find`, except that several systems may run.
     pub fn find_all(name: Option<&str>) -> Result<Vec<Self>, Problem> {
         if let (None, Some(runtime_dir)) = (named_system(name, &environment)?, existing(&environment)?) {
             let running = running_systems(&runtime_dir)?.into_iter();
@@ -77,7 +77,7 @@ impl System {
     }
 }
 
-/// The value of an environment variable.
+/// A function that returns the value of an environment variable.
 type Variables<'a> = &'a dyn Fn(&str) -> Option<OsString>;
 
 fn environment(name: &str) -> Option<OsString> {

@@ -1,19 +1,20 @@
-//! Notices that files appeared in a folder, were replaced or removed, by one `stat` now and then.
+//! Detects whether files in a folder were added, replaced or removed, with one `stat` now and then.
 
 use std::fs;
 use std::os::unix::fs::MetadataExt;
 use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
 
-/// Longer than two ticks of the clock with which file systems mark changes: after a change that is younger, another one
-/// may follow under the same time.
+/// Longer than two ticks of the clock for file timestamps: after a more recent change, another one may follow with the
+/// same timestamp.
 const SAME_TIME: Duration = Duration::from_millis(50);
 
 /// Watches a folder, which may be missing, removed and created again.
 #[derive(Debug)]
 pub(crate) struct FolderChanges {
     folder: PathBuf,
-    /// Inode and time of the last change, unless that is too young to tell the next one.
+    /// Inode of the folder and time of its last change; `None` if that is too recent to distinguish the next change
+    /// from it.
     seen: Option<(u64, SystemTime)>,
     is_first: bool,
 }

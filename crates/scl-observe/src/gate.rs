@@ -10,7 +10,7 @@ pub struct ObservedGate {
     pub component: String,
     /// The gate.
     pub gate: String,
-    /// What it does.
+    /// Its kind.
     pub kind: GateKind,
     /// What it carries.
     pub payload: Payload,
@@ -44,7 +44,7 @@ impl ObservedGate {
         format!("{}.{}", self.component, self.gate)
     }
 
-    /// A gate as its component's plan has it, observed at these taps.
+    /// Creates the gate of a component's plan, observed at these taps.
     pub(crate) fn new(component: &str, plan: &GatePlan, schema: Option<Bytes>, taps: Vec<Tap>) -> Self {
         Self {
             component: component.to_owned(),

@@ -19,7 +19,7 @@ impl Component {
         }
     }
 
-    /// The process that runs it, if that is visible from here; of a dead one, the process that ran it.
+    /// The process that runs the component, if it is visible from here; for a dead component, the process that ran it.
     pub fn process_id(&self) -> Option<u32> {
         match self.state {
             ComponentState::Running(ComponentProcess::ThisProcess) => Some(std::process::id()),
@@ -29,19 +29,20 @@ impl Component {
         }
     }
 
-    /// The other host that it runs on. The process here is then the gateway that stands in for it.
+    /// The other host on which the component runs, if it does. Its process here is then the gateway that stands in for
+    /// it.
     pub fn host(&self) -> Option<&str> {
         self.announcement.as_ref()?.host.as_deref()
     }
 
-    /// The latest figures of its gate with this number, if they are those of its plan and of this run.
+    /// The latest figures of the gate with this number, if they belong to its plan and to this run.
     pub fn figures(&self, gate: usize) -> Option<&GateFigures> {
         let (stats, announcement) = (self.stats.as_ref()?, self.announcement.as_ref()?);
         let belongs = stats.pid == announcement.pid && stats.gates.len() == self.gates().len();
         stats.gates.get(gate).filter(|_| belongs)
     }
 
-    /// The component without its gates.
+    /// Returns the component as JSON, without its gates.
     pub fn to_json(&self, now: SystemTime) -> Value {
         let announcement = self.announcement.as_ref();
         json!({
@@ -58,7 +59,7 @@ impl Component {
         })
     }
 
-    /// One of its gates, with its figures and its rate where there are any.
+    /// Returns one of its gates as JSON, with its figures and its rate if they are known.
     pub fn gate_to_json(&self, gate: usize, rate: Option<GateRate>) -> Value {
         let Some(plan) = self.gates().get(gate) else { return Value::Null };
         let figures = self.figures(gate);

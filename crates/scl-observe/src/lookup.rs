@@ -10,16 +10,16 @@ use scl_terminal::{Problem, closest_name, escape, quoted_list};
 const LIST: &str = "`scl list` shows what runs";
 
 impl System {
-    /// A component by its name.
+    /// Finds a component by its name.
     ///
     /// # Errors
-    /// There is none; the text suggests the closest.
+    /// There is no such component; the text suggests the closest name.
     pub fn component(&self, name: &str) -> Result<Component, Problem> {
         component(self, &self.components(), name).cloned()
     }
 
-    /// A component, or a gate and its component, by name: `component` or `component.gate`. The gate is its number in
-    /// the plan. The component runs or was killed; otherwise nothing is known about it.
+    /// Finds a component, or a gate and its component, by name: `component` or `component.gate`. The gate is returned
+    /// as its number in the plan. The component runs or was killed; otherwise nothing is known about it.
     ///
     /// # Errors
     /// There is no such component or gate, or the component is stopped.
@@ -34,7 +34,7 @@ impl System {
         Ok((component.clone(), gate))
     }
 
-    /// A gate by its name, `component.gate`, with the taps where its messages are seen.
+    /// Finds a gate by its name, `component.gate`, with the taps where its messages are seen.
     ///
     /// # Errors
     /// There is no such component or gate; the component does not run; for a `sub`, `req` or `push` gate, none of its
@@ -109,7 +109,7 @@ fn peer_taps(all: &[Component], plan: &GatePlan) -> impl Iterator<Item = Tap> {
     })
 }
 
-/// Its messages pass another host.
+/// The error for a component or gate whose messages are seen on another host.
 fn elsewhere(system: &System, name: &str, host: &str) -> Problem {
     let (system, name, host) = (escape(system.name()), escape(name), escape(host));
     Problem::new(format!("the messages of `{name}` are seen on host `{host}`, where its component runs"))

@@ -1,4 +1,4 @@
-//! Measuring gates: what passes their taps goes to a meter for each gate.
+//! Measuring gates: each gate has a meter, which receives the messages at its tap.
 
 use crate::{Activity, Component, ObservedGate, System, Tap, Taps, TapsEvent};
 use scl::tap::{Observation, TapEvent};
@@ -6,15 +6,16 @@ use std::time::SystemTime;
 
 /// Collects figures of the messages of one gate.
 pub trait Meter {
-    /// What it has found out.
+    /// The figures that it returns.
     type Figures;
     /// Counts a message, request or reply.
     fn observe(&mut self, seen: &Observation);
-    /// The connection to the tap has ended: what comes next is not counted from what came before.
+    /// The connection to the tap was interrupted: the time between the last message before and the first one after is
+    /// not counted.
     fn interrupt(&mut self) {}
     /// The figures since the last call.
     fn take_interval(&mut self) -> Self::Figures;
-    /// The figures of the whole time.
+    /// The figures since the measurement began.
     fn total(&self) -> Self::Figures;
 }
 
@@ -24,7 +25,7 @@ pub struct Measurement<M> {
     taps: Taps,
     new_meter: Box<dyn Fn() -> M>,
     gates: Vec<Measured<M>>,
-    /// Which of `gates` the tap of a number belongs to: a gate that starts again with another type has a new number.
+    /// By gate number of `taps`, the index in `gates`: a gate that starts again with another type has a new number.
     index_of: Vec<usize>,
 }
 
@@ -38,14 +39,14 @@ struct Measured<M> {
 pub struct GateReport<F> {
     /// The gate, as `component.gate`.
     pub gate: String,
-    /// What its meter has found out.
+    /// The figures of its meter.
     pub figures: F,
-    /// What its component does, for a gate without messages: `not running`.
+    /// The state of its component, to explain a lack of messages: `not running`.
     pub state: String,
 }
 
 impl<M: Meter> Measurement<M> {
-    /// Measures these gates; those that receive are measured at their peers' taps, see [`at_taps`]. Must be called
+    /// Measures these gates; gates without a tap are measured at their peers' taps, see [`at_taps`]. Must be called
     /// inside a tokio runtime.
     pub fn of(system: &System, gates: &[ObservedGate], new_meter: impl Fn() -> M + 'static) -> Self {
         let gates = at_taps(gates);
@@ -62,7 +63,7 @@ impl<M: Meter> Measurement<M> {
         Self::empty(system, taps, new_meter)
     }
 
-    /// Measures, forever.
+    /// Measures forever.
     ///
     /// # Cancel safety
     /// Cancel safe: what was counted stays.
@@ -92,7 +93,7 @@ impl<M: Meter> Measurement<M> {
         figures.zip(states).map(report).collect()
     }
 
-    /// The figures of each gate for the whole time.
+    /// The figures of each gate since the measurement began.
     pub fn total(&self) -> Vec<GateReport<M::Figures>> {
         self.gates.iter().map(|it| (&it.tap, it.meter.total())).zip(self.states()).map(report).collect()
     }
@@ -102,7 +103,7 @@ impl<M: Meter> Measurement<M> {
         Self { system, taps, new_meter, gates: Vec::new(), index_of: Vec::new() }
     }
 
-    /// What the component of each gate does.
+    /// Describes the state of each gate's component.
     fn states(&self) -> Vec<String> {
         let (components, now) = (self.system.components(), SystemTime::now());
         let component = |name: &str| components.iter().find(|component| component.name == name);
@@ -120,7 +121,7 @@ impl<M: Meter> Measurement<M> {
     }
 }
 
-/// Whether a component runs, hangs or waits for peers, in some words: `not running`.
+/// Describes in a few words whether a component runs, hangs or waits for peers: `not running`.
 fn describe_state(component: Option<&Component>, now: SystemTime) -> String {
     match component.map_or(Activity::Stopped, |component| component.activity(now)) {
         Activity::Hangs(silence) => format!("hangs since {} s", silence.as_secs()),
@@ -135,7 +136,8 @@ fn report<F>(((tap, figures), state): ((&Tap, F), String)) -> GateReport<F> {
     GateReport { gate: format!("{}.{}", tap.component, tap.gate), figures, state }
 }
 
-/// Gates as their own taps: one that receives is replaced by the gates that send to it, each once.
+/// Replaces gates without a tap (`sub`, `req`, `push`) by the peers at whose taps their messages are seen. Each tap
+/// occurs once.
 pub fn at_taps(gates: &[ObservedGate]) -> Vec<ObservedGate> {
     let mut replaced: Vec<ObservedGate> = Vec::new();
     for gate in gates {

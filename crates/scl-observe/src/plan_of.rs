@@ -1,4 +1,4 @@
-//! The plan of a component that is to be played: its own if it announced one, else the other end of its peers'.
+//! The plan of a component that is to be played: its own if it announced one, else what follows from its peers' plans.
 
 use crate::component::Component;
 use crate::system::System;
@@ -7,8 +7,8 @@ use scl_terminal::Problem;
 use std::sync::Arc;
 
 impl System {
-    /// The plan of a component: as it announces it, or left it behind when it was killed; else as far as its running
-    /// peers know it, which is every gate that is connected to one of them.
+    /// Returns the plan of a component: the one that it announces, or left behind when it was killed; else the part
+    /// that its running peers know, which is every gate that is connected to one of them.
     ///
     /// # Errors
     /// There is no such component, or neither it nor a peer of it runs.

@@ -14,13 +14,13 @@ pub(crate) struct ProcessFigures {
 }
 
 impl ProcessFigures {
-    /// Reads them, if the process is visible here.
+    /// Reads the figures of a process; `None` if it is not visible here.
     pub(crate) fn read(pid: u32) -> Option<Self> {
         let stat = fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
         Self::parse(&stat, clock_ticks_per_second(), page_size() as u64)
     }
 
-    /// `stat` as `proc_pid_stat(5)` describes it.
+    /// Parses `stat`, which `proc_pid_stat(5)` describes.
     fn parse(stat: &str, ticks_per_second: u64, page_size: u64) -> Option<Self> {
         let field = |number| stat_field(stat, number);
         let ticks = field(14)?.saturating_add(field(15)?);
@@ -35,7 +35,7 @@ pub(crate) fn stat_field(stat: &str, number: usize) -> Option<u64> {
     stat.rsplit_once(')')?.1.split_whitespace().nth(number - 3)?.parse().ok()
 }
 
-/// Whether a bit of a mask is set, by the text of `status`; `key` is `CapEff:`.
+/// Whether a bit of a mask in the text of `/proc/<pid>/status` is set; `key` names the mask: `CapEff:`.
 pub(crate) fn has_bit(status: &str, key: &str, bit: u32) -> bool {
     let mask = status.lines().find_map(|line| line.strip_prefix(key));
     mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).is_some_and(|mask| mask >> bit & 1 == 1)

@@ -8,15 +8,15 @@ use std::collections::VecDeque;
 /// Counts the frames at the tap of one gate.
 #[derive(Debug, Default)]
 pub struct RateMeter {
-    /// Frames of the present connection to the tap.
+    /// Frames of the current connection to the tap.
     session: Option<Session>,
-    /// The last messages, if figures are to be of a fixed number of them.
+    /// The last messages, if the figures of an interval cover a fixed number of messages.
     window: Option<Window>,
     interval: Totals,
     total: Totals,
 }
 
-/// The rate of a gate in an interval, in the last messages, or in the whole time.
+/// The rate of a gate in an interval, in the last messages, or since the measurement began.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RateFigures {
     /// Messages seen; at a `rep` gate requests.
@@ -34,7 +34,7 @@ struct Session {
     first: u64,
     highest: u64,
     previous: Option<Sent>,
-    /// The number of the frame before, of any kind.
+    /// The number of the previous frame, of any kind.
     last_sequence: u64,
 }
 
@@ -49,11 +49,11 @@ struct Sent {
 struct Step {
     /// 1 for a message or a request, 0 for a reply.
     messages: u64,
-    /// Messages since the one before, this one included, and the time that they took.
+    /// Number of messages since the previous one seen, this one included, and the time since that one.
     sent: Option<(u64, u64)>,
-    /// The time since the message before, if none was missed in between.
+    /// The time since the previous message, if none was missed in between.
     period: Option<u64>,
-    /// Frames missed just before; -1 for one that had been counted as missed.
+    /// Number of frames missed just before this one; -1 if this one is late and had been counted as missed.
     lost: i64,
 }
 
@@ -73,13 +73,13 @@ struct Window {
 }
 
 impl RateMeter {
-    /// A meter whose intervals show the last `window` messages, if that is given.
+    /// Creates a meter. With a `window`, its intervals show that many of the last messages.
     pub fn new(window: Option<usize>) -> Self {
         let window = window.map(|limit| Window { limit, steps: VecDeque::new() });
         Self { window, ..Self::default() }
     }
 
-    /// Counts a frame. Replies count only where they are missing.
+    /// Counts a frame. Replies are not counted as messages, but missing replies count as lost frames.
     fn observe(&mut self, kind: ObservedKind, sequence: u64, sent_ns: u64) {
         let step = match &mut self.session {
             Some(session) => session.step(kind, sequence, sent_ns),
@@ -151,7 +151,8 @@ impl Session {
         Step { messages: 1, sent: advance, period, lost }
     }
 
-    /// Frames that are known to be missing since this frame, which was itself missing if it is late.
+    /// Returns the number of frames that this one shows to be missing; -1 if it is late and had been counted as
+    /// missing.
     fn count_lost(&mut self, sequence: u64) -> i64 {
         let missing = if sequence > self.highest {
             let missing = sequence - self.highest - 1;

@@ -1,4 +1,4 @@
-//! What runs the asynchronous part of a command, and the signals that stop it.
+//! The runtime for the asynchronous part of a command, and the signals that stop it.
 
 use crate::process::has_bit;
 use scl_terminal::Problem;
@@ -16,7 +16,7 @@ pub fn block_on<T>(command: impl Future<Output = Result<T, Problem>>) -> Result<
     runtime.map_err(|error| Problem::new(format!("cannot start: {error}")))?.block_on(command)
 }
 
-/// SIGINT, SIGTERM and SIGHUP: they end every command that goes on until it is stopped. SIGHUP does not if the command
+/// SIGINT, SIGTERM and SIGHUP, which end every command that runs until it is stopped. SIGHUP is ignored if the command
 /// was started by `nohup`.
 #[derive(Debug)]
 pub struct StopSignals {
@@ -26,7 +26,7 @@ pub struct StopSignals {
 }
 
 impl StopSignals {
-    /// From now on, the signals no longer end the process. Must be called inside a tokio runtime.
+    /// Watches for the signals, which no longer end the process from now on. Must be called inside a tokio runtime.
     ///
     /// # Errors
     /// The operating system refuses.

@@ -1,4 +1,4 @@
-//! Gates by the names of the user, also of components that do not run yet.
+//! Gates that the user selects by name, including gates of components that do not run yet.
 
 use crate::gate::ObservedGate;
 use crate::lookup;
@@ -28,8 +28,9 @@ struct Name {
 }
 
 impl Selection {
-    /// Looks up the names: in what runs, and, for components that do not run, in the topology file if that describes
-    /// this system. Without it, a component that nothing is known about is taken to start later.
+    /// Looks up the names among the running components and, for components that do not run, in the topology file if
+    /// that describes this system. Without such a file, a component that nothing is known about is assumed to start
+    /// later.
     ///
     /// # Errors
     /// A name is unknown, or its component runs on another host.
@@ -46,7 +47,7 @@ impl Selection {
         &self.waiting
     }
 
-    /// Whether one gate is wanted, and no more.
+    /// Whether exactly one gate is wanted.
     pub fn is_one_gate(&self) -> bool {
         matches!(&self.wanted[..], [Name { gate: Some(_), .. }])
     }
@@ -57,7 +58,7 @@ impl Selection {
         (self.wanted.is_empty() || is_named(&self.wanted)) && !is_named(&self.excluded)
     }
 
-    /// Whether each wanted name has at least one of these gates.
+    /// Whether each wanted name stands for at least one of these gates.
     pub fn is_complete(&self, gates: &[ObservedGate]) -> bool {
         self.wanted.iter().all(|name| gates.iter().any(|gate| name.means(gate)))
     }
@@ -78,7 +79,7 @@ impl Name {
 struct Lookup<'s> {
     system: &'s System,
     topology: &'s Path,
-    /// The plan of the topology file, once it was read; `None` in it if the file does not describe this system.
+    /// The plan of the topology file, once it was read; `Some(None)` if the file does not describe this system.
     planned: Option<Option<SystemPlan>>,
     waiting: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! A system at one moment: its components and gates, with rates since the moment before. Only files are read, so it
+//! A system at one moment: its components and gates, with rates since the previous snapshot. Only files are read, so it
 //! costs the components nothing.
 
 use crate::process::ProcessFigures;
@@ -8,19 +8,19 @@ use scl_plan::{GateKind, GatePlan};
 use std::collections::HashMap;
 use std::time::{Duration, Instant, SystemTime};
 
-/// Looks at a system again and again.
+/// Takes snapshots of a system.
 #[derive(Debug)]
 pub struct Watch {
     system: System,
     before: HashMap<String, Before>,
 }
 
-/// What was seen of a component the last time.
+/// What the previous snapshot saw of a component.
 #[derive(Debug)]
 struct Before {
     processor: Option<(u32, Instant, Duration)>,
     stats: Option<ComponentStats>,
-    /// The latest rates, which stay until the component has written its figures again.
+    /// The latest rates, kept until the component has written its figures again.
     rates: Vec<Option<f64>>,
 }
 
@@ -31,7 +31,7 @@ pub struct Snapshot {
     pub system: String,
     /// Its components, sorted by name.
     pub components: Vec<ComponentRow>,
-    /// The gates of those that run, by component, in the order of the topology file.
+    /// The gates of the components that run, by component, in the order of the topology file.
     pub gates: Vec<GateRow>,
 }
 
@@ -40,11 +40,11 @@ pub struct Snapshot {
 pub struct ComponentRow {
     /// Its name.
     pub name: String,
-    /// What it does.
+    /// What it is doing.
     pub activity: Activity,
     /// Its process, if it runs and is visible here.
     pub pid: Option<u32>,
-    /// The part of one processor that the process used since the moment before; 1 is a whole one.
+    /// The share of one processor that the process used since the previous snapshot; 1 is a whole processor.
     pub processor: Option<f64>,
     /// The resident memory of the process in bytes.
     pub memory: Option<u64>,
@@ -59,13 +59,13 @@ pub struct GateRow {
     pub component: String,
     /// The gate.
     pub gate: String,
-    /// What it does.
+    /// Its kind.
     pub kind: GateKind,
     /// What it carries, as in the topology file.
     pub payload: String,
     /// Its codec.
     pub codec: String,
-    /// Messages per second since the moment before: sent ones, each once for all peers, or received ones.
+    /// Messages per second since the previous snapshot: sent ones, each counted once for all peers, or received ones.
     pub rate: Option<f64>,
     /// What the component counted; `None` without figures.
     pub figures: Option<GateFigures>,
@@ -88,7 +88,7 @@ impl Watch {
         Self { system, before: HashMap::new() }
     }
 
-    /// Reads what is there now.
+    /// Takes a snapshot.
     pub fn look(&mut self) -> Snapshot {
         let (now, time) = (Instant::now(), SystemTime::now());
         let components = self.system.components();
@@ -172,7 +172,7 @@ fn gate_rows(component: &Component, rates: &[Option<f64>]) -> Vec<GateRow> {
     gates.map(row).collect()
 }
 
-/// Messages per second of each gate; those of the moment before if the figures were not written since.
+/// Messages per second of each gate; the previous ones if the figures were not written since.
 fn rates(component: &Component, before: Option<&Before>) -> Vec<Option<f64>> {
     let (Some(plan), Some(stats), Some(before)) = (component.plan(), &component.stats, before) else {
         return Vec::new();

@@ -12,14 +12,14 @@ use std::task::{Context, Poll, Waker};
 use std::time::Duration;
 use tokio::time::{Interval, MissedTickBehavior, interval};
 
-/// How often the folder is examined for components that started: one `stat`, and all announcements are read only after
-/// a change. A component takes longer than this from its announcement to its first message in most programs.
+/// How often the folder is checked for components that started. A check is one `stat`; the announcements are read only
+/// after a change. Most components take longer than this from their announcement to their first message.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// The taps of some gates, or of all that there are, as one stream.
+/// The taps of some gates, or of all gates, as one stream.
 ///
-/// A component that stops and starts again is connected to again; what passes meanwhile is not seen. Gates are numbered
-/// in the order of [`gates`](Self::gates), which only grows.
+/// After a component has stopped and started again, its taps are connected again; messages in between are not seen.
+/// Gates are numbered in the order of [`gates`](Self::gates), which only grows.
 pub struct Taps {
     gates: Vec<ObservedGate>,
     observers: Vec<Watched>,
@@ -31,17 +31,16 @@ pub struct Taps {
 /// What happened at one of the taps.
 #[derive(Debug)]
 pub enum TapsEvent {
-    /// A gate was added: its number is one more than that of the gate before. Only from [`Taps::follow_all`], and
-    /// before the first event of the gate.
+    /// A gate was added, with the next number. Only from [`Taps::follow_all`], and before the first event of the gate.
     ///
-    /// A gate that starts again with another type, codec or schema is added once more, and the one before becomes
-    /// silent.
+    /// A gate that starts again with another type, codec or schema is added again, and its old number has no more
+    /// events.
     Started(ObservedGate),
     /// An event at a tap of the gate with this number.
     Event { gate: usize, event: TapEvent },
 }
 
-/// One observer, and the gate for which it is.
+/// One observer, and the number of its gate.
 struct Watched {
     gate: usize,
     /// `None` if the gate was replaced by another.
@@ -84,7 +83,7 @@ impl Taps {
         &self.gates
     }
 
-    /// The next event. Without any gate, it waits until one is added, for [`open`](Self::open) forever.
+    /// Waits for the next event. Without any gate, it waits until one is added; after [`open`](Self::open), forever.
     ///
     /// # Cancel safety
     /// Cancel safe.

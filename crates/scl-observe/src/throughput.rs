@@ -6,7 +6,7 @@ use scl_plan::{GateKind, Plan};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// Between two attempts to read newer figures.
+/// The pause between two attempts to read newer figures.
 const PAUSE: Duration = Duration::from_millis(20);
 
 /// What passes a gate per second.
@@ -50,7 +50,8 @@ pub fn rates(plan: &Plan, earlier: &ComponentStats, later: &ComponentStats) -> O
 }
 
 impl System {
-    /// Waits for figures of a component that are newer than these, no longer than `patience`. Blocks the thread.
+    /// Waits for figures of a component that are newer than these; `None` if there are none after `patience`. Blocks
+    /// the thread.
     pub fn newer_stats(&self, component: &str, than: &ComponentStats, patience: Duration) -> Option<ComponentStats> {
         let start = Instant::now();
         loop {

@@ -23,7 +23,7 @@ struct Member {
 }
 
 impl Woken {
-    /// The waker of the future with this number, which counts as woken now.
+    /// Returns the waker of the future with this number, and marks the future as woken.
     pub(crate) fn add(&self, index: usize) -> Waker {
         push(&self.state, index);
         Arc::new(Member { index, state: Arc::clone(&self.state) }).into()

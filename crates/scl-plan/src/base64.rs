@@ -3,12 +3,12 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-/// With padding, without line breaks.
+/// Encodes bytes with padding and without line breaks.
 pub(crate) fn encode(bytes: &[u8]) -> String {
     STANDARD.encode(bytes)
 }
 
-/// `None` unless `text` is exactly what [`encode`] returns for some bytes.
+/// Decodes a text. Returns `None` unless it is exactly what [`encode`] returns for some bytes.
 pub(crate) fn decode(text: &str) -> Option<Vec<u8>> {
     STANDARD.decode(text).ok()
 }

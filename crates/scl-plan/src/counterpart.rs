@@ -7,9 +7,9 @@ use crate::plan::{ConnectionPlan, GatePlan, Plan};
 impl Plan {
     /// The plan of this component's counterpart.
     ///
-    /// Each of its gates takes the part of all peers of one gate, at the endpoint of the first connection. It drops and
-    /// refuses nothing: a message that a test misses was dropped by the component under test. The counterpart of a gate
-    /// that is connected to nothing may have no connection either.
+    /// Each of its gates stands in for all peers of one gate, at the endpoint of the first connection. It neither drops
+    /// nor rejects messages: one that a test misses was dropped by the component under test. The counterpart of a gate
+    /// without connections may have no connection either.
     #[must_use]
     pub fn counterpart(&self) -> Plan {
         Plan {

@@ -1,5 +1,5 @@
-//! The options of a gate that its program needs: their values, defaults and names, told once for the topology file, the
-//! JSON text, generated code and the runtime.
+//! The options of a gate that its program needs: their values, defaults and names, defined once for the topology file,
+//! the JSON text, generated code and the runtime.
 
 use crate::kind::{Undecodable, WhenFull};
 use std::time::Duration;
@@ -27,7 +27,7 @@ pub struct GateOptions {
 }
 
 impl GateOptions {
-    /// A gate for which the topology file declares nothing: 64 MiB, 100 messages, 1 s, one call at a time.
+    /// The options of a gate for which the topology file sets none: 64 MiB, 100 messages, 1 s, one call at a time.
     pub const DEFAULT: Self = Self {
         max_size: 64 << 20,
         queue: 100,
@@ -39,13 +39,14 @@ impl GateOptions {
         undecodable: Undecodable::Skip,
     };
 
-    /// Whether this sending gate waits, rather than drop a message, for a peer whose full queue does this.
+    /// Whether this sending gate waits for a peer with this queue policy, rather than drop a message.
     pub fn waits_for(&self, when_full: WhenFull) -> bool {
         self.backpressure && when_full == WhenFull::Wait
     }
 
-    /// A gate of a component's counterpart in unit tests: it drops and refuses nothing. A call that takes longer fails
-    /// the test, so its timeout is long, and so does a message that it cannot decode.
+    /// The options of a gate of a component's counterpart in unit tests, which neither drops nor rejects messages. A
+    /// call that times out fails the test, so the timeout is long. A message that the gate cannot decode fails the
+    /// test, too.
     pub(crate) const COUNTERPART: Self = Self {
         max_size: u64::MAX,
         queue: u32::MAX,
@@ -105,7 +106,7 @@ pub enum OptionAccess {
     Flag(fn(&mut GateOptions) -> &mut bool),
     /// A queue policy.
     Policy(fn(&mut GateOptions) -> &mut WhenFull),
-    /// What becomes of undecodable messages.
+    /// What happens to undecodable messages.
     Undecodable(fn(&mut GateOptions) -> &mut Undecodable),
 }
 

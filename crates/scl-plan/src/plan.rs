@@ -44,9 +44,9 @@ pub struct GatePlan {
     pub codec: String,
     /// Where it is declared: `topology.yaml:6:9`.
     pub declared_at: String,
-    /// The endpoint at which the gate listens for all its peers: of `rep` and `pull` only.
+    /// The endpoint at which the gate listens for all its peers; only `rep` and `pull` gates have one.
     pub endpoint: Option<String>,
-    /// The endpoint at which tools observe the gate: of `pub`, `rep` and `pull` only.
+    /// The endpoint at which tools observe the gate; only `pub`, `rep` and `pull` gates have one.
     pub tap: Option<String>,
     /// A short hash of pattern, types and codec.
     pub contract: String,
@@ -73,7 +73,7 @@ pub struct ConnectionPlan {
     pub required: bool,
     /// The receiving gate's queue, in messages.
     pub queue: u32,
-    /// What happens when it is full.
+    /// What happens when the queue is full.
     pub when_full: WhenFull,
     /// The longest message that the peer accepts from this gate, in bytes. For a gate that only receives, its own
     /// limit.

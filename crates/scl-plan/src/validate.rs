@@ -1,4 +1,4 @@
-//! What the values of a plan must have in common to work. A plan that was made from a checked topology always has it.
+//! Checks that the values of a plan are consistent. Those of a plan that was made from a checked topology always are.
 
 use crate::error::PlanError;
 use crate::plan::{GatePlan, Payload, Plan};

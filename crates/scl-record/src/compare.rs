@@ -1,8 +1,7 @@
 //! Comparing two recordings: the same messages in the same order, gate by gate.
 //!
-//! Times are not compared unless asked for, so a recording can be compared with one of its replay at another rate. A
-//! message that one recording has and the other lacks is found by what follows it, so one lost message is one
-//! difference.
+//! Times are compared only on request, so a recording can be compared with a recording of its replay at another rate. A
+//! message that only one recording has is found by the messages that follow it, so one lost message is one difference.
 
 mod align;
 mod report;
@@ -21,28 +20,29 @@ use std::collections::BTreeSet;
 use std::time::Duration;
 use values::Rules;
 
-/// What is compared, and how exactly.
+/// Which gates and fields are compared, and with which tolerances.
 #[derive(Debug, Clone, Default)]
 pub struct CompareOptions {
     /// Compare these gates only; empty: all.
     pub gates: Vec<String>,
     /// Compare these fields only; empty: all.
     pub fields: Vec<FieldPath>,
-    /// How much numbers may differ.
+    /// Absolute tolerance for numbers.
     pub within: f64,
-    /// How much numbers may differ, in parts of the larger one.
+    /// Tolerance for numbers as a fraction of the larger one: 0.01 is one percent. The greater tolerance applies.
     pub relative: f64,
-    /// How much the times of messages, since the first of their gate, may differ; `None`: they are not compared.
+    /// How much the send times of two paired messages may differ, each counted from the first pair of their topic;
+    /// `None`: times are not compared.
     pub times_within: Option<Duration>,
-    /// How many differences are kept for each gate.
+    /// Maximum number of differences kept for each topic.
     pub shown: usize,
 }
 
-/// Compares two recordings. `progress` is told the position in the first one.
+/// Compares two recordings. Calls `progress` with the position in the first one.
 ///
 /// # Errors
-/// A recording cannot be read; they have no such gate, or its types differ; no message has such a field; there is
-/// nothing to compare.
+/// A recording cannot be read; neither has messages of a named gate, or the types of a gate differ; no compared message
+/// has a named field; there are no messages to compare.
 pub fn compare(
     first: &Recording,
     second: &Recording,
@@ -77,7 +77,7 @@ pub fn compare(
     Ok(CompareReport { gates, notes })
 }
 
-/// The topics that are compared: of the named gates, or all.
+/// Returns the topics to compare: those of the named gates, or all.
 fn choose_topics(surveys: &[Survey; 2], options: &CompareOptions) -> Result<Vec<Topic>, Problem> {
     let all: BTreeSet<&Topic> = surveys.iter().flat_map(|survey| survey.topics.keys()).collect();
     let names: BTreeSet<String> = all.iter().map(|topic| topic.gate_name()).collect();

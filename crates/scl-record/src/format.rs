@@ -29,9 +29,9 @@ pub const TOPOLOGY: &str = "topology.yaml";
 /// Attachment: the launch file, if it was found.
 pub const LAUNCH: &str = "launch.yaml";
 
-/// Number of a message in the file: the lower 32 bits of the tap's number, so it continues with 0 after
-/// 4,294,967,295. For requests and replies the lower 32 bits of the call id: a reply belongs to the last request of the
-/// same gate before it that has the same number.
+/// MCAP's `sequence` of a message: the lower 32 bits of the tap's sequence number, so it wraps to 0 after
+/// 4,294,967,295. For requests and replies, the lower 32 bits of the call id: a reply belongs to the last request of
+/// the same gate before it that has the same number.
 pub fn sequence(part: Part, tap_sequence: u64, call_id: u64) -> u32 {
     let number = match part {
         Part::Message => tap_sequence,

@@ -1,6 +1,6 @@
 //! Recording, replay and comparison of systems, in MCAP files.
 //!
-//! [`mod@format`] says what a recording contains; the writer side makes such files, the reader side reads them.
+//! [`mod@format`] defines what a recording contains. [`record`] writes recordings, [`recording`] reads them.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod compare;

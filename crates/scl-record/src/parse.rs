@@ -1,7 +1,7 @@
 //! Parsing records whose lengths cannot be trusted, for everything that reads recordings.
 //!
-//! The library reserves as much memory as a length says. So a record's lengths are compared with its content first, and
-//! a chunk may become no longer than its compression allows.
+//! The `mcap` crate allocates as much memory as a length says. So the lengths in a record are checked against its
+//! content first, and a decompressed chunk may be no longer than its compression allows.
 
 use bytes::Buf;
 use mcap::parse_record;
@@ -9,26 +9,26 @@ use mcap::records::{Record, op};
 use mcap::sans_io::linear_reader::LinearReaderOptions;
 use std::borrow::Cow;
 
-/// Greatest ratio of LZ4: a byte of a length stands for 255 bytes.
+/// Maximum compression ratio of LZ4: a byte of a length stands for 255 bytes.
 const MOST_LZ4: usize = 255;
-/// Greatest ratio of zstd: a block of four bytes stands for 128 KiB.
+/// Maximum compression ratio of zstd: a block of four bytes stands for 128 KiB.
 const MOST_ZSTD: usize = 32 << 10;
 
-/// Bytes of a chunk's content up to the name of its compression, with the name's length and the longest name known
-/// here.
+/// Length of the start of a chunk's content, up to and including the name of its compression if that is the longest one
+/// known here.
 const CHUNK_HEAD: usize = 36;
 
-/// What can be decompressed, for messages.
+/// The supported compressions, for messages.
 pub(crate) const COMPRESSIONS: &str = "lz4 and zstd";
 
-/// What a chunk may contain however short it is.
+/// Decompressed size that is allowed beyond the compression ratio, for short chunks.
 const SHORT: usize = 64 << 10;
 
-/// Records, and chunks after decompression, that are longer are taken for garbage.
+/// Maximum length of a record, and of a decompressed chunk. Anything longer is treated as garbage.
 pub(crate) const LONGEST: usize = 1 << 30;
 
-/// Parses one record; `None` if it is not what its opcode says. Records of the index are not parsed: nothing here needs
-/// them.
+/// Parses one record; `None` if its content does not match its opcode. Records of the index are returned as
+/// `Record::Unknown`, because nothing here needs them.
 pub(crate) fn parse(opcode: u8, content: &[u8]) -> Option<Record<'_>> {
     match fields(opcode) {
         None => Some(Record::Unknown { opcode, data: Cow::Borrowed(content) }),
@@ -50,15 +50,15 @@ pub(crate) fn chunk_options(head: &[u8], length: usize) -> LinearReaderOptions {
 enum Field {
     /// This many bytes.
     Fixed(usize),
-    /// A text, map of texts or block of bytes after its length in four bytes.
+    /// A text or block of bytes, preceded by its length in four bytes.
     Sized,
-    /// A map of texts.
+    /// A map of texts, preceded by its length in four bytes.
     TextMap,
-    /// A block of bytes after its length in eight bytes.
+    /// A block of bytes, preceded by its length in eight bytes.
     LongSized,
 }
 
-/// The fields up to the last one with a length; `None` for records that are not parsed.
+/// Returns the fields that a record must contain; `None` for records that are not parsed.
 fn fields(opcode: u8) -> Option<&'static [Field]> {
     use Field::{Fixed, LongSized, Sized, TextMap};
     Some(match opcode {
@@ -77,7 +77,8 @@ fn fits(fields: &[Field], content: &[u8]) -> bool {
     fields.iter().all(|field| skip(*field, &mut rest).is_some())
 }
 
-/// Removes a field from the beginning of `rest`, and returns its bytes without the length.
+/// Removes a field from the beginning of `rest`. Returns its bytes without the length; `None` if the field does not
+/// fit.
 fn skip<'c>(field: Field, rest: &mut &'c [u8]) -> Option<&'c [u8]> {
     let length = match field {
         Field::Fixed(length) => length,

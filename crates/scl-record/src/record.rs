@@ -1,8 +1,8 @@
 //! Recording: from the taps of a running system into MCAP files.
 //!
-//! One thread reads the taps (`collector`) and never waits for the disk; another one writes (`storage`). Between
-//! them is a queue with a limit in bytes. What finds no room there, or was dropped by a gate because the recorder read
-//! slowly, is counted as lost. The gates are not delayed in any case.
+//! One thread reads the taps (`collector`) and never waits for the disk; another one writes (`storage`). Between them
+//! is a queue with a limit in bytes. Messages that do not fit into the queue, or that a gate dropped because the
+//! recorder read too slowly, are counted as lost. The gates are never delayed.
 
 mod collector;
 mod contents;
@@ -51,7 +51,7 @@ use trigger::TriggerListener;
 /// Records until SIGINT, SIGTERM or SIGHUP, until the time is over, or until the disk is full.
 ///
 /// # Errors
-/// A gate is unknown, or the first file cannot be created. If recording ends early, there is a report that says so.
+/// A gate is unknown, or the first file cannot be created. If recording ends early, the report says why.
 pub fn record(system: &System, options: &Options) -> Result<Report, Problem> {
     block_on(record_async(system, options))
 }
@@ -89,7 +89,7 @@ async fn record_async(system: &System, options: &Options) -> Result<Report, Prob
     Ok(Report { totals, duration, files, deleted, problem })
 }
 
-/// The first file, or the ring and where it is triggered.
+/// Creates the first file, or the ring and the socket at which it is triggered.
 fn open_store(
     system: &System,
     options: &Options,

@@ -1,7 +1,7 @@
 //! Reading recordings: one file or several in a row, from start to end, in bounded memory.
 //!
-//! A file is read linearly and needs no index, so one that was cut off at any byte gives everything before that byte,
-//! and a note. [`Recording::open`] walks over the file without reading its messages, to learn what it must know
+//! A file is read linearly and needs no index, so a file that was cut off at any byte yields everything before that
+//! byte, and a note. [`Recording::open`] walks over the file without reading its messages, to learn what must be known
 //! beforehand: the plan, the duration, the totals.
 
 mod channel;
@@ -56,7 +56,7 @@ impl Recording {
         Messages::new(self.paths().map(Path::to_owned).collect())
     }
 
-    /// Reads all messages once, and says what there is.
+    /// Reads all messages once, and returns what the recording contains.
     ///
     /// # Errors
     /// A file cannot be read or is damaged.
@@ -67,7 +67,7 @@ impl Recording {
     /// The plans of the components that were recorded; `None` if the recording has none.
     ///
     /// # Errors
-    /// It cannot be read.
+    /// The plan cannot be read.
     pub fn plan(&self) -> Result<Option<SystemPlan>, Problem> {
         let Some((path, plan)) = self.attachment(PLAN) else { return Ok(None) };
         let text = std::str::from_utf8(&plan.data).map_err(|error| error.to_string());
@@ -80,7 +80,7 @@ impl Recording {
         plan.map(Some).map_err(unreadable)
     }
 
-    /// Wall-clock times of the first and the last message in nanoseconds, and thereby how long the recording is.
+    /// Wall-clock times of the first and the last message, in nanoseconds since 1970; `None` without messages.
     pub fn times(&self) -> Option<(u64, u64)> {
         let times = || self.files.iter().filter_map(|(_, overview)| overview.times);
         Some((times().map(|(first, _)| first).min()?, times().map(|(_, last)| last).max()?))
@@ -91,7 +91,7 @@ impl Recording {
         self.times().map_or(Duration::ZERO, |(first, last)| Duration::from_nanos(last - first))
     }
 
-    /// Messages recorded and lost per gate, as far as the files say so: one that was cut off does not.
+    /// Messages recorded and lost per gate, summed over the files; a file that was cut off has no totals.
     pub fn totals(&self) -> BTreeMap<String, GateTotals> {
         let mut sum = BTreeMap::<String, GateTotals>::new();
         for (gate, totals) in self
@@ -124,12 +124,12 @@ impl Recording {
         self.files.iter().map(|(path, _)| path.as_path())
     }
 
-    /// For messages: the name of the first file.
+    /// Path of the first file, for messages.
     pub fn name(&self) -> String {
         self.paths().next().map(|path| path.display().to_string()).unwrap_or_default()
     }
 
-    /// The files that were recorded beside the messages, the newest last.
+    /// The files attached to the recording, the newest last.
     pub fn attachments(&self) -> impl Iterator<Item = &Attachment> {
         self.files.iter().flat_map(|(_, overview)| &overview.attachments)
     }

@@ -1,10 +1,10 @@
 //! Recovery: a complete file from a recording that was cut off.
 //!
-//! Everything that is there is read in order and written anew with an index. Of a chunk that is cut in the middle, the
-//! messages before the cut are kept. A chunk whose checksum is wrong is left out.
+//! All records are read in order and written to a new file with an index. Of a chunk that is cut in the middle, the
+//! messages before the cut are kept. A chunk with a wrong checksum is left out.
 //!
-//! In place, only a file without its end is replaced, and stays beside the new one: what looks damaged here may be
-//! sound to another program.
+//! In place, only a file without its end is replaced, and the old file is kept beside the new one: a file that looks
+//! damaged here may be sound to another program.
 
 mod target;
 
@@ -22,29 +22,29 @@ use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 use target::Target;
 
-/// What has become of a recording.
+/// The result of a recovery.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Recovered {
     /// The complete recording.
     pub path: PathBuf,
-    /// Messages in it.
+    /// Number of messages in it.
     pub messages: u64,
-    /// Bytes of the damaged recording outside of complete records. Of a chunk that is cut off, messages may have been
-    /// kept nevertheless.
+    /// Bytes of the damaged recording outside of complete records. A chunk that was cut off counts in full, even if
+    /// some of its messages were kept.
     pub dropped: u64,
-    /// Whether the recording was complete before, so that it was left as it is.
+    /// Whether the recording was complete before. In place, it is then left as it is.
     pub was_complete: bool,
-    /// Where the damaged recording is, if the complete one has its name.
+    /// Path at which the damaged recording is kept, if the new file has its name.
     pub kept: Option<PathBuf>,
 }
 
 /// Recovers `input`, in place unless there is an `output`. The new file is written beside its final name and then
-/// renamed; in place, the damaged file stays under its name with `.bak` behind it.
+/// renamed; in place, the damaged file is kept with `.bak` appended to its name.
 ///
 /// # Errors
-/// The input cannot be read, is no recording, or is being recorded; it has no message that can be recovered; in place,
-/// it was closed in order, so that something inside it is damaged, or has chunks of an unknown compression; the output
-/// or the copy exists or cannot be written. Then the input is as it was.
+/// The input cannot be read, is not a recording, or is being recorded; it has no message that can be recovered; in
+/// place, it was closed properly, so that something inside it is damaged, or it has chunks of an unknown compression;
+/// the output or the copy exists or cannot be written. After an error, the input is unchanged.
 pub fn recover(input: &Path, output: Option<&Path>) -> Result<Recovered, Problem> {
     let file = File::open(input).map_err(|error| cannot_open(input, &error))?;
     let unreadable = |error: &io::Error| Problem::new(format!("cannot read `{}`: {error}", input.display()));
@@ -104,7 +104,7 @@ pub fn recover(input: &Path, output: Option<&Path>) -> Result<Recovered, Problem
     Ok(recovered)
 }
 
-/// Whether the file has its end, so that nothing was cut off.
+/// Whether the file ends with MCAP's magic bytes, so that nothing was cut off.
 fn was_closed(file: &File, size: u64) -> bool {
     let mut end = [0; MAGIC.len()];
     let at = size.saturating_sub(MAGIC.len() as u64);
@@ -115,13 +115,13 @@ fn was_closed(file: &File, size: u64) -> bool {
 struct Copied {
     messages: u64,
     dropped: u64,
-    /// An unknown compression of a chunk.
+    /// The name of an unknown compression, if a chunk has one.
     unsupported: Option<String>,
     is_complete: bool,
 }
 
-/// Copies the data section of a file of this size, up to its end or to where the file is cut off. `unwritable` makes a
-/// problem of an error of the target.
+/// Copies the data section of a file of this size, up to its end or to where the file is cut off. `unwritable` turns an
+/// error of the target into a problem.
 fn copy_records(
     (file, size): (&File, u64),
     records: &mut Records,

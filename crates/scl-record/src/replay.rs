@@ -1,8 +1,8 @@
 //! Replay: playing recorded components in a running system.
 //!
 //! Each played component is opened from the recording's plan, under its own lock, so its peers cannot tell it from the
-//! program that was recorded. Its `pub`, `push` and `req` gates send what was recorded, at the same distances in time.
-//! Its `rep` gates answer with the recorded replies, and what its other gates receive is taken and discarded.
+//! program that was recorded. Its `pub`, `push` and `req` gates send the recorded messages at the recorded intervals.
+//! Its `rep` gates answer with the recorded replies; its other gates receive messages and discard them.
 
 mod answers;
 mod pace;
@@ -32,9 +32,9 @@ use timeline::{Batch, Batches, Timed};
 pub struct ReplayOptions {
     /// The components to play; empty: all that are not running.
     pub components: Vec<String>,
-    /// Replay these gates only: recorded ones, or those that send; empty: all.
+    /// Replay these gates only, named as recorded or by the gate that sends; empty: all.
     pub only: Vec<String>,
-    /// How fast.
+    /// How fast to replay.
     pub rate: Rate,
     /// Begin at this time of the recording.
     pub start: Duration,
@@ -42,13 +42,13 @@ pub struct ReplayOptions {
     pub end: Option<Duration>,
     /// Begin again at the end, until a stop is requested.
     pub repeat: bool,
-    /// The name of the system in which to replay; `None`: as for any component.
+    /// The name of the system in which to replay; `None`: `$SCL_SYSTEM`, else that of the plan.
     pub system: Option<String>,
-    /// The longest pause between two messages that are sent; `None`: as it was recorded.
+    /// The longest pause between two messages; longer ones are shortened. `None`: pauses are as recorded.
     pub max_gap: Option<Duration>,
     /// How long the peers of the played components may take to connect; zero: do not wait.
     pub ready_within: Duration,
-    /// The plan of another topology than the recorded one.
+    /// The plan to use instead of the recorded one, from another topology.
     pub plan: Option<SystemPlan>,
 }
 
@@ -67,9 +67,9 @@ impl Rate {
     }
 }
 
-/// Replays a recording until its end, or until the program is asked to stop. Needs a tokio runtime.
+/// Replays a recording until its end, or until a stop is requested. Needs a tokio runtime.
 ///
-/// `survey` is what the recording contains, and `progress` is told the position in it.
+/// `survey` is that of the recording; `progress` is called with the position in it.
 ///
 /// # Errors
 /// The recording cannot be read, has no plan, or does not fit the running system; a component cannot be opened; a peer
@@ -120,7 +120,7 @@ pub async fn replay(
     played.map(|()| report)
 }
 
-/// Waits for a future; `None` if the program is asked to stop before it is ready.
+/// Waits for a future; `None` if a stop is requested first.
 async fn until_stopped<F: Future>(future: F) -> Option<F::Output> {
     tokio::select! {
         () = scl::stop_requested() => None,
@@ -128,12 +128,12 @@ async fn until_stopped<F: Future>(future: F) -> Option<F::Output> {
     }
 }
 
-/// What is played, and what became of it so far.
+/// What is played, and the report so far.
 struct Stage<'a> {
     plan: &'a SystemPlan,
     cast: &'a Participants,
     options: &'a ReplayOptions,
-    /// By the recording's channels.
+    /// How each of the recording's channels is played, by index.
     gates: Vec<Played>,
     report: ReplayReport,
 }
@@ -229,7 +229,8 @@ impl Stage<'_> {
         Ok(())
     }
 
-    /// The entry of a recorded gate. A replay that begins again goes on counting.
+    /// Returns the index of a recorded gate's entry in the report, which is added if it is new. A replay that begins
+    /// again continues to count.
     fn reported(&mut self, recorded: &str, sender: Option<&GateId>, reason: String) -> usize {
         let gates = &mut self.report.gates;
         gates.iter().position(|gate| gate.recorded == recorded).unwrap_or_else(|| {

@@ -64,12 +64,12 @@ impl Recorder {
         self
     }
 
-    /// Messages of JSON, unless the plan says otherwise.
+    /// Adds messages in JSON, unless the plan says otherwise.
     pub fn messages(self, samples: &[Sample<'_>]) -> Self {
         samples.iter().fold(self, |recorder, sample| recorder.message_of_type(*sample, "json", "rover.Measurement"))
     }
 
-    /// Messages of JSON that the recorder received at this time, in milliseconds since the beginning.
+    /// Adds messages in JSON that the recorder received at this time, in milliseconds since the beginning.
     pub fn messages_received(mut self, received: u64, samples: &[Sample<'_>]) -> Self {
         for &(topic, at, payload) in samples {
             let channel_id = self.channel(topic, "json", "rover.Measurement");
@@ -84,7 +84,7 @@ impl Recorder {
         self
     }
 
-    /// Leaves out a number, as a recorder does that has lost a message.
+    /// Skips a number, like a recorder that has lost a message.
     pub fn lose_message(mut self) -> Self {
         self.sequence += 1;
         self
@@ -100,7 +100,7 @@ impl Recorder {
         self
     }
 
-    /// A message that SCL did not record: its topic, message encoding and encoding of the schema.
+    /// Adds a message that SCL did not record: its topic, message encoding and encoding of the schema.
     pub fn other_message(mut self, (topic, encoding, schema): (&str, &str, &str), payload: &[u8]) -> Self {
         let schema = self.writer.add_schema("other/Type", schema, b"float64 x").unwrap();
         let channel_id = self.writer.add_channel(schema, topic, encoding, &BTreeMap::new()).unwrap();
@@ -108,7 +108,7 @@ impl Recorder {
         self
     }
 
-    /// A record of another program.
+    /// Adds a private record of another program.
     pub fn private_record(mut self, opcode: u8, data: &[u8]) -> Self {
         self.writer.write_private_record(opcode, data, Default::default()).unwrap();
         self

@@ -1,15 +1,17 @@
-//! What runs already of what is to be started: a component runs once, and a build only to find that out takes long.
+//! Checks that the components to be started are not running yet: a component runs only once. The check comes before the
+//! builds, which may take long.
 
 use super::control::{Command, NoAnswer, Request, find_runs};
 use super::plan::RunPlan;
 use scl::runtime_dir::{ComponentState, RuntimeDir};
 use scl_terminal::{Problem, quoted_list};
 
-/// Checks that no component of the plan runs.
+/// Checks that no component of the plan is already running.
 ///
 /// # Errors
 ///
-/// One problem that names the process.
+/// If one is running, or if a `scl run` of this system does not answer or has a system of the same name from another
+/// topology file. The problem names the process.
 pub(crate) fn check(plan: &RunPlan) -> Result<(), Problem> {
     let Some(system) = &plan.system else { return Ok(()) };
     // An unusable runtime folder is reported later, where it is needed.

@@ -11,10 +11,10 @@ pub(crate) use metadata::built_before;
 pub(crate) use run_command::CargoRun;
 pub(crate) use target::{Target, find};
 
-/// What makes cargo name the programs that it has built, while errors stay readable.
+/// Options that make cargo report the programs that it has built as JSON, but compiler errors as text.
 pub(crate) const MESSAGES: [&str; 2] = ["--message-format", "json-render-diagnostics"];
 
-/// The cargo of builds without a launch file.
+/// The cargo to run where no command names one: `$CARGO`, or `cargo` in the search path.
 pub(crate) fn cargo() -> std::ffi::OsString {
     std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
 }

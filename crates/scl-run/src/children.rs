@@ -21,12 +21,12 @@ use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::thread;
 
-/// How a program is started, besides what it is.
+/// Parameters of one start of a program.
 #[derive(Debug)]
 pub(crate) struct Start<'a> {
     /// Its number in events.
     pub(crate) process: usize,
-    /// Where it says that it is ready and alive.
+    /// The socket on which the program reports that it is ready and alive.
     pub(crate) notify: Option<&'a NotifySocket>,
     /// The terminal that it may read from.
     pub(crate) terminal: Option<Terminal>,
@@ -43,7 +43,7 @@ pub(crate) struct Running {
     family: Option<Arc<Family>>,
     /// The terminal that is lent to it.
     pub(crate) terminal: Option<Terminal>,
-    /// Whether its processes have got SIGINT from the terminal.
+    /// Whether its processes have received SIGINT from the terminal.
     pub(crate) is_interrupted: bool,
 }
 
@@ -109,13 +109,14 @@ impl Running {
         let _ = kill_process_group(self.group, signal);
     }
 
-    /// Stops with the program and continues with it, after Ctrl-Z on its terminal.
+    /// Suspends `scl run` after Ctrl-Z on the program's terminal. When `scl run` is continued, the program is
+    /// continued, too.
     pub(crate) fn suspend(&self) {
         self.terminal.iter().for_each(|terminal| terminal.suspend(self.group));
     }
 
-    /// Asks every process of the group to end, and when it has, what has left it. Returns those that were stopped,
-    /// which would not end: they are continued.
+    /// Asks every process of the group to end and, once the group has ended, the processes that have left it. Returns
+    /// the processes of the group that were stopped. They are continued, because a stopped process would not end.
     pub(crate) fn ask_to_end(&self, signal: Signal) -> Vec<Pid> {
         let (group, family) = (self.group, self.family.clone());
         // Remember all processes now: some cannot be found any more once their parents have ended.
@@ -195,7 +196,8 @@ fn watch_end(
     });
 }
 
-/// Waits without reaping; `stopped_by_terminal` is called whenever the process is stopped for using a terminal.
+/// Waits for the end of a process without reaping it. Calls `stopped_by_terminal` whenever SIGTTIN or SIGTTOU stops the
+/// process.
 fn wait_for_end(process: Pid, stopped_by_terminal: impl Fn(Signal)) -> Ending {
     let changes = WaitIdOptions::EXITED | WaitIdOptions::STOPPED | WaitIdOptions::NOWAIT;
     loop {

@@ -1,12 +1,12 @@
-//! Commands that a launch file writes as a text: split into words where the shell would do no more than that.
+//! Commands that a launch file writes as a text. They are split into words if a shell would do nothing else with them.
 //!
 //! A shell between `scl run` and a program is one more process that signals, exit codes and the end of the program pass
 //! through, so it is used only where the text needs it.
 
-/// What the shell does not leave as it is, quoted or not: a text with one of these is left to it.
+/// Characters that have a meaning in the shell. A text that contains one, even quoted, is passed to the shell.
 const SYNTAX: &[char] = &['|', '&', ';', '<', '>', '(', ')', '$', '`', '*', '?', '[', '{', '~', '#', '\n'];
 
-/// First words that only the shell knows: its keywords, and commands that are not programs.
+/// First words that need a shell: keywords, and builtins that are not programs.
 const SHELL_WORDS: [&str; 44] = [
     "!", ".", ":", "alias", "bg", "break", "case", "cd", "command", "continue", "do", "done", "elif", "else", "esac",
     "eval", "exec", "exit", "export", "fc", "fg", "fi", "for", "getopts", "hash", "if", "jobs", "read", "readonly",
@@ -14,12 +14,12 @@ const SHELL_WORDS: [&str; 44] = [
     "until", "wait", "while",
 ];
 
-/// The program and its arguments, or the shell that is given the text.
+/// Splits a command into the program and its arguments, or returns `/bin/sh -c` with the text if it needs a shell.
 pub(crate) fn words(text: &str) -> Vec<String> {
     plain_words(text).unwrap_or_else(|| ["/bin/sh", "-c", text].map(str::to_owned).to_vec())
 }
 
-/// The text that these words give to a shell, if they do.
+/// Returns the text that these words pass to `/bin/sh -c`, or `None` if they run another program.
 pub(crate) fn shell_text<W: AsRef<std::ffi::OsStr>>(words: &[W]) -> Option<&std::ffi::OsStr> {
     match words {
         [shell, option, text] if shell.as_ref() == "/bin/sh" && option.as_ref() == "-c" => Some(text.as_ref()),

@@ -12,24 +12,25 @@ pub(crate) struct Component {
     pub(crate) name: String,
     pub(crate) program: Program,
     pub(crate) policy: Policy,
-    /// The file that its program plays, from the program's folder.
+    /// The recording that its program plays, relative to the program's folder.
     pub(crate) recording: Option<PathBuf>,
-    /// What cargo makes the program of it; until then the command begins with cargo.
+    /// The cargo build that makes its program, if any. Until the build is done, the command names cargo in place of the
+    /// program.
     pub(crate) made_by_cargo: Option<MadeByCargo>,
-    /// Where the launch file has its entry.
+    /// The place of its entry in the launch file.
     pub(crate) entry: Option<String>,
 }
 
 /// A program that a build of cargo makes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct MadeByCargo {
-    /// The number of the build.
+    /// The index of the build in the plan.
     pub(crate) build: usize,
     pub(crate) target: Target,
 }
 
 impl Component {
-    /// Checks that the folder and the executable exist.
+    /// Checks that the folder, the executable and the recording exist.
     pub(crate) fn check(&self) -> Result<(), Problem> {
         self.program.check("program", &self.shown())?;
         let Some(recording) = self.recording.as_ref().map(|path| self.program.folder.join(path)) else { return Ok(()) };

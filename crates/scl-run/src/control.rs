@@ -42,8 +42,8 @@ pub(crate) struct ReceivedRequest {
 }
 
 impl ControlSocket {
-    /// Listens in the folder of a system, and passes each request to `receive`, on a thread of its client. Each
-    /// response has `named_after`.
+    /// Listens in the folder of a system and passes each request to `receive`, on a separate thread per client. Every
+    /// response contains `named_after`.
     ///
     /// # Errors
     ///
@@ -64,7 +64,7 @@ impl ControlSocket {
         Ok(Self { file, accept: Box::new(accept) })
     }
 
-    /// Listens again in the folder, which exists again.
+    /// Listens again after the folder was removed and created again.
     ///
     /// # Errors
     ///
@@ -75,7 +75,8 @@ impl ControlSocket {
 }
 
 impl ReceivedRequest {
-    /// Sends the response without waiting: it fits into the socket's buffer. A client that has gone gets none.
+    /// Sends the response without blocking: it fits into the socket's buffer. Errors are ignored: the client may have
+    /// disconnected.
     pub(crate) fn answer(self, response: &Response) {
         send(&self.client, &Response { named_after: self.named_after, ..response.clone() });
     }

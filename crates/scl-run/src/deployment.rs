@@ -9,9 +9,10 @@ use std::path::PathBuf;
 pub struct Deployment {
     /// In file order.
     pub hosts: Vec<Host>,
-    /// The folder with the certificates. Without one, all hosts are on loopback and the gateways do not encrypt.
+    /// The folder with the certificates. Without one, the gateways do not encrypt, and all hosts are on loopback unless
+    /// `insecure` is set.
     pub certificates: Option<PathBuf>,
-    /// Whether other addresses than loopback are accepted without certificates.
+    /// Whether addresses other than loopback are accepted without certificates.
     pub insecure: bool,
 }
 
@@ -37,7 +38,7 @@ impl Deployment {
         self.hosts.iter().find(|host| host.name == name)
     }
 
-    /// Says that there is no host of this name, and which there are.
+    /// Returns the problem that no host has this name. It lists the existing hosts.
     pub fn unknown_host(&self, name: &str) -> Problem {
         let names = || self.hosts.iter().map(|host| host.name.as_str());
         let problem = Problem::new(format!("unknown host `{name}`"));

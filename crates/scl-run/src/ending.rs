@@ -1,4 +1,4 @@
-//! How a program ended, and whether that was in order.
+//! How a program ended, and whether that counts as success.
 
 use rustix::process::Signal;
 use signal_hook::low_level;
@@ -9,7 +9,7 @@ use std::process::ExitStatus;
 /// How a program ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Ending {
-    /// It returned this code.
+    /// It exited with this code.
     Exited(i32),
     /// The signal with this number ended it.
     Killed(i32),
@@ -54,7 +54,7 @@ impl From<ExitStatus> for Ending {
     }
 }
 
-/// `SIGTERM`
+/// Returns the name of a signal, such as `SIGTERM`.
 pub(crate) fn name_of(signal: Signal) -> &'static str {
     low_level::signal_name(signal.as_raw()).unwrap_or("a signal")
 }

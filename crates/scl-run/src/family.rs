@@ -1,8 +1,8 @@
-//! All processes that come from a program, also those that have left its process group, as with `setsid`.
+//! All processes that descend from a program, including those that have left its process group, as with `setsid`.
 //!
-//! Three traces lead to them: the group, the parent of each process, and a mark in the environment, which remains when
-//! the parent ends. What has cleared its environment and lost its parent before anybody has looked is found by none of
-//! them.
+//! They are found in three ways: by the group, by the parent of each process, and by a mark in the environment, which
+//! remains when the parent ends. A process that has left the group, cleared its environment and lost its parent before
+//! a look has found it is missed.
 
 use super::lock::lock;
 use super::process_group::{PAUSE, look_while};
@@ -15,11 +15,12 @@ use std::io;
 use std::sync::Mutex;
 use std::thread;
 
-/// The variable with the mark: that of the run, and the number of the program in it. Where one `scl run` is a program
-/// of another one, it has the marks of both.
+/// The variable with the mark: the mark of the run, followed by the number of the program in it. If one `scl run` is a
+/// program of another one, the variable contains the marks of both.
 pub(crate) const MARK: &str = "SCL_STARTED_BY";
 
-/// The mark of all processes that this `scl run` starts. The mark of one program has its number behind it.
+/// Returns the mark of all processes that this `scl run` starts. The mark of a program is this mark, followed by the
+/// number of the program.
 ///
 /// # Errors
 ///
@@ -30,7 +31,7 @@ pub(crate) fn run_mark() -> io::Result<String> {
     Ok(format!("{process}.{}.", stat.started))
 }
 
-/// The value of [`MARK`] for a program with this mark.
+/// Returns the value of [`MARK`] for a program with this mark: it follows the marks that this process has inherited.
 pub(crate) fn with_inherited(mark: &str) -> String {
     match std::env::var(MARK) {
         Ok(inherited) if !inherited.is_empty() => format!("{inherited},{mark}"),
@@ -45,12 +46,13 @@ pub(crate) struct Family {
     mark: String,
     /// No process of the family is older than this.
     since: u64,
-    /// Those that were found by the last look, with their start: their parents may end, and take a trace away.
+    /// The processes that the last look found, with their start times. They are found again even if their parents have
+    /// ended.
     known: Mutex<HashMap<Pid, u64>>,
 }
 
 impl Family {
-    /// That of a program whose first process was just started, in a group of its own.
+    /// Creates the family of a program whose first process was just started, in a separate group.
     pub(crate) fn new(group: Pid, mark: String) -> Self {
         let since = ProcessStat::of(group).map_or(0, |stat| stat.started);
         Self { group, mark, since, known: Mutex::default() }
@@ -81,7 +83,8 @@ impl Family {
         }
     }
 
-    /// Asks those outside of the group to end, once each, when the group has ended; returns when all have ended.
+    /// Asks the processes that have left the group to end, once each, and returns when all have ended. Called after the
+    /// group has ended.
     pub(crate) fn end_rest(&self) {
         let mut asked = HashSet::new();
         look_while(|| {
@@ -97,7 +100,7 @@ impl Family {
         });
     }
 
-    /// Kills all.
+    /// Kills all processes of the family.
     pub(crate) fn kill(&self) {
         // Ignore errors: the group may contain only the program, which has ended.
         let _ = kill_process_group(self.group, Signal::KILL);
@@ -117,7 +120,7 @@ fn wait_for_end(process: Pid, started: u64) {
     }
 }
 
-/// Kills the processes of these groups, those with a mark of this run, and what they have started.
+/// Kills the processes of these groups, the processes with a mark of this run, and their descendants.
 pub(crate) fn kill_run(groups: &HashSet<Pid>, run_mark: &str) {
     for group in groups {
         // Ignore errors: the group has usually ended already.
@@ -130,7 +133,8 @@ pub(crate) fn kill_run(groups: &HashSet<Pid>, run_mark: &str) {
     });
 }
 
-/// Kills what a look finds until none finds another one: they may start others meanwhile.
+/// Kills the processes that `look` finds, and looks again until it finds no new one: they may start others before they
+/// end.
 pub(crate) fn kill_all(look: impl Fn() -> HashMap<Pid, ProcessStat>) {
     let mut killed = HashSet::new();
     loop {
@@ -165,8 +169,8 @@ pub(crate) fn relatives(
     }
 }
 
-/// Whether the environment of a process has a mark that begins like this. That of another user's process cannot be
-/// read.
+/// Whether the environment of a process has this mark; the mark of a run also matches the marks of its programs. False
+/// for processes of other users, whose environment cannot be read.
 fn has_mark(process: Pid, mark: &str) -> bool {
     let environment = fs::read(format!("/proc/{process}/environ")).unwrap_or_default();
     let marks = environment

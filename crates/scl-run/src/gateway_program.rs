@@ -1,4 +1,4 @@
-//! The program `scl-gateway`, which is installed apart from `scl`.
+//! The program `scl-gateway`, which is installed separately from `scl`.
 
 use super::component::Component;
 use super::program::is_executable;
@@ -9,11 +9,11 @@ use std::process::{Command, Stdio};
 /// The name of its file.
 const PROGRAM: &str = "scl-gateway";
 
-/// Finds it beside the running `scl`, else in the search path.
+/// Finds the program beside the running `scl`, or else in the search path.
 ///
 /// # Errors
 ///
-/// If it is not there.
+/// If it is in neither.
 pub(crate) fn find() -> Result<PathBuf, Problem> {
     let own = std::env::current_exe().ok().and_then(|scl| Some(scl.parent()?.to_owned()));
     let path = std::env::var_os("PATH").unwrap_or_default();
@@ -21,12 +21,12 @@ pub(crate) fn find() -> Result<PathBuf, Problem> {
     folders.find_map(|folder| Some(folder.join(PROGRAM)).filter(|file| is_executable(file))).ok_or_else(missing)
 }
 
-/// Lets it check its certificates and the other things that it needs, so that a mistake is reported once and at the
-/// start. Later failures are retried.
+/// Lets the gateway check the launch file and its certificates, so that a mistake is reported once, before anything is
+/// started. Later failures are retried.
 ///
 /// # Errors
 ///
-/// If it cannot run. It has said why.
+/// If the gateway cannot run. Its own message about the reason has been printed.
 pub(crate) fn check(gateway: &Component) -> Result<(), Vec<Problem>> {
     let [program, _run, arguments @ ..] = gateway.program.command.as_slice() else { return Ok(()) };
     let mut command = Command::new(program);

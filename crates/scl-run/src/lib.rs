@@ -1,8 +1,8 @@
 //! Builds and starts the program of every component of a system, shows what they print, and stops them together.
 //!
-//! This is the work behind `scl run`. The program that calls [`run`] must offer three hidden commands to itself:
-//! [`START_WORD`], which calls [`start_component`], [`GUARD_WORD`], which calls [`keep_watch`], and [`KEYS_WORD`],
-//! which calls [`tell_keys`].
+//! This crate implements `scl run`. [`run`] also starts the calling program again, which must therefore provide three
+//! hidden commands: [`START_WORD`], which calls [`start_component`], [`GUARD_WORD`], which calls [`keep_watch`], and
+//! [`KEYS_WORD`], which calls [`tell_keys`].
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod already_running;
@@ -79,7 +79,7 @@ use std::thread;
 use std::time::Duration;
 use supervisor::{Outcome, Supervisor, Surroundings};
 
-/// What to run, and how long.
+/// What to run, and for how long.
 #[derive(Debug, Clone, Default)]
 pub struct Options {
     /// The system's folder, or a launch file.
@@ -88,7 +88,8 @@ pub struct Options {
     pub profiles: Vec<String>,
     /// The components to start; all if empty.
     pub only: Vec<String>,
-    /// The host of the launch file whose components and gateway are started; without one, everything without a gateway.
+    /// The host of the launch file whose components and gateway are started. If `None`, the components of all hosts are
+    /// started, without a gateway.
     pub host: Option<String>,
     /// Components not to start.
     pub without: Vec<String>,
@@ -96,13 +97,13 @@ pub struct Options {
     pub release: bool,
     /// Whether to start the programs as they are, without building anything.
     pub no_build: bool,
-    /// When to stop the components without being asked, if ever.
+    /// The time after which the components are stopped, if any.
     pub run_for: Option<Duration>,
     /// How long components without a `stop_within` may take to stop before they are killed.
     pub grace: Duration,
 }
 
-/// Builds, starts the components, waits until all have ended, and returns true if all ended in order or were stopped.
+/// Builds and starts the components, and waits until all have ended. Returns true unless an essential component failed.
 ///
 /// `component_names` reads the topology file.
 ///
@@ -125,7 +126,7 @@ pub fn run(options: &Options, component_names: ComponentNames<'_>) -> Result<boo
     ended
 }
 
-/// The log of each component. A log that cannot be written is reported, and the component runs without.
+/// Opens the log of each program. A log that cannot be opened is reported, and its program runs without one.
 fn open_logs(plan: &RunPlan) -> Vec<Option<LogFile>> {
     let system = plan.system.as_deref();
     let folder = system.and_then(|system| LogFolder::of(system, &|variable| std::env::var_os(variable)));
@@ -172,7 +173,7 @@ fn run_plan(plan: &mut RunPlan, options: &Options, surroundings: Surroundings<'_
     Ok(!matches!(outcome, Outcome::Failed(_)))
 }
 
-/// Runs the builds one after the other, and returns the programs that they say they have made.
+/// Runs the builds one after the other, and returns the programs that they report.
 fn run_builds(
     builds: &[Build],
     grace: Duration,
@@ -209,7 +210,7 @@ fn member(component: &Component, role: Role, label: usize) -> Member<'_> {
     Member { name, label, role, program, policy: policy.clone(), messages: None, entry: entry.as_deref() }
 }
 
-/// What a failed build means for the user.
+/// Returns the problem that reports a failed build.
 fn failed_build(build: &Build, ending: Option<Ending>) -> Problem {
     let problem = Problem::new(format!("the build of {} failed, so nothing was started", build.owner()));
     let Some(ending) = ending else { return problem };

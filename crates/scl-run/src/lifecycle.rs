@@ -1,5 +1,5 @@
-//! One component from its first start to its last end: what happened and when in, what to do out. Without processes and
-//! without a clock.
+//! The state machine of one component, from its first start to its last end. It takes inputs with their times and
+//! returns actions; it touches neither processes nor a clock.
 //!
 //! ```text
 //!            time              started            READY=1
@@ -13,9 +13,9 @@
 //!     └───────────────┴─────────────────────┘
 //! ```
 //!
-//! A process that exits without being told goes the same ways from Running and Ready as from Stopping. A request starts
-//! an ended component again, and one that is stopping for it as soon as its process has exited. What is stopped before
-//! it has a process ends at once.
+//! A process that exits without being asked takes the same transitions from Running and Ready as from Stopping. A
+//! restart request starts an ended component at once, and a running one as soon as its process has been stopped and has
+//! exited. A component that is stopped before it has a process ends at once.
 //!
 //! A component has at most one process: only `Starting` asks for one, and nothing leads there before the last has
 //! exited. Each restart of the policy is counted once, when it is planned.
@@ -31,7 +31,7 @@ use super::policy::{Policy, Restart, RestartLimit};
 use super::restarts::{Restarts, Time};
 use rustix::process::Signal;
 
-/// A component, and all that is known of it.
+/// A component, and all that is known about it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Lifecycle {
     pub(crate) policy: Policy,
@@ -44,7 +44,7 @@ pub(crate) struct Lifecycle {
     started: Time,
     /// When the next sign of life is due.
     alive_until: Option<Time>,
-    /// What the process has last said of itself.
+    /// The last status that the process has reported.
     status: String,
     /// Why it failed last.
     pub(crate) failure: Option<String>,
@@ -80,7 +80,7 @@ impl Lifecycle {
         }
     }
 
-    /// Takes in what happened.
+    /// Processes an input, and returns the actions to take.
     pub(crate) fn step(&mut self, now: Time, input: Input) -> Vec<Action> {
         match (input, self.state) {
             (Input::Started, State::Starting) => self.take_start(now),
@@ -183,8 +183,8 @@ impl Lifecycle {
         }
     }
 
-    /// What is left of a program whose first process has ended while it was stopping. A second signal would end a
-    /// program of SCL at once, so it is for those that have had none.
+    /// Called when the first process of a stopping program has ended: asks the remaining processes to end. Does nothing
+    /// if they were asked before, because a second signal would end an SCL program at once.
     fn stop_rest(&mut self, reason: StopReason, kill_at: Option<Time>) -> Vec<Action> {
         let reason = match reason {
             StopReason::Own => StopReason::LeaderEnded,
@@ -233,7 +233,7 @@ impl Lifecycle {
         }
     }
 
-    /// Ends a process at once. Why is the reason of its failure, unless it had failed before.
+    /// Kills a process. `why` becomes the reason of its failure, unless it had failed before.
     fn kill(&mut self, reason: StopReason, why: String) -> Vec<Action> {
         self.state = State::Stopping { reason, kill_at: None };
         if !matches!(reason, StopReason::Failed | StopReason::Refused) {
@@ -246,7 +246,7 @@ impl Lifecycle {
         if self.status.is_empty() { ", and has sent no `STATUS=`".to_owned() } else { format!(": {}", self.status) }
     }
 
-    /// Ends a process that runs but does not work.
+    /// Asks a process that has missed a time limit to end, and notes the failure.
     fn fail_running(&mut self, now: Time, text: String, signal: Signal) -> Vec<Action> {
         self.state = State::Stopping { reason: StopReason::Failed, kill_at: self.kill_time(now) };
         self.failure = Some(text.clone());
@@ -287,8 +287,8 @@ impl Lifecycle {
         }
     }
 
-    /// Returns true for an exit code by which the program itself says that it has failed, if that is not to be tried
-    /// again.
+    /// Returns true if the program itself reported a failure by its exit code, and the policy does not restart it for
+    /// that.
     fn is_final(&self, ending: Ending) -> bool {
         let is_code = matches!(ending, Ending::Exited(_)) && !ending.is_signal_of_child();
         is_code && self.policy.restart == Restart::OnAbnormal

@@ -1,4 +1,4 @@
-//! Locks that stay usable when another thread has panicked: no value is left half changed.
+//! Locks mutexes even if another thread has panicked: no value is left half changed.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 

@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A file that would become longer is closed, and the next one begun.
+/// Maximum length of a file in bytes. A file that would become longer is rotated.
 const LONGEST_FILE: u64 = 4 << 20;
 
 /// How many full files are kept beside the newest.
@@ -37,7 +37,7 @@ const LONGEST_TEXT: usize = 64 << 10;
 pub(crate) struct LogFile {
     component: String,
     path: PathBuf,
-    /// The number of the last process whose standard output was begun, and of that whose standard error was.
+    /// The number of the last process that began each stream: standard output and standard error.
     runs: [AtomicU64; 2],
     state: Mutex<State>,
 }
@@ -46,7 +46,7 @@ pub(crate) struct LogFile {
 struct State {
     file: Option<File>,
     length: u64,
-    /// Whether a line was written in part, so that the next one must begin on a line of its own.
+    /// Whether the last line may be incomplete, so that a line break must come before the next one.
     is_torn: bool,
     has_failed: bool,
 }
@@ -55,7 +55,7 @@ impl LogFile {
     /// Opens the log of a component, and creates its folder.
     ///
     /// # Errors
-    /// The text names the file.
+    /// If the log cannot be opened. The text names the file.
     pub(crate) fn open(folder: &LogFolder, component: &str) -> Result<Self, String> {
         let path = folder.file_of(component).ok_or_else(|| format!("`{component}` cannot be the name of a file"))?;
         let open = || {
@@ -71,7 +71,7 @@ impl LogFile {
         Ok(Self { component: component.to_owned(), path, runs, state: Mutex::new(state) })
     }
 
-    /// The number of the process whose stream begins.
+    /// Begins a stream of the next process, and returns the number of that process.
     pub(crate) fn begin(&self, stream: LogStream) -> u64 {
         self.runs[stream as usize].fetch_add(1, Ordering::Relaxed) + 1
     }
@@ -79,8 +79,8 @@ impl LogFile {
     /// Adds a line without its line break; `run` is from [`begin`](Self::begin).
     ///
     /// # Errors
-    /// The first failure, as a text for the user. Later ones are silent, and the next line is tried again: a full disk
-    /// may have room later.
+    /// The first failure, as a text for the user. Later failures are not reported. Each line is tried: a full disk may
+    /// have room later.
     pub(crate) fn write(&self, stream: LogStream, run: u64, text: &[u8]) -> Result<(), String> {
         // Strings and numbers can always be serialized.
         let line = serde_json::to_string(&LogEntry::new(&self.component, stream, run, text)).unwrap_or_default() + "\n";

@@ -17,7 +17,7 @@ pub(crate) struct Member<'p> {
     pub(crate) policy: Policy,
     /// Where the standard output of a build goes, if not to the user.
     pub(crate) messages: Option<Messages>,
-    /// Where the launch file has its entry.
+    /// The place of its entry in the launch file.
     pub(crate) entry: Option<&'p str>,
 }
 
@@ -37,12 +37,12 @@ pub(crate) enum Role {
 pub(crate) struct Messages(Arc<Mutex<Vec<u8>>>);
 
 impl Messages {
-    /// What has been written so far.
+    /// Removes and returns what has been written so far.
     pub(crate) fn take(&self) -> Vec<u8> {
         std::mem::take(&mut lock(&self.0))
     }
 
-    /// Takes in what is written until the stream ends.
+    /// Collects what is written until the stream ends.
     ///
     /// # Errors
     ///

@@ -25,13 +25,13 @@ use std::time::Duration;
 /// The variable by which programs find the runtime folder.
 pub(crate) const RUNTIME_DIR: &str = "SCL_RUNTIME_DIR";
 
-/// Far more than the messages of any program.
+/// Maximum length of a datagram in bytes, far more than any program sends. Longer ones are ignored.
 const LONGEST_DATAGRAM: usize = 4096;
 
-/// A status is one line on a terminal.
+/// Maximum length of a status in characters: it is one line on a terminal.
 const LONGEST_STATUS: usize = 300;
 
-/// More datagrams than the kernel keeps for a socket (`net.unix.max_dgram_qlen`).
+/// Maximum number of datagrams read at once: more than the kernel keeps for a socket (`net.unix.max_dgram_qlen`).
 const MOST_KEPT: usize = 4096;
 
 /// The socket where programs say that they are ready and alive. Dropping this value removes it.
@@ -45,14 +45,14 @@ pub(crate) struct NotifySocket {
 /// What arrives at the socket, on its way to the supervisor.
 #[derive(Debug, Clone)]
 pub(crate) struct Datagrams {
-    /// The last one has the file. Programs may be connected to earlier ones, whose file was removed.
+    /// Only the last socket has a file. Programs may still be connected to earlier ones, whose file was removed.
     sockets: Arc<Mutex<Vec<Arc<UnixDatagram>>>>,
     events: Sender<Event>,
 }
 
 impl NotifySocket {
-    /// Listens in a folder that only this user can write to, and sends what arrives as events. Programs are told the
-    /// runtime folder.
+    /// Listens in a folder that only this user can write to, and sends received notices as events. Programs get
+    /// `runtime_folder` in a variable.
     ///
     /// # Errors
     ///
@@ -64,7 +64,7 @@ impl NotifySocket {
         Ok(Self { file, runtime_folder: runtime_folder.to_owned(), datagrams })
     }
 
-    /// Listens again in the folder, which exists again.
+    /// Listens again after the folder was removed and created again.
     ///
     /// # Errors
     ///
@@ -73,9 +73,9 @@ impl NotifySocket {
         self.datagrams.read_from(self.file.bind_again(|path| UnixDatagram::bind(path))?)
     }
 
-    /// The variables by which programs find the socket, and the folder of their system: it stays the same when the one
-    /// that they would choose by themselves is removed, as at a logout. `WATCHDOG_PID` is left out, so that also a
-    /// program behind a shell is meant.
+    /// Returns the variables by which programs find the socket and the runtime folder, which stays the same for them
+    /// even if the default one is removed, as at a logout. `WATCHDOG_PID` is left out, so that the watchdog also
+    /// applies to a program behind a shell.
     pub(crate) fn variables(&self, alive_within: Option<Duration>) -> Vec<(&'static str, String)> {
         let path = self.file.path.display().to_string();
         let watchdog = alive_within.map(|limit| ("WATCHDOG_USEC", limit.as_micros().to_string()));
@@ -94,7 +94,8 @@ impl Datagrams {
         Ok(())
     }
 
-    /// Makes events of what has arrived: when this returns, all that programs said before has been sent.
+    /// Sends the received datagrams as events. When this returns, everything that programs reported before has been
+    /// sent.
     ///
     /// # Errors
     ///
@@ -138,7 +139,7 @@ fn wait(socket: &UnixDatagram) -> io::Result<()> {
     }
 }
 
-/// What a datagram says that matters here.
+/// Returns the notices in a datagram; other lines are ignored.
 fn notices(datagram: &[u8]) -> Vec<Notice> {
     let text = std::str::from_utf8(datagram).unwrap_or_default();
     text.lines().filter_map(notice).collect()

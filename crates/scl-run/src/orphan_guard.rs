@@ -1,4 +1,4 @@
-//! No orphans, even when `scl run` itself is killed with -9.
+//! Leaves no orphans, even when `scl run` itself is killed with SIGKILL.
 //!
 //! Two mechanisms, because each one has a gap:
 //!
@@ -30,7 +30,7 @@ pub const GUARD_WORD: &str = "__guard";
 /// The exit code of shells for a program that exists but cannot be executed.
 const CANNOT_EXECUTE: u8 = 126;
 
-/// The command that starts `command` so that it ends with this process.
+/// Returns the command that starts `command` in such a way that it is killed when this process ends.
 pub(crate) fn bound_command(command: &[OsString], placement: &Placement) -> Command {
     let mut bound = this_program();
     bound.arg(START_WORD).arg(std::process::id().to_string()).args(placement.arguments()).arg("--").args(command);
@@ -40,7 +40,7 @@ pub(crate) fn bound_command(command: &[OsString], placement: &Placement) -> Comm
 /// The path of the running `scl`, even if a build has replaced its file.
 pub(crate) const THIS_PROGRAM: &str = "/proc/self/exe";
 
-/// The running `scl`.
+/// Returns a command that starts the running `scl` again.
 pub(crate) fn this_program() -> Command {
     let mut command = Command::new(THIS_PROGRAM);
     command.arg0("scl");
@@ -77,7 +77,7 @@ pub(crate) struct OrphanGuard {
 }
 
 impl OrphanGuard {
-    /// Starts the watch, in a process group of its own, so that a Ctrl-C does not reach it.
+    /// Starts the guard in a separate process group, so that Ctrl-C does not reach it.
     ///
     /// # Errors
     ///
@@ -101,7 +101,7 @@ impl OrphanGuard {
         self.tell(group.as_raw_pid())
     }
 
-    /// Takes a process group away that is about to be reaped, so that its number may be used by others afterwards.
+    /// Removes a process group that is about to be reaped: its number may be reused afterwards.
     pub(crate) fn forget(&mut self, group: Pid) {
         // Ignore errors: a guard that has ended kills nothing.
         let _ = self.tell(-group.as_raw_pid());
@@ -121,8 +121,8 @@ impl Drop for OrphanGuard {
     }
 }
 
-/// The body of `scl __guard`: waits for the end of the pipe, then kills every group that it was told, and every process
-/// with the mark of the run. The negative of a group's number takes that group away.
+/// The body of `scl __guard`: reads the numbers of process groups until the pipe is closed, then kills these groups and
+/// every process with the mark of the run. The negative of a group's number removes that group.
 pub fn keep_watch(run_mark: &str) -> ExitCode {
     // Ignore stop signals: if this `scl run` is itself run by another one, that one sends them to all processes, but
     // the guard has to be the last to end.

@@ -1,5 +1,5 @@
-//! Processes that have lost their parents: this process inherits those of its programs, as the first process of a
-//! container inherits those of all. It reaps them, and at its end kills those that have left every trace of their
+//! Processes that have lost their parents. This process adopts those of its programs, as the first process of a
+//! container adopts those of all. It reaps them, and at its end kills those that can no longer be traced to their
 //! program.
 
 use super::family::{kill_all, relatives};
@@ -14,10 +14,10 @@ use std::sync::Mutex;
 use std::thread;
 use std::time::Duration;
 
-/// The children that this process has started, which are reaped where they are waited for.
+/// The children that this process has started. They are reaped by [`wait`], not as orphans.
 static STARTED: Mutex<Vec<Pid>> = Mutex::new(Vec::new());
 
-/// Between two looks for processes to reap: programs may leave many.
+/// Pause between two searches for processes to reap: programs may leave many.
 const PAUSE: Duration = Duration::from_millis(50);
 
 /// Starts a child that is not taken for an orphan.
@@ -40,7 +40,7 @@ pub(crate) fn wait(child: &mut Child) {
     lock(&STARTED).retain(|child| *child != ended);
 }
 
-/// From now on this process inherits what its descendants leave, and reaps it.
+/// Makes this process adopt the orphans of its descendants, and starts a thread that reaps them.
 ///
 /// # Errors
 ///
@@ -63,7 +63,7 @@ pub(crate) fn adopted() -> Vec<Pid> {
     children(getpid()).into_iter().filter(|child| !started.contains(child)).collect()
 }
 
-/// Kills all orphans with their descendants, except those that were there `before`.
+/// Kills all orphans with their descendants, except the orphans in `before`.
 pub(crate) fn kill_adopted(before: &[Pid]) {
     kill_all(|| {
         let adopted = adopted();

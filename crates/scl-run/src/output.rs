@@ -1,9 +1,8 @@
 //! The output of all components on one screen: whole lines, each with the name of its component before it, and the
 //! reports of `scl run` itself.
 //!
-//! Threads of their own write, because neither a component nor the supervisor may wait for a reader: a paused `less`,
-//! Ctrl-S, a pipe that nobody reads. Lines that such a reader would have to take later than others of some MiB are
-//! dropped and counted.
+//! Separate threads write, because neither a component nor the supervisor may wait for a reader: a paused `less`,
+//! Ctrl-S, a pipe that nobody reads. Lines are dropped and counted while several MiB wait for such a reader.
 
 mod backlog;
 
@@ -45,7 +44,8 @@ pub(crate) struct Output {
     width: usize,
     /// Whether standard output and standard error show colours.
     colours: [bool; 2],
-    /// Of standard output and of standard error; the same if they go to the same file, where their order shows.
+    /// The backlogs of standard output and standard error. Both are the same one if the streams go to the same file,
+    /// where their order is visible.
     backlogs: [Arc<Backlog>; 2],
     /// Where the loss of the reader is reported, once.
     events: Mutex<Option<Sender<Event>>>,
@@ -54,8 +54,8 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Output for programs of these names, in colour if the stream is a terminal that supports it. `logs` are the logs
-    /// of the last of them; the others have none. Starts the threads that write.
+    /// Creates the output for programs with these names, in colour if the stream is a terminal that supports it, and
+    /// starts the threads that write. `logs` belong to the last programs; the others have none.
     pub(crate) fn start(names: Vec<String>, logs: Vec<Option<LogFile>>, events: Sender<Event>) -> Arc<Self> {
         let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
         let choices = [anstream::AutoStream::choice(&io::stdout()), anstream::AutoStream::choice(&io::stderr())];
@@ -112,7 +112,7 @@ impl Output {
         self.backlog(LogStream::Stderr).add_report(&format!("scl: {text}\n"));
     }
 
-    /// Waits until everything is written, or until no reader has taken anything for as long as this.
+    /// Waits until everything is written, or until no reader has read anything for `patience`.
     pub(crate) fn finish(&self, patience: Duration) {
         // Standard error comes last: lines dropped from standard output are reported there.
         self.backlogs.iter().for_each(|backlog| backlog.finish(patience));
@@ -122,7 +122,7 @@ impl Output {
         &self.backlogs[stream as usize]
     }
 
-    /// Writes as long as the process runs.
+    /// Writes what a backlog receives, for as long as the process runs.
     fn write(&self, backlog: &Backlog) {
         loop {
             let written = backlog.write();

@@ -1,5 +1,5 @@
-//! The sockets of a `scl run`, named by its process id: `run.<pid>.control`, `run.<pid>.notify`. Those that a killed
-//! process left behind are removed by the next that finds them.
+//! The sockets of a `scl run`, named after its process id: `run.<pid>.control`, `run.<pid>.notify`. The next process
+//! that finds the sockets of a killed one removes them.
 
 use rustix::net::{AddressFamily, SocketAddrUnix, SocketFlags, SocketType, socket_with};
 use std::fs;
@@ -17,8 +17,8 @@ pub(crate) struct OwnFile {
 }
 
 impl OwnFile {
-    /// Binds a socket in a folder that only this user can write to. Its name ends with `ending`. It appears there when
-    /// it can be connected to, so that it is not mistaken for one that was left behind.
+    /// Binds a socket in a folder that only this user can write to. Its name ends with `ending`. The file appears only
+    /// when clients can connect, so that it is not mistaken for one that was left behind.
     ///
     /// # Errors
     ///
@@ -52,7 +52,7 @@ impl OwnFile {
         ready.map(|()| socket)
     }
 
-    /// Whether it was removed, so that nobody can find the socket.
+    /// Whether the file was removed, so that clients cannot find the socket.
     pub(crate) fn is_gone(&self) -> bool {
         self.path.symlink_metadata().is_err()
     }
@@ -73,7 +73,7 @@ pub(crate) fn sockets_in(folder: &Path, ending: &str) -> Vec<PathBuf> {
     found.into_iter().map(|(_, path)| path).collect()
 }
 
-/// The process whose socket with this ending this is.
+/// Returns the process id in the name of a socket with this ending, or `None` for other files.
 pub(crate) fn process_of(path: &Path, ending: &str) -> Option<u32> {
     path.file_name()?.to_str()?.strip_prefix(PREFIX)?.strip_suffix(ending)?.strip_suffix('.')?.parse().ok()
 }
@@ -87,7 +87,7 @@ pub(crate) fn connect(path: &Path) -> io::Result<UnixStream> {
     connect_at_once(path).inspect_err(|error| remove_if_dead(path, error))
 }
 
-/// Connects without waiting: a process that is stopped accepts nothing, and connections would wait for it.
+/// Connects without blocking: a stopped process accepts no connections, so a blocking call could hang.
 fn connect_at_once(path: &Path) -> io::Result<UnixStream> {
     let flags = SocketFlags::CLOEXEC | SocketFlags::NONBLOCK;
     let socket = socket_with(AddressFamily::UNIX, SocketType::STREAM, flags, None)?;

@@ -1,7 +1,8 @@
 //! The processors, the priority and the limit of descriptors of a program, set by `scl __start` before it becomes the
 //! program, so that they apply from its first moment, to all of its threads, and to programs in any language.
 //!
-//! What the operating system refuses is a warning, so that one launch file works on the vehicle and on a desktop.
+//! If the operating system refuses a setting, that is only a warning, so that one launch file works on the vehicle and
+//! on a desktop.
 
 use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
 use rustix::thread::CpuSet;
@@ -31,8 +32,9 @@ impl Placement {
         cpu.chain(fifo).chain(descriptors).collect()
     }
 
-    /// Applies it to the calling thread, which becomes the program. Returns the variables that the program gets: with
-    /// `SCL_SCHED`, a program with SCL also locks its memory. Without the privileges it would only warn a second time.
+    /// Applies the placement to the calling thread, which becomes the program. Returns a variable for the program:
+    /// `SCL_SCHED` makes an SCL program lock its memory, too. It is not set without the privileges, because the program
+    /// would only warn a second time.
     pub(crate) fn apply(&self) -> Option<(&'static str, String)> {
         if !self.cpu.is_empty() {
             self.pin();
@@ -63,7 +65,8 @@ impl Placement {
     }
 }
 
-/// Not raised for all programs: one that calls `select` with a descriptor above 1023 overwrites its own memory.
+/// Sets the limit of descriptors. It is raised only on request: a program that calls `select` with a descriptor above
+/// 1023 overwrites its own memory.
 fn limit_descriptors(most: u64) {
     let hard = getrlimit(Resource::Nofile).maximum;
     let current = hard.map_or(most, |hard| most.min(hard));

@@ -29,7 +29,7 @@ pub(crate) const COMPONENT: &str = "SCL_COMPONENT";
 /// The variable that chooses the transport of connections.
 const TRANSPORT: &str = "SCL_TRANSPORT";
 
-/// Reads the names of the components from a topology file, or says what is wrong with it and returns `None`.
+/// Reads the names in a topology file. If the file has errors, prints them and returns `None`.
 pub type ComponentNames<'a> = &'a dyn Fn(&Path) -> Option<SystemNames>;
 
 /// What to build, in this order, and then to start.
@@ -75,7 +75,7 @@ pub(crate) fn plan_run(options: &Options, component_names: ComponentNames<'_>) -
     if problems.is_empty() { Ok(plan) } else { Err(problems) }
 }
 
-/// As [`plan_run`], but only from a launch file: nothing is built.
+/// Like [`plan_run`], but requires a launch file and builds nothing: programs that cargo makes must be built already.
 pub(crate) fn plan_run_launch_file(
     options: &Options,
     component_names: ComponentNames<'_>,
@@ -95,7 +95,8 @@ pub(crate) fn plan_run_launch_file(
 }
 
 impl RunPlan {
-    /// What can be checked before anything is built: everything, or, with builds, what they cannot change.
+    /// Returns the problems that can be found before anything is built: all of them if there are no builds, otherwise
+    /// those that no build can change.
     fn check(&self) -> Vec<Problem> {
         if self.builds.is_empty() {
             return self.programs().filter_map(|component| component.check().err()).collect();
@@ -209,7 +210,8 @@ fn find_topology(folder: &Path, document: &LaunchDocument) -> Result<Option<Path
     Err(Problem::new(format!("the topology file does not exist: `{}`", path.display())).at(place))
 }
 
-/// A launch file may omit components that are started elsewhere (another terminal, a replay), but not silently.
+/// Prints a note about components that the launch file omits. They may be started elsewhere (another terminal, a
+/// replay).
 fn note_missing(launched: &[LaunchComponent], components: &[String]) {
     let is_launched = |name: &String| launched.iter().any(|it| it.name == *name || it.opens.names(name));
     let missing: Vec<&str> = components.iter().filter(|name| !is_launched(name)).map(String::as_str).collect();
@@ -246,7 +248,7 @@ fn build_program(launch: &LaunchFile, command: &[String], folder: PathBuf) -> Pr
     Program { environment, ..Program::new(command.iter().map(OsString::from).collect(), folder) }
 }
 
-/// The program of a component; what cargo makes of it is added to the builds.
+/// Plans the program of a component. If cargo makes the program, its build is added to `builds`.
 fn plan_component(
     folder: &Path,
     launch: &LaunchFile,
@@ -301,7 +303,8 @@ fn environment_of_programs(launch: &LaunchFile) -> impl Iterator<Item = (String,
     transport.into_iter().chain(launch.environment.iter().cloned())
 }
 
-/// What plays a component from a recording: the running `scl`, which `scl __start` is too.
+/// Returns the command that plays a component from a recording. It is executed by `scl __start`, where [`THIS_PROGRAM`]
+/// is the running `scl`, too.
 fn replay_command(recording: &str, component: &str) -> Vec<OsString> {
     [THIS_PROGRAM, "replay", recording, "--as", component].map(OsString::from).to_vec()
 }
@@ -314,7 +317,7 @@ fn folder_of(folder: &Path, settings: &Settings) -> PathBuf {
     settings.working_directory.as_ref().map_or_else(|| folder.to_owned(), |own| folder.join(own))
 }
 
-/// The topology file as a name of its own, if the system has its name of it.
+/// The absolute path of the topology file, if the system is named after it.
 fn named_after_file(topology: &Path, names: &SystemNames) -> Option<PathBuf> {
     let is_named = names.is_named || system_of_environment().is_some();
     if is_named { None } else { topology.canonicalize().ok() }

@@ -21,14 +21,14 @@ pub(crate) struct Policy {
 /// When a component is started again.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) enum Restart {
-    /// Its first end is the last.
+    /// It is not started again.
     #[default]
     Never,
     /// After a signal, a missed limit or a failed start, but not after an exit code.
     OnAbnormal,
     /// After a failure.
     OnFailure,
-    /// Also after it has ended in order.
+    /// Also after it has ended successfully.
     Always,
 }
 
@@ -39,7 +39,7 @@ pub(crate) struct RestartDelay {
     pub(crate) longest: Duration,
 }
 
-/// How many restarts are allowed in any period of this length.
+/// How many restarts are allowed within any period of a given length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct RestartLimit {
     pub(crate) count: usize,

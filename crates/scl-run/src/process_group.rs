@@ -12,19 +12,19 @@ use std::time::Duration;
 pub(crate) const PAUSE: Duration = Duration::from_millis(20);
 const MAX_PAUSE: Duration = Duration::from_secs(1);
 
-/// Sees that each process of the group gets a signal that was sent to it and that asks it to end; returns when all have
-/// ended.
+/// Makes sure that each process of the group receives the signal by which the group was asked to end. Returns when all
+/// processes have ended.
 ///
 /// One signal to the group is not enough: a shell may start a program after it has noted the signal, or note it in the
-/// copy of itself that becomes the program. So a program that was not there ([`programs`]) when the signal was sent,
-/// and that would be ended by it, gets it too. None gets it twice: a second signal would end a program of SCL at once,
-/// and others restore the default action after the first.
+/// copy of itself that becomes the program. So a program that was not running when the signal was sent (`reached` are
+/// the [`programs`] that were), and that the signal would end, receives it, too. No program receives it twice: a second
+/// signal would end an SCL program at once, and others restore the default action after the first.
 pub(crate) fn repeat_where_missed(group: Pid, signal: Signal, reached: HashSet<Program>) {
     let mut repeats = Repeats { group, signal, reached, terminated: HashSet::new() };
     look_while(|| repeats.look());
 }
 
-/// Looks again and again, less and less often, while `look` returns true.
+/// Calls `look` at growing intervals while it returns true.
 pub(crate) fn look_while(mut look: impl FnMut() -> bool) {
     let mut pause = PAUSE;
     while look() {
@@ -36,10 +36,10 @@ pub(crate) fn look_while(mut look: impl FnMut() -> bool) {
 struct Repeats {
     group: Pid,
     signal: Signal,
-    /// Those that have got the signal, or have been seen to block or catch it.
+    /// The programs that have received the signal, or have been seen to block or catch it.
     reached: HashSet<Program>,
-    /// Those that ignore the signal and got SIGTERM when the first process had ended: a shell lets its background
-    /// processes ignore SIGINT.
+    /// The processes that ignore the signal and received SIGTERM after the first process had ended: a shell lets its
+    /// background processes ignore SIGINT.
     terminated: HashSet<Pid>,
 }
 
@@ -67,7 +67,7 @@ impl Repeats {
     }
 }
 
-/// What a process executes: another value after `exec`, which starts the program with a stack elsewhere.
+/// What a process executes. The value changes with `exec`, which starts the program with a stack elsewhere.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(crate) struct Program {
     process: Pid,
@@ -80,7 +80,7 @@ pub(crate) fn programs(group: Pid) -> HashSet<Program> {
     members(group).into_iter().filter_map(program).collect()
 }
 
-/// `None` if the process has ended.
+/// Returns what a process executes, or `None` if it has ended.
 fn program(process: Pid) -> Option<Program> {
     // Empty if the process belongs to another user.
     let executable = fs::read_link(format!("/proc/{process}/exe")).unwrap_or_default();
@@ -111,8 +111,8 @@ enum Disposition {
     Ignores,
 }
 
-/// From the masks of `/proc/<pid>/status`. A process that waits for a signal blocks it, and handles it. One that has
-/// ended has no masks.
+/// Reads the masks in `/proc/<pid>/status`. A blocked signal counts as handled, because a process that waits for a
+/// signal blocks it. So do signals of a process that has ended, which has no masks.
 fn disposition(process: Pid, signal: Signal) -> Disposition {
     let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
     let mask = |name: &str| {

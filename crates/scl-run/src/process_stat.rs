@@ -7,10 +7,11 @@ use std::fs;
 /// A process.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct ProcessStat {
-    /// `None` if it is outside of this container, or this process is being reaped; so is `group`.
+    /// `None` if the parent is outside of this container, or the process is being reaped; the same applies to `group`.
     pub(crate) parent: Option<Pid>,
     pub(crate) group: Option<Pid>,
-    /// When it was started, in clock ticks since the machine was: with its number, this names it for good.
+    /// When it was started, in clock ticks since boot. Together with the process id, this identifies it even if the id
+    /// is reused.
     pub(crate) started: u64,
     /// Whether it waits to be reaped.
     has_ended: bool,
@@ -18,12 +19,12 @@ pub(crate) struct ProcessStat {
     pub(crate) is_stopped: bool,
     /// Whether a debugger has stopped it.
     pub(crate) is_traced: bool,
-    /// Where its stack begins: another value after `exec`.
+    /// The address at which its stack begins. It changes with `exec`.
     pub(crate) stack: String,
 }
 
 impl ProcessStat {
-    /// `None` if the process has ended, even if it is not reaped yet.
+    /// Reads the state of a process; `None` if it has ended, even if it is not reaped yet.
     pub(crate) fn of(process: Pid) -> Option<Self> {
         Self::read(process).filter(|stat| !stat.has_ended)
     }

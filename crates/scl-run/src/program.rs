@@ -17,7 +17,7 @@ pub(crate) struct Program {
     pub(crate) environment: Vec<(String, String)>,
     /// Its working folder.
     pub(crate) folder: PathBuf,
-    /// Its processors and priority.
+    /// Its processors, priority and limit of descriptors.
     pub(crate) placement: Placement,
     /// Where its standard input comes from.
     pub(crate) input: StandardInput,
@@ -28,17 +28,18 @@ pub(crate) struct Program {
 pub(crate) struct Build {
     pub(crate) components: Vec<String>,
     pub(crate) program: Program,
-    /// If it is one of cargo that makes programs of components: how each of the components is chosen, `--bin sensor`.
+    /// For a cargo build that makes programs of components: for each component, the options that choose its program,
+    /// such as `--bin sensor`.
     pub(crate) cargo_choices: Option<Vec<Vec<String>>>,
 }
 
 impl Build {
-    /// The name before its output.
+    /// The name shown before its output.
     pub(crate) fn label(&self) -> &str {
         self.components.first().map_or("build", String::as_str)
     }
 
-    /// Whose programs it makes, for messages.
+    /// The components whose programs it makes, for messages.
     pub(crate) fn owner(&self) -> String {
         match self.components.as_slice() {
             [] => "all components".to_owned(),
@@ -60,7 +61,7 @@ impl Build {
         self.program.command.iter().cloned().chain(choices).collect()
     }
 
-    /// The build for these components alone; `None` if it makes nothing of them.
+    /// Returns the build for these components alone, or `None` if it makes none of their programs.
     pub(crate) fn only_for(&self, components: &[String]) -> Option<Build> {
         if self.components.is_empty() {
             return Some(self.clone());
@@ -87,7 +88,7 @@ impl Build {
 }
 
 impl Program {
-    /// A program with the placement, the variables and the standard input that a launch file does not mention.
+    /// Creates a program without variables, with the default placement and an empty standard input.
     pub(crate) fn new(command: Vec<OsString>, folder: PathBuf) -> Self {
         let (environment, placement, input) = (Vec::new(), Placement::default(), StandardInput::Empty);
         Self { command, environment, folder, placement, input }

@@ -22,12 +22,12 @@ struct Pending {
 struct Target {
     index: usize,
     name: String,
-    /// Number of processes that it had had when the request came.
+    /// Number of processes that had been started for it when the request came.
     starts: usize,
 }
 
 impl Requests {
-    /// Accepts a request, or answers it with an error. Returns what it means for the components.
+    /// Accepts a request, or answers it with an error. Returns the resulting events for the components.
     pub(crate) fn take(&mut self, received: ReceivedRequest, names: &[&str], state: &RunState) -> Vec<RunEvent> {
         let chosen = received.request.components.clone();
         let unknown: Vec<&str> = chosen.iter().map(String::as_str).filter(|name| !names.contains(name)).collect();
@@ -78,7 +78,7 @@ impl Requests {
     }
 }
 
-/// Whether the request is fulfilled for a component; `None` while that is open.
+/// Whether the request is fulfilled for a component; `None` while that is undecided.
 fn outcome(command: Command, component: &Lifecycle, starts_before: usize) -> Option<bool> {
     let is_new = component.starts > starts_before;
     match (command, component.state) {

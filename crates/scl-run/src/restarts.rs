@@ -16,7 +16,7 @@ pub(crate) struct Restarts {
     /// Number of restarts so far.
     pub(crate) total: usize,
     in_a_row: u32,
-    /// The last ones, at most as many as the limit allows.
+    /// The times of the last restarts, at most as many as the limit allows.
     recent: VecDeque<Time>,
 }
 

@@ -1,14 +1,15 @@
 //! The time of a run, which stands still while `scl run` itself does not run.
 //!
-//! A frozen container, a paused virtual machine and SIGSTOP to a whole system take the time of the components, too. A
-//! limit that went on meanwhile would end those that are sound.
+//! A frozen container, a paused virtual machine and SIGSTOP to a whole system also stop the components. If time limits
+//! kept running, they would end healthy components.
 
 use super::restarts::Time;
 use std::time::{Duration, Instant};
 
-/// The longest wait between two looks at the clock while something is due. Of a pause, what is left of the wait counts.
+/// Maximum wait between two looks at the clock while something is due. If the process is paused during a wait, the rest
+/// of that wait still counts.
 pub(crate) const LONGEST_WAIT: Duration = Duration::from_millis(50);
-/// Being later than this means that the process did not run.
+/// A delay beyond this means that the process did not run.
 const LATE: Duration = Duration::from_millis(10);
 
 /// The time since the start of a run.
@@ -30,8 +31,8 @@ impl RunClock {
         instant.saturating_duration_since(self.began).saturating_sub(self.lost)
     }
 
-    /// Notes that this process runs. `waited` is how long it meant to wait since the last look; what passed beyond that
-    /// is lost. Returns how long that was.
+    /// Notes that this process is running. `waited` is how long it meant to wait since the last look; any time beyond
+    /// that is lost. Returns the lost time.
     pub(crate) fn look(&mut self, now: Instant, waited: Duration) -> Duration {
         let late = now.saturating_duration_since(self.last_look).saturating_sub(waited);
         let lost = if late > LATE { late } else { Duration::ZERO };

@@ -1,5 +1,5 @@
-//! All components of a run: when one's end is the end of all, what a request means for each. Events and times in,
-//! actions out; without processes and without a clock.
+//! The state machine of a run: when the end of one component stops all, and what a request means for each. It takes
+//! events with their times and returns actions; it touches neither processes nor a clock.
 
 use super::lifecycle::{Action, Input, Lifecycle, State, Verdict};
 use super::policy::Policy;
@@ -13,9 +13,9 @@ use std::time::Duration;
 pub(crate) enum RunEvent {
     /// Something happens to one component.
     One(usize, Input),
-    /// All are to stop by this signal. A second request kills them.
+    /// All components are to be stopped with this signal. A second request kills them.
     Stop(Signal),
-    /// The reader of the output has gone.
+    /// The reader of the output has closed it.
     OutputLost,
     /// Time has passed.
     Time,
@@ -25,9 +25,9 @@ pub(crate) enum RunEvent {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct RunState {
     components: Vec<Lifecycle>,
-    /// The one that is stopped when all others have ended: what they send while they stop passes through it.
+    /// The component that is stopped after all others have ended: what they send while they stop passes through it.
     last: Option<usize>,
-    /// When all are stopped without being asked.
+    /// When all components are stopped without a request.
     until: Option<Time>,
     /// The signal by which they are being stopped.
     pub(crate) stopping: Option<Signal>,
@@ -35,13 +35,14 @@ pub(crate) struct RunState {
     pub(crate) asked: bool,
     /// Time of the first stop request.
     requested: Option<Time>,
-    /// The pauses since then, which the times of events leave out.
+    /// Total length of the pauses since the first stop request, which the times of events leave out.
     paused: Duration,
     killing: bool,
 }
 
 impl RunState {
-    /// Components to be started at once, which are stopped at a time, if any; `last` is stopped after all others.
+    /// Creates a run whose components are to be started at once, and stopped at `until`, if given. `last` is stopped
+    /// after all others.
     pub(crate) fn new(policies: impl IntoIterator<Item = Policy>, last: Option<usize>, until: Option<Time>) -> Self {
         let components = policies.into_iter().map(Lifecycle::new).collect();
         Self { components, last, until, ..Self::default() }
@@ -66,7 +67,7 @@ impl RunState {
         self.components.iter().all(|component| component.state == State::Ready)
     }
 
-    /// The first component whose failure is that of the run.
+    /// The first component whose failure makes the run fail.
     pub(crate) fn failed(&self) -> Option<usize> {
         self.components.iter().position(has_failed_the_run)
     }
@@ -77,7 +78,7 @@ impl RunState {
         self.components.iter().filter_map(Lifecycle::due).chain(until).min()
     }
 
-    /// Takes in what happened, and returns what is to be done for which component.
+    /// Processes an event, and returns the actions to take, each with the index of its component.
     pub(crate) fn step(&mut self, now: Time, event: RunEvent) -> Vec<(usize, Action)> {
         let mut actions = match event {
             // Nothing is restarted while the run is stopping.
@@ -98,8 +99,8 @@ impl RunState {
         actions
     }
 
-    /// Notes a pause that the times of events leave out. It counts between two stop requests, because their user has
-    /// waited.
+    /// Notes a pause that the times of events leave out. It counts as time between two stop requests, because the user
+    /// has waited.
     pub(crate) fn take_pause(&mut self, lost: Duration) {
         self.paused += if self.is_requested() { lost } else { Duration::ZERO };
     }
@@ -130,14 +131,15 @@ impl RunState {
         self.components.get(index).is_some_and(|it| matches!(it.state, State::Running | State::Ready))
     }
 
-    /// Whether no component is left that needs the last one. Alone, it runs until it is asked to stop.
+    /// Whether all components but the last one have ended. False if there are no others: alone, it runs until it is
+    /// asked to stop.
     fn only_last_is_left(&self) -> bool {
         let Some(last) = self.last else { return false };
         let mut others = self.components.iter().enumerate().filter(|(index, _)| *index != last).peekable();
         others.peek().is_some() && others.all(|(_, other)| matches!(other.state, State::Ended(_)))
     }
 
-    /// Stops the last one when its turn has come.
+    /// Stops the last component if the run is stopping and all others have ended.
     fn stop_last(&mut self, now: Time) -> Vec<(usize, Action)> {
         let (Some(signal), Some(last)) = (self.stopping, self.last) else { return Vec::new() };
         let is_due = self.components.len() == 1 || self.only_last_is_left();
@@ -155,7 +157,7 @@ impl RunState {
         actions
     }
 
-    /// Further calls have no effect.
+    /// Stops all components, except for the last one if it is running. Further calls have no effect.
     fn stop(&mut self, now: Time, signal: Signal) -> Vec<(usize, Action)> {
         if self.stopping.is_some() {
             return Vec::new();

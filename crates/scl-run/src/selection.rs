@@ -11,7 +11,7 @@ pub(crate) struct Selection<'a> {
 }
 
 impl<'a> Selection<'a> {
-    /// Checks the names of both options; `source` is what has the components, for messages.
+    /// Checks the names of both options; `source` says in messages where the components are declared.
     ///
     /// # Errors
     ///

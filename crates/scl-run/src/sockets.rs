@@ -1,6 +1,7 @@
-//! The sockets of a run, in the folder of its system: one for what programs say about themselves, one for requests.
+//! The sockets of a run, in the folder of its system: one for notices of programs, one for requests.
 //!
-//! A run without them works, except for what needs them, so that a launch file of other programs runs anywhere.
+//! A run also works without them, except for the features that need them, so that a launch file of other programs runs
+//! anywhere.
 
 use super::component::Component;
 use super::control::ControlSocket;
@@ -18,10 +19,10 @@ use std::sync::{Arc, Weak};
 use std::thread;
 use std::time::Duration;
 
-/// How often is looked whether the sockets are there.
+/// Interval at which to check that the sockets still exist.
 const LOOK: Duration = Duration::from_secs(1);
 
-/// The socket for notices, and where the one for requests belongs.
+/// The socket for notices, and the folder for the socket for requests.
 #[derive(Debug)]
 pub(crate) struct Sockets {
     pub(crate) notify: Arc<NotifySocket>,
@@ -37,12 +38,11 @@ struct Folders {
 }
 
 impl Sockets {
-    /// Finds the folder and opens the socket for notices. Without one, the user is told, or it is an error if a
-    /// component has to say that it is ready or alive.
+    /// Finds the folder and opens the socket for notices. If that fails, prints a note and returns `None`.
     ///
     /// # Errors
     ///
-    /// One problem.
+    /// If that fails and a component has `ready_within` or `alive_within`.
     pub(crate) fn open(plan: &RunPlan, events: &Sender<Event>) -> Result<Option<Self>, Vec<Problem>> {
         let needs_notices =
             |component: &Component| component.policy.ready_within.is_some() || component.policy.alive_within.is_some();
@@ -69,7 +69,8 @@ impl Sockets {
         Ok(Self { notify: Arc::new(notify), folders, named_after: plan.named_after.clone() })
     }
 
-    /// Opens the socket for requests. Without a system, clients could not find it.
+    /// Opens the socket for requests. Returns `None` without a system, because clients could not find the socket, or if
+    /// it cannot be bound, which is printed as a note.
     pub(crate) fn open_control(&self, events: &Sender<Event>) -> Option<Arc<ControlSocket>> {
         let events = events.clone();
         let receive = move |request| {
@@ -86,8 +87,9 @@ impl Sockets {
         }
     }
 
-    /// From now on binds the sockets again when they were removed with their folder, as `/run/user/UID` is at a logout:
-    /// programs that are started later, and other commands, find them in the folder with which the system was started.
+    /// Starts a thread that binds the sockets again when they were removed with their folder, as `/run/user/UID` is at
+    /// a logout. Programs that are started later, and other commands, find them in the folder with which the system was
+    /// started.
     pub(crate) fn keep(&self, control: Option<&Arc<ControlSocket>>, output: &Arc<Output>) {
         let (notify, control) = (Arc::downgrade(&self.notify), control.map(Arc::downgrade));
         let (folders, output) = (self.folders.clone(), Arc::clone(output));
@@ -113,7 +115,7 @@ impl Sockets {
 }
 
 impl Folders {
-    /// Creates those that do not exist, and returns the one for the sockets.
+    /// Creates the folders that do not exist, and returns the folder for the sockets.
     fn create(&self) -> Result<PathBuf, RuntimeDirError> {
         let runtime_dir = RuntimeDir::locate(&|name| (name == RUNTIME_DIR).then(|| self.runtime.clone().into()))?;
         match &self.system {

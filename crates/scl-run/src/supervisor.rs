@@ -1,5 +1,5 @@
-//! Does what the state of a run asks for: starts processes, signals them, reports. Takes in what happens, event by
-//! event.
+//! Carries out the actions of a run's state machine: starts processes, signals them, reports. Passes it what happens,
+//! event by event.
 //!
 //! The process of a component, of which there is one at a time:
 //!
@@ -43,11 +43,11 @@ use std::time::{Duration, Instant};
 /// How the programs ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Outcome {
-    /// All in order, without being asked.
+    /// All ended without being asked, and no essential one has failed.
     InOrder,
-    /// One has failed, and its last process ended like this, if it had one.
+    /// An essential one has failed. Its last process ended like this, if it had one.
     Failed(Option<Ending>),
-    /// In order, after this signal was sent to them.
+    /// They were stopped with this signal.
     Stopped(Signal),
 }
 
@@ -58,7 +58,7 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) sender: Sender<Event>,
 }
 
-/// Runs programs, each with a process at most at any time.
+/// Runs programs, each with at most one process at any time.
 pub(crate) struct Supervisor<'a> {
     surroundings: Surroundings<'a>,
     notify: Option<&'a NotifySocket>,
@@ -71,7 +71,7 @@ pub(crate) struct Supervisor<'a> {
 /// A run in progress.
 struct Run<'r> {
     members: &'r [Member<'r>],
-    /// What makes their programs, for restarts.
+    /// The builds that make their programs, for restarts.
     builds: &'r [Build],
     state: RunState,
     clock: RunClock,
@@ -85,8 +85,8 @@ impl<'a> Supervisor<'a> {
         Self { surroundings, notify, guard, processes: Vec::new(), next_process: 0 }
     }
 
-    /// Starts the programs and waits until all have ended. They are stopped after a time, if one is given. `builds` are
-    /// what `scl restart` is told to run.
+    /// Starts the programs and waits until all have ended. They are stopped after `run_for`, if given. `builds` are
+    /// reported to `scl restart`, which runs them.
     pub(crate) fn run(&mut self, members: &[Member<'_>], builds: &[Build], run_for: Option<Duration>) -> Outcome {
         let last = members.iter().position(|member| member.role == Role::Gateway);
         let state = RunState::new(members.iter().map(|member| member.policy.clone()), last, run_for);
@@ -120,7 +120,7 @@ impl<'a> Supervisor<'a> {
         }
     }
 
-    /// The next event, or `None` if something may be due before.
+    /// Waits for the next event. Returns `None` if something may be due before.
     fn next_event(&self, run: &mut Run<'_>) -> Option<Event> {
         let events = &self.surroundings.events;
         let now = Instant::now();
@@ -226,7 +226,7 @@ impl<'a> Supervisor<'a> {
         }
     }
 
-    /// Feeds an event to the state and does what it asks for, until nothing is left to do.
+    /// Feeds an event to the state and carries out the resulting actions, until none is left.
     fn apply(&mut self, run: &mut Run<'_>, event: RunEvent) {
         let mut actions: VecDeque<_> = run.state.step(run.now(), event).into();
         while let Some((index, action)) = actions.pop_front() {
@@ -286,7 +286,7 @@ impl<'a> Supervisor<'a> {
         Ok(())
     }
 
-    /// Kills what is left of a process, and frees its number.
+    /// Kills what is left of a program, and frees the number of its process group.
     fn discard(&mut self, index: usize) {
         if let Some(process) = self.processes[index].take() {
             self.guard.forget(process.running.group);
@@ -309,7 +309,7 @@ impl<'a> Supervisor<'a> {
         }
     }
 
-    /// Says once that all are ready, and answers the requests that are done.
+    /// Reports once that all components are ready, and answers the requests that are done.
     fn follow(&mut self, run: &mut Run<'_>) {
         if !run.said_ready && run.state.is_ready() {
             run.said_ready = true;
@@ -334,14 +334,15 @@ impl Run<'_> {
         self.clock.at(Instant::now())
     }
 
-    /// Notes that this process runs, after a wait that was to take this long.
+    /// Notes that this process is running, after a wait that was meant to take `waited`.
     fn look(&mut self, now: Instant, waited: Duration) {
         let lost = self.clock.look(now, waited);
         self.state.take_pause(lost);
     }
 }
 
-/// Why one of these components could not be started again, so that its old process is better than none.
+/// Returns why one of these components could not be started again. The restart is refused then, because its old process
+/// is better than none.
 fn unusable(run: &Run<'_>, components: &[String]) -> Option<String> {
     let chosen = run.members.iter().filter(|member| components.iter().any(|name| name == member.name));
     let mut checks = chosen.map(|member| member.program.check("program", &format!("component `{}`", member.name)));

@@ -2,12 +2,13 @@
 
 use scl::runtime_dir::RuntimeDir;
 
-/// What is read from a topology file.
+/// The names in a topology file.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct SystemNames {
     /// The name of the system.
     pub system: String,
-    /// Whether the file says so with `system:`. Otherwise it is the name of the file, which others may have, too.
+    /// Whether the file sets the name with `system:`. Otherwise the system is named after the file, and others may have
+    /// the same name.
     pub is_named: bool,
     /// The names of its components, in file order.
     pub components: Vec<String>,

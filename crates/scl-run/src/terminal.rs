@@ -1,8 +1,8 @@
 //! The terminal of `scl run`, lent to the one component whose entry has `input: terminal`.
 //!
 //! A program reads from a terminal, and changes its modes, only in the terminal's foreground; elsewhere the kernel
-//! stops it. So the component's process group becomes the foreground one. The signals of keys such as Ctrl-C go there
-//! too and not to `scl run`, so a process of ours in that group, [`keys`], tells about them.
+//! stops it. So the component's process group becomes the foreground one. The signals of keys such as Ctrl-C also go
+//! there and not to `scl run`, so a process of ours in that group, [`keys`], reports them.
 
 mod keys;
 
@@ -38,16 +38,16 @@ impl StandardInput {
 /// The terminal that is our standard input, while we are in its foreground.
 #[derive(Debug, Clone)]
 pub(crate) struct Terminal {
-    /// Those that are restored.
+    /// The modes to restore.
     modes: Termios,
 }
 
 impl Terminal {
-    /// Takes the terminal.
+    /// Returns the terminal, with its current modes.
     ///
     /// # Errors
     ///
-    /// Why there is none, in a few words.
+    /// Why it cannot be used, in a few words.
     pub(crate) fn open() -> Result<Self, &'static str> {
         let none = "the standard input of `scl run` is not its terminal";
         let foreground = tcgetpgrp(io::stdin()).map_err(|_| none)?;
@@ -57,7 +57,7 @@ impl Terminal {
         Ok(Self { modes: tcgetattr(io::stdin()).map_err(|_| none)? })
     }
 
-    /// Lends it to a process group; `pressed` is called for each of its keys that sends a signal.
+    /// Lends the terminal to a process group; `pressed` is called for each key that sends a signal.
     ///
     /// # Errors
     ///
@@ -83,8 +83,8 @@ impl Terminal {
         }
     }
 
-    /// Stops `scl run` as a shell expects it of a program after Ctrl-Z, and goes on with the group in the foreground,
-    /// if we are there by then.
+    /// Suspends `scl run` after Ctrl-Z, as a shell expects it of a program. When `scl run` is continued, continues the
+    /// group, in the foreground if `scl run` is there.
     pub(crate) fn suspend(&self, group: Pid) {
         let of_group = tcgetattr(io::stdin());
         self.take_back(group);
@@ -98,7 +98,7 @@ impl Terminal {
         let _ = kill_process_group(group, Signal::CONT);
     }
 
-    /// Makes this process group the foreground again, with its modes, unless another group is by now.
+    /// Puts this process into the foreground again and restores the modes, if `group` is in the foreground.
     fn take_back(&self, group: Pid) {
         let has_it = tcgetpgrp(io::stdin()).is_ok_and(|foreground| foreground == group);
         if has_it {
@@ -118,7 +118,7 @@ pub(crate) struct Loan {
 }
 
 impl Loan {
-    /// Takes the terminal back, after the events of all keys so far.
+    /// Takes the terminal back, after the events of all keys so far have been sent.
     pub(crate) fn end(mut self) {
         // Close its input, which ends `scl __keys`.
         drop(self.keys.stdin.take());
@@ -128,7 +128,7 @@ impl Loan {
     }
 }
 
-/// Makes a group the foreground, and continues it if it was stopped because it was not.
+/// Puts a group into the foreground, and continues it: it may have been stopped because it was not there.
 fn hand_over(group: Pid) -> io::Result<()> {
     set_foreground(group)?;
     // Ignore errors: the group may have ended.
@@ -145,12 +145,12 @@ fn set_modes(modes: &Termios) {
     let _ = from_background(|| tcsetattr(io::stdin(), OptionalActions::Drain, modes));
 }
 
-/// Changes a terminal whose foreground we may not be, for which the kernel would stop us.
+/// Changes the terminal with SIGTTOU blocked: if we are in the background, the kernel would stop us otherwise.
 fn from_background<T>(change: impl FnOnce() -> T) -> T {
     with_signals_blocked(SigSet::from(signal::Signal::SIGTTOU), change)
 }
 
-/// Works with signals blocked, which processes that are started inherit.
+/// Runs `work` with these signals blocked. Processes that it starts inherit the mask.
 fn with_signals_blocked<T>(signals: SigSet, work: impl FnOnce() -> T) -> T {
     let before = signals.thread_swap_mask(SigmaskHow::SIG_BLOCK);
     let done = work();

@@ -1,7 +1,7 @@
 //! The unit files of systemd that run the programs of a launch file as services, in place of `scl run`.
 //!
-//! What has no counterpart there is left out: `essential`, because services do not stop each other, the growth of
-//! `restart_delay`, and `input: terminal`.
+//! Settings without a counterpart in systemd are left out: `essential`, because services do not stop each other, the
+//! growth of `restart_delay`, and `input: terminal`.
 
 mod text;
 
@@ -20,10 +20,10 @@ use text::{duration, environment, quoted};
 /// The shortest limit: systemd understands 0 as no limit.
 const SHORTEST: Duration = Duration::from_millis(1);
 
-/// Whose services they become.
+/// What to write unit files for, and the user of the services.
 #[derive(Debug, Clone, Default)]
 pub struct UnitOptions {
-    /// What they run; builds are not run.
+    /// What the services run. Nothing is built.
     pub run: Options,
     /// The user of all services; that of the service manager if `None`.
     pub user: Option<String>,
@@ -34,7 +34,7 @@ pub struct UnitOptions {
 pub struct Unit {
     /// `rover-sensor.service`, or `rover.target` for all.
     pub name: String,
-    /// What is in it.
+    /// The content of the file.
     pub text: String,
 }
 
@@ -128,7 +128,8 @@ impl Units<'_> {
     }
 }
 
-/// A program that reports nothing must not be waited for, and the launch file says which ones report.
+/// Returns the lines about readiness and the watchdog. systemd must not wait for a program that reports nothing; a
+/// limit in the launch file says that a program reports.
 fn readiness(policy: &Policy) -> String {
     match (policy.ready_within, policy.alive_within) {
         (None, None) => "Type=exec\n".to_owned(),

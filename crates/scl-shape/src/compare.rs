@@ -38,7 +38,7 @@ impl Encoding {
 pub struct Difference {
     /// The full name of the message or enum.
     pub name: String,
-    /// What in it differs.
+    /// The part that differs.
     pub what: What,
     /// In the first program: `` `lat` (double)``, or a number.
     pub here: String,
@@ -123,7 +123,7 @@ pub fn differences(
     found
 }
 
-/// What must be the same in both programs.
+/// The properties of a field that must be the same in both programs.
 #[derive(PartialEq, Eq)]
 struct Field<'d> {
     name: &'d str,
@@ -170,7 +170,8 @@ fn kind<'d>(field: &'d FieldDescriptorProto, index: &Index<'d>) -> Kind<'d> {
     }
 }
 
-/// `optional` in proto3 is stored as a oneof too, but on the wire it is the same as without.
+/// Returns the oneof of a field. The synthetic oneof of an `optional` field in proto3 does not count: it makes no
+/// difference on the wire.
 fn oneof<'d>(field: &FieldDescriptorProto, message: &'d DescriptorProto) -> Option<&'d str> {
     let index = field.oneof_index.filter(|_| !field.proto3_optional())?;
     Some(message.oneof_decl.get(usize::try_from(index).ok()?)?.name())
@@ -217,7 +218,8 @@ fn compare_fields(
     }
 }
 
-/// With `allow_alias`, one number may have several names; one that both programs know is enough.
+/// Compares the values of an enum. With `allow_alias`, one number may have several names; one that both programs know
+/// is enough.
 fn compare_values(
     name: &str,
     encoding: Encoding,

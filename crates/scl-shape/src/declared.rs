@@ -44,7 +44,7 @@ pub(crate) enum Item<'d> {
 pub(crate) struct Index<'d> {
     /// The scope of each package.
     packages: HashMap<&'d str, usize>,
-    /// The items in a scope, and the scope of their own if they are messages.
+    /// The items by their scope and name; a message comes with the scope of its nested items.
     items: HashMap<(usize, &'d str), (Item<'d>, usize)>,
 }
 
@@ -74,7 +74,8 @@ impl<'d> Index<'d> {
         self.items.extend(enums.iter().map(|found| ((scope, found.name()), (Item::Enum(found), 0))));
     }
 
-    /// Where the package ends in a full name is not known, so the longest package is tried first.
+    /// Finds an item by its full name. The longest package is tried first, because the name does not show where the
+    /// package ends.
     pub(crate) fn find(&self, name: &str) -> Option<Item<'d>> {
         let dots = name.rmatch_indices('.').map(|(at, _)| (&name[..at], &name[at + 1..]));
         dots.chain([("", name)]).find_map(|(package, path)| {

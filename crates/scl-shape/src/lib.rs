@@ -25,7 +25,7 @@ use prost::Message;
 /// Decodes what a program embeds: a serialized `google.protobuf.FileDescriptorSet`.
 ///
 /// # Errors
-/// The bytes are something else.
+/// The bytes are not a `FileDescriptorSet`.
 pub fn decode(descriptors: &[u8]) -> Result<FileDescriptorSet, DecodeError> {
     FileDescriptorSet::decode(descriptors)
 }

@@ -1,7 +1,8 @@
 //! How much memory a message takes once it is decoded, estimated without decoding it.
 //!
-//! Two bytes can announce a message of hundreds: an empty child in a repeated field. So the length of a frame alone
-//! bounds nothing. The estimate is an upper bound for `prost`, and about one for libprotobuf, `protobuf-c` and upb.
+//! Two bytes of a frame can become a message of hundreds of bytes: an empty child in a repeated field. So the length of
+//! a frame alone does not bound the memory. The estimate is an upper bound for `prost`, and approximately one for
+//! libprotobuf, `protobuf-c` and upb.
 
 mod json;
 mod layout;
@@ -10,7 +11,7 @@ mod protobuf;
 use layout::{Cost, Kind, MessageLayout};
 use prost_types::FileDescriptorSet;
 
-/// What an estimate is for.
+/// The language of the program that decodes the messages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Language {
     /// Messages contain each other in place, and fields that the schema does not have are skipped.
@@ -38,7 +39,7 @@ pub struct MemoryEstimate {
 }
 
 impl MemoryEstimate {
-    /// For messages of this full name. `None` if the files do not declare it or a type that it contains.
+    /// An estimate for messages of this full name. `None` if the files do not declare it or a type that it contains.
     pub fn new(files: &FileDescriptorSet, name: &str, language: Language, format: Format) -> Option<Self> {
         Some(Self { messages: layout::of(files, name, language)?, language, format })
     }
@@ -51,8 +52,8 @@ impl MemoryEstimate {
         }
     }
 
-    /// How much memory decoding a frame takes, in bytes. Of a damaged frame, what the part before the damage takes,
-    /// except that a text which is not JSON is refused by everything.
+    /// Returns how much memory decoding a frame takes, in bytes. For a damaged protobuf frame, that is the memory for
+    /// the part before the damage; damaged JSON is an error, because every decoder refuses it.
     ///
     /// # Errors
     /// The text is not JSON, or nested deeper than 128 levels.

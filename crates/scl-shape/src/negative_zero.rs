@@ -1,5 +1,4 @@
-//! Encoding messages without Rust types with the sign of -0.0, which prost takes for the default of a field and leaves
-//! out.
+//! Encodes dynamic messages without losing -0.0, which prost takes for the default of a field and leaves out.
 //!
 //! Protobuf leaves out only what has the bits of 0.0 (<https://protobuf.dev/programming-guides/proto3/#default>).
 

@@ -12,14 +12,14 @@ use std::collections::HashMap;
 /// Checks the texts of messages of one type.
 #[derive(Debug, Clone)]
 pub struct TextCheck {
-    /// Of the type itself, then of those that it contains, by number: the fields that are texts or contain some.
+    /// For the type itself, then for each type that it contains: the fields that are or contain texts, by number.
     messages: Vec<HashMap<u32, Field>>,
 }
 
 #[derive(Debug, Clone)]
 struct Field {
     name: String,
-    /// The type of a message; `None` for a text.
+    /// The index of the message type; `None` for a text.
     message: Option<usize>,
 }
 
@@ -31,7 +31,7 @@ struct Open<'m> {
 }
 
 impl TextCheck {
-    /// For messages of this full name. `None` if they have no texts, or the files do not declare all types.
+    /// A check for messages of this full name. `None` if they have no texts, or the files do not declare all types.
     pub fn new(files: &FileDescriptorSet, name: &str) -> Option<Self> {
         let types = declared::reachable(files, name)?;
         let index: HashMap<&str, usize> = types.iter().enumerate().map(|(index, (name, _))| (*name, index)).collect();
@@ -60,7 +60,7 @@ impl TextCheck {
     /// Looks for a text that is not UTF-8. Of a damaged frame, the part before the damage is checked.
     ///
     /// # Errors
-    /// The path of its field: `pose.frame`.
+    /// Returns the path of the field with that text: `pose.frame`.
     pub fn check(&self, frame: &[u8]) -> Result<(), String> {
         let mut at = 0;
         let mut open = vec![Open { fields: self.messages.first(), name: "", end: frame.len() }];

@@ -12,7 +12,7 @@ use std::os::unix::fs::MetadataExt;
 
 const PAGE: usize = 4096;
 
-/// What is reserved in the segment that samples are lent from at present.
+/// The memory that is reserved in the segment from which samples are currently lent.
 #[derive(Debug, Default)]
 pub(crate) struct Committed {
     segment: Option<Segment>,
@@ -30,7 +30,7 @@ struct Segment {
 }
 
 impl Committed {
-    /// Looks the segment up again with the next sample, because there may be a new one.
+    /// Makes the next sample look the segment up again, because there may be a new one.
     pub(crate) fn grown(&mut self) {
         self.segment = None;
     }
@@ -61,7 +61,8 @@ impl Segment {
         maps.lines().find_map(|line| Self::parse(line, address))
     }
 
-    /// A line is `start-end rw-s offset device inode path`.
+    /// Reads a line of `/proc/self/maps`, `start-end rw-s offset device inode path`. Returns `None` if it does not map
+    /// `address`, or if the file cannot be used.
     fn parse(line: &str, address: usize) -> Option<Self> {
         let mut words = line.split_ascii_whitespace();
         let (start, end) = words.next()?.split_once('-')?;

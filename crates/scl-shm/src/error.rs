@@ -14,13 +14,13 @@ pub enum ShmError {
         action: &'static str,
         /// The file.
         path: PathBuf,
-        /// Why not.
+        /// The cause.
         source: io::Error,
     },
-    /// The system does not allow another thread.
+    /// A thread could not be started.
     #[error("cannot start a thread that removes what killed programs have left")]
     Thread {
-        /// Why not.
+        /// The cause.
         source: io::Error,
     },
     /// iceoryx2 cannot express the folder's path.
@@ -37,12 +37,12 @@ pub enum ShmError {
         /// Its owner.
         owner: u32,
     },
-    /// iceoryx2 refused.
+    /// An operation of iceoryx2 failed.
     #[error("iceoryx2 cannot {action}: {reason}")]
     Engine {
         /// What was tried.
         action: &'static str,
-        /// The engine's name of the error.
+        /// The engine's name for the error.
         reason: String,
     },
     /// The service has settings that no SCL end chooses.
@@ -66,7 +66,7 @@ impl ShmError {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LoanError {
-    /// As much is lent as a connection may have.
+    /// As much is lent as the connection allows.
     #[error("all loans of the connection are in use")]
     TooMany,
     /// Writing to more memory would end the program with SIGBUS.

@@ -1,4 +1,4 @@
-//! Where a node's files are, their names, the lock, and removing unused ones.
+//! The files of a node: their folder, their names, the lock, and the removal of unused ones.
 
 use crate::error::ShmError;
 use crate::limits::FOLDER;
@@ -13,7 +13,8 @@ use std::os::unix::ffi::OsStrExt;
 use std::os::unix::fs::{DirBuilderExt, MetadataExt, OpenOptionsExt, PermissionsExt};
 use std::path::{Path, PathBuf};
 
-/// The name of the folder inside the system's. Endpoints have full stops in their names, so none is in the way.
+/// The name of the folder inside the system's folder. Endpoints have full stops in their names, so none clashes with
+/// it.
 const NAME: &str = "shm";
 /// The longest path of that folder: the engine appends up to 90 bytes, and allows 255.
 const LONGEST: usize = 160;
@@ -22,7 +23,8 @@ const LONGEST: usize = 160;
 #[derive(Debug)]
 pub(crate) struct Folder {
     path: PathBuf,
-    /// What the names of all files in [`FOLDER`] begin with, which belongs to no system: the user and the folder.
+    /// Prefix of the names of all files in [`FOLDER`], which belongs to no system. The prefix identifies the user and
+    /// the folder.
     prefix: String,
 }
 
@@ -43,7 +45,7 @@ impl Folder {
         Ok(Self { path, prefix })
     }
 
-    /// Returns true if it is the one in the folder of this system.
+    /// Returns true if this is the folder of this system.
     pub(crate) fn is_of(&self, system: &Path) -> bool {
         self.path.parent() == Some(system)
     }
@@ -58,7 +60,8 @@ impl Folder {
         &self.prefix
     }
 
-    /// Waits until no other program creates, cleans or removes here; until the returned value is dropped.
+    /// Waits until no other program creates, cleans up or removes files here, and locks the folder until the returned
+    /// value is dropped.
     pub(crate) fn lock(&self) -> Result<File, ShmError> {
         let path = self.path.join("lock");
         let failed = |action, source| ShmError::Io { action, path: path.clone(), source };
@@ -94,8 +97,8 @@ impl Folder {
         Ok(())
     }
 
-    /// Takes the rights of other users away. The engine leaves one file open to all, its counter of nodes: a user who
-    /// can write to it can truncate it, and so end the next program that reads it.
+    /// Removes the access rights of other users. The engine leaves one file accessible to everyone, its counter of
+    /// nodes: a user who can write to it can truncate it, and so crash the next program that reads it.
     pub(crate) fn close_to_others(&self) {
         for path in self.files() {
             // Another process may have removed the file in the meantime.
@@ -106,8 +109,8 @@ impl Folder {
         }
     }
 
-    /// Removes all files if no living program has a node here any more, also those of killed programs. Called under the
-    /// lock.
+    /// Removes all files, including those of killed programs, if no running program has a node here any more. The
+    /// caller must hold the lock.
     pub(crate) fn remove_if_unused(&self) {
         let Ok(config) = self.config() else { return };
         let mut used = false;

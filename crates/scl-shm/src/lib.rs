@@ -40,6 +40,6 @@ pub use receiver::SampleReceiver;
 pub use sender::SampleSender;
 pub use service::ServiceName;
 
-/// Two ends can share memory if these are equal: the version of the engine, and the width of pointers, which the layout
-/// of its files depends on.
+/// Two ends can share memory if their formats are equal: the version of the engine, and the width of pointers, on which
+/// the layout of its files depends.
 pub const FORMAT: &str = if cfg!(target_pointer_width = "64") { "iceoryx2-0.10-64" } else { "iceoryx2-0.10-32" };

@@ -2,17 +2,17 @@
 
 /// Where the operating system keeps shared memory.
 pub(crate) const FOLDER: &str = "/dev/shm";
-/// The most samples that may be sent and not acknowledged.
+/// Maximum number of unacknowledged samples.
 const IN_FLIGHT: usize = 64;
-/// How many views a program may hold beside what waits in its gate's queue, without being given copies.
+/// How many views a program may hold, besides those in its gate's queue, before it receives copies.
 const VIEWS: usize = 8;
 /// The longest queue whose samples all stay in shared memory. The engine's files grow with it.
 const QUEUE: usize = 512;
-/// Memory that is always left free: for the files of connections, and for what other programs take between a look at
-/// the free memory and a write.
+/// Memory that is always left free: for the files of connections, and for what other programs allocate between the
+/// check of the free memory and a write.
 const SPARE: u64 = 2 << 20;
 const PAGE: u64 = 4096;
-/// The most bytes that the engine puts before the payload of a sample.
+/// Maximum number of bytes that the engine puts before the payload of a sample.
 pub(crate) const HEADERS: usize = 256;
 
 /// The limits of one connection, which follow from the receiving gate's queue and from its longest message.
@@ -30,18 +30,18 @@ impl Limits {
         Self { queue: kept.saturating_sub(VIEWS), longest: 0 }
     }
 
-    /// The most samples that may be sent and not acknowledged: the queue, from 1 to 64.
+    /// Maximum number of unacknowledged samples: the queue, from 1 to 64.
     pub fn in_flight(&self) -> usize {
         self.queue.clamp(1, IN_FLIGHT)
     }
 
-    /// The most samples that the receiving end keeps: its queue and 8 views. What exceeds this is copied.
+    /// Maximum number of samples that the receiving end keeps: its queue and 8 views. Any more are copied.
     pub fn kept(&self) -> usize {
         self.queue.clamp(1, QUEUE) + VIEWS
     }
 
-    /// The most that are lent at the same time: as many as may wait behind those that are in flight, one that is
-    /// filled, and one more, only for a moment, to copy a message into it.
+    /// Maximum number of samples that are lent at the same time: as many as may wait behind those in flight, one that
+    /// is being filled, and briefly one more, into which a message is copied.
     pub fn loans(&self) -> usize {
         self.in_flight() + 2
     }
@@ -52,13 +52,13 @@ impl Limits {
         self.in_flight() + self.kept() + 1 + self.loans()
     }
 
-    /// The memory that the connection takes if all samples are in use and as long as they may be.
+    /// The memory in bytes that the connection takes if all samples are in use and have the maximum length.
     pub fn needed(&self) -> u64 {
         let sample = (self.longest as u64).saturating_add(HEADERS as u64).div_ceil(PAGE).saturating_mul(PAGE);
         sample.saturating_mul(self.samples() as u64)
     }
 
-    /// Checks whether there is as much memory as the connection may need.
+    /// Checks whether as much memory is free as the connection may need.
     ///
     /// # Errors
     /// [`TooLittle`], with both sizes.
@@ -86,7 +86,7 @@ pub fn available() -> u64 {
     }
 }
 
-/// Checks that so much is free, and something to spare.
+/// Checks that this many bytes are free, in addition to [`SPARE`].
 pub(crate) fn require(bytes: u64) -> Result<(), TooLittle> {
     let (needed, available) = (bytes.saturating_add(SPARE), available());
     if needed <= available { Ok(()) } else { Err(TooLittle { needed, available }) }

@@ -13,7 +13,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub(crate) type Uninitialised = SampleMutUninit<Engine, [MaybeUninit<u8>], ()>;
 pub(crate) type Sample = SampleMut<Engine, [u8], ()>;
 
-/// A sample that is given back and counted until then. Not in a forked child: the parent still uses it.
+/// A sample that is counted until it is given back, when this is dropped. A forked child does not give it back, because
+/// the parent still uses it.
 #[derive(Debug)]
 pub(crate) struct Held<S> {
     pub(crate) sample: S,
@@ -42,10 +43,10 @@ impl Drop for Counted {
 /// Memory lent by a [`SampleSender`](crate::SampleSender). Dropping it gives it back, except in a forked child: the
 /// parent may still fill it.
 ///
-/// What it contains at first is unspecified: zeros or parts of older messages of the same connection.
+/// Its initial content is unspecified: zeros or parts of older messages of the same connection.
 pub struct LoanedSample {
     pub(crate) held: ProcessOwned<Held<Sample>>,
-    /// Who lent it.
+    /// The id of the port that lent it.
     pub(crate) sender: u128,
 }
 
@@ -55,7 +56,7 @@ pub struct LoanedSample {
 unsafe impl Sync for LoanedSample {}
 
 impl LoanedSample {
-    /// Sends it. Returns the number of receivers that got it.
+    /// Sends the sample. Returns the number of receivers that it reached.
     pub(crate) fn send(self) -> Result<usize, SendError> {
         self.held.into_inner().sample.send()
     }

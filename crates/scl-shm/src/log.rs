@@ -1,11 +1,11 @@
-//! What iceoryx2 logs, at the level of debugging.
+//! Logs the messages of iceoryx2 at level `debug`.
 
 use iceoryx2::prelude::{LogLevel, set_log_level, set_logger};
 use std::fmt::Arguments;
 use std::sync::Once;
 
-/// iceoryx2 warns of much that is expected here, such as a peer that was killed. What matters to users, SCL says
-/// itself.
+/// Logs everything at level `debug`: iceoryx2 warns about much that is expected here, such as a peer that was killed.
+/// SCL itself reports what matters to users.
 struct Debugging;
 
 impl iceoryx2_log_types::Log for Debugging {
@@ -14,7 +14,7 @@ impl iceoryx2_log_types::Log for Debugging {
     }
 }
 
-/// Directs the log once. Its messages are not even formatted unless the program logs at the level of debugging.
+/// Installs the logger once. Messages are not even formatted unless the program logs at level `debug`.
 pub(crate) fn direct() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {

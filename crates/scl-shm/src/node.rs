@@ -19,7 +19,7 @@ use crate::service::{Port, ServiceName};
 #[cfg(test)]
 type Builder = iceoryx2::service::builder::publish_subscribe::Builder<[u8], (), Engine>;
 
-/// How long the cleaning of what killed programs have left may wait for another program that cleans as well.
+/// How long the cleanup after killed programs may wait for another program that is cleaning up.
 const CLEANING: Duration = Duration::from_secs(1);
 
 /// Shared memory among the programs of a system.
@@ -31,8 +31,8 @@ pub struct SharedMemory {
     process: ProcessMark,
 }
 
-/// The nodes of this process, and those that it has inherited of the one that it was forked from. Two of one process in
-/// one folder would each take the other's files for those of a stranger.
+/// The nodes of this process, and those that it has inherited from the process that it was forked from. Two nodes of
+/// one process in one folder would each take the other's files for those of a stranger.
 static NODES: LazyLock<Mutex<HashMap<PathBuf, Weak<SharedMemory>>>> = LazyLock::new(Mutex::default);
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

@@ -50,13 +50,14 @@ impl SharedMemory {
 }
 
 impl SampleReceiver {
-    /// The most samples that may be sent and not acknowledged.
+    /// Maximum number of unacknowledged samples.
     pub fn in_flight(&self) -> usize {
         self.limits.in_flight()
     }
 
-    /// Receives the sample that the peer has announced: called exactly once for each. The memory goes back to the peer
-    /// when the returned bytes and all their clones are dropped. If too many are kept already, it is a copy.
+    /// Receives the sample that the peer has announced. Must be called exactly once for each announcement. The memory
+    /// goes back to the peer when the returned bytes and all their clones are dropped. If too many samples are kept
+    /// already, the bytes are a copy.
     ///
     /// # Errors
     /// [`ReceiveError`] if there is no such sample.

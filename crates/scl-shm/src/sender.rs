@@ -19,7 +19,7 @@ pub struct SampleSender {
     port: Publisher<Engine, [u8], ()>,
     id: u128,
     limits: Limits,
-    /// The longest message for which the present segment has been found to have room.
+    /// The longest message for which the current segment is known to have room.
     longest: usize,
     committed: Committed,
     loans: Arc<AtomicUsize>,
@@ -28,8 +28,8 @@ pub struct SampleSender {
 }
 
 impl SharedMemory {
-    /// Opens the sending end of a connection whose receiving end is open. Messages of `expected` bytes need no second
-    /// segment.
+    /// Opens the sending end of a connection whose receiving end is open. Messages of up to `expected` bytes need no
+    /// second segment.
     ///
     /// # Errors
     /// [`ShmError`] if the service does not exist, or is not one that [`receiver`](Self::receiver) has created.
@@ -53,12 +53,12 @@ impl SharedMemory {
 }
 
 impl SampleSender {
-    /// The most samples that may be sent and not acknowledged. What is sent beyond is lost.
+    /// Maximum number of unacknowledged samples. Samples that are sent beyond it are lost.
     pub fn in_flight(&self) -> usize {
         self.limits.in_flight()
     }
 
-    /// Lends memory to be filled. One loan is left for [`copy`](Self::copy).
+    /// Lends memory to be filled. One loan is reserved for [`copy`](Self::copy).
     ///
     /// # Errors
     /// [`LoanError`] if no memory can be lent now.
@@ -106,7 +106,7 @@ impl SampleSender {
         sample.sender == self.id
     }
 
-    /// Sends a sample that this end has lent. The receiving end has to be told.
+    /// Sends a sample that this end has lent. The caller has to announce it to the receiving end.
     ///
     /// # Errors
     /// [`SendError`]; the sample is gone.

@@ -10,7 +10,7 @@ use std::collections::hash_map::RandomState;
 use std::fmt;
 use std::hash::{BuildHasher, Hasher};
 
-/// Enough for any type, and a line of most caches.
+/// Alignment of payloads: enough for any type, and a cache line on most processors.
 const ALIGNMENT: usize = 64;
 
 pub(crate) type Port = PortFactory<Engine, [u8], ()>;
@@ -33,7 +33,7 @@ impl fmt::Display for ServiceName {
     }
 }
 
-/// Creates the service; the receiving end does, because its queue decides on the settings.
+/// Creates the service. The receiving end does this, because its queue determines the settings.
 pub(crate) fn create(node: &Node<Engine>, name: ServiceName, limits: &Limits) -> Result<Port, ShmError> {
     let failed = |error: &dyn fmt::Debug| ShmError::engine("create the connection's service", error);
     let name = name.to_string().as_str().try_into().map_err(|error| failed(&error))?;
@@ -52,7 +52,8 @@ pub(crate) fn create(node: &Node<Engine>, name: ServiceName, limits: &Limits) ->
     settings.create().map_err(|error| failed(&error))
 }
 
-/// Opens the service that the receiving end has created, and returns its limits: the longest message is not known.
+/// Opens the service that the receiving end has created. Also returns its limits, except for the longest message, which
+/// is not known.
 pub(crate) fn open(node: &Node<Engine>, name: ServiceName) -> Result<(Port, Limits), ShmError> {
     let failed = |error: &dyn fmt::Debug| ShmError::engine("open the connection's service", error);
     let name = name.to_string().as_str().try_into().map_err(|error| failed(&error))?;

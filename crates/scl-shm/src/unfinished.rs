@@ -1,6 +1,6 @@
-//! Files that a killed program had created and not given a length yet.
+//! Files that a killed program had created, but not yet given a length.
 //!
-//! To the engine, an empty file is one that another program is creating, so it waits, without a limit.
+//! The engine takes an empty file for one that another program is creating, and waits for it without a limit.
 
 use crate::error::ShmError;
 use crate::folder::Folder;
@@ -13,8 +13,8 @@ use std::time::Duration;
 /// A file that is found empty twice, this long apart, is abandoned: a living program needs some microseconds.
 const ABANDONED: Duration = Duration::from_millis(200);
 
-/// Does something for which the engine opens files of killed programs, and removes abandoned ones until it is done. The
-/// engine then goes on without them.
+/// Runs `work`, in which the engine opens files of killed programs, and removes abandoned ones until it is done. The
+/// engine then continues without them.
 pub(crate) fn removing<T>(folder: &Folder, work: impl FnOnce() -> Result<T, ShmError>) -> Result<T, ShmError> {
     let (working, end) = mpsc::channel::<()>();
     thread::scope(|scope| {
@@ -34,7 +34,7 @@ pub(crate) fn removing<T>(folder: &Folder, work: impl FnOnce() -> Result<T, ShmE
     })
 }
 
-/// Removes the files that are empty and were, and returns the others that are.
+/// Removes the files that are still empty, and returns those that are newly empty.
 fn remove_those_that_stay(folder: &Folder, were_empty: &[PathBuf]) -> Vec<PathBuf> {
     let is_empty = |path: &PathBuf| fs::symlink_metadata(path).is_ok_and(|found| found.len() == 0);
     let (stay, are_new): (Vec<_>, Vec<_>) = folder.files().filter(is_empty).partition(|path| were_empty.contains(path));

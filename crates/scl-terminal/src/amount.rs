@@ -11,7 +11,7 @@ pub fn bytes_text(bytes: f64) -> String {
     if unit == 1.0 { format!("{bytes:.0} B") } else { format!("{} {word}", three_digits(bytes / unit)) }
 }
 
-/// A number with about three digits, and no more than two behind the point: `0.05`, `12.5`, `1000`.
+/// A number with about three digits, at most two of them after the decimal point: `0.05`, `12.5`, `1000`.
 pub fn three_digits(number: f64) -> String {
     match number {
         ..10.0 => format!("{number:.2}"),
@@ -20,7 +20,7 @@ pub fn three_digits(number: f64) -> String {
     }
 }
 
-/// How long something took or is ago, in its largest units: `0.5 s`, `12 s`, `3 min`, `2 h 5 min`, `4 d 1 h`.
+/// A duration or an age in its largest units: `0.5 s`, `12 s`, `3 min`, `2 h 5 min`, `4 d 1 h`.
 pub fn age_text(age: Duration) -> String {
     let seconds = age.as_secs();
     let two = |large: u64, large_word, small: u64, small_word| match small {

@@ -3,13 +3,14 @@
 use crate::Problem;
 use std::error::Error;
 
-/// An error with its causes.
+/// Converts an error and its causes into a problem.
 pub fn problem_of(error: &dyn Error) -> Problem {
     let (message, help) = message_and_help(error);
     help.into_iter().fold(Problem::new(message), Problem::help)
 }
 
-/// What is wrong, with all causes, and what to do, which is in the second line of the error's text or of a cause's.
+/// Returns the messages of an error and all its causes, joined by colons, and the help: the first text that follows a
+/// line break and `help: ` in one of these messages.
 pub fn message_and_help(error: &dyn Error) -> (String, Option<String>) {
     let (mut messages, mut help) = (Vec::new(), None);
     let mut next = Some(error);

@@ -1,10 +1,10 @@
-//! Text of others on the terminal: what would move the cursor, change colours or reorder characters is shown instead.
+//! Untrusted text on the terminal: characters that would move the cursor, change colours or reorder text are escaped.
 
 use std::borrow::Cow;
 use std::fmt::Write;
 
 /// Shows control characters and characters that change the direction of text as escapes: `\n`, `\t`, `\u{1b}`.
-/// Everything else stays as it is, so a backslash may also be one of the text.
+/// Everything else stays as it is, so a backslash may also come from the text itself.
 pub fn escape(text: &str) -> Cow<'_, str> {
     if !text.contains(is_unsafe) {
         return Cow::Borrowed(text);
@@ -19,7 +19,7 @@ pub fn escape(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// [`escape`] for bytes that may not be UTF-8: those that are not are shown as `\xff`.
+/// [`escape`] for bytes that may not be UTF-8: invalid bytes are shown as `\xff`.
 pub fn escape_bytes(bytes: &[u8]) -> String {
     let mut shown = String::with_capacity(bytes.len());
     for chunk in bytes.utf8_chunks() {
@@ -32,8 +32,8 @@ pub fn escape_bytes(bytes: &[u8]) -> String {
     shown
 }
 
-/// Escapes what `serde_json` leaves as it is in JSON text and a terminal would obey, with JSON's own escapes, so that
-/// the value stays the same.
+/// Escapes characters of JSON text that `serde_json` leaves as they are but a terminal would interpret. They become
+/// escapes of JSON, so the value stays the same.
 pub fn escape_json(json: &str) -> Cow<'_, str> {
     // Line breaks between values are not part of a string; inside strings, they are already escaped.
     let is_unsafe = |c: char| c != '\n' && is_unsafe(c);
@@ -51,8 +51,8 @@ pub fn escape_json(json: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// Control characters, and those of Unicode that change the direction of text (UAX 9) or break lines: they can make
-/// text look like another one (CVE-2021-42574).
+/// Whether this is a control character, or one that changes the direction of text (UAX 9) or breaks lines. Such
+/// characters can make a text look like a different one (CVE-2021-42574).
 fn is_unsafe(c: char) -> bool {
     let changes_direction = matches!(
         c,

@@ -1,9 +1,8 @@
-//! Text for the user: all output of the command line is written here, so that a failed write is noticed once and for
-//! all.
+//! Text for the user: all output of the command line is written here, so that failed writes are detected in one place.
 //!
-//! A command prints without looking at errors, and its `main` ends with [`finish_output`], which reports the first one.
-//! A stream looks at [`output_is_closed`] after each message, because no more can be printed. Lints forbid
-//! other ways to standard output.
+//! A command prints without checking for errors, and its `main` ends with [`finish_output`], which reports the first
+//! one. A command that prints a stream checks [`output_is_closed`] after each message, to end when no more can be
+//! printed. Lints forbid other ways of writing to standard output.
 
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::process::ExitCode;
@@ -15,7 +14,7 @@ const COULD_NOT_WRITE: u8 = 2;
 /// The first failed write to standard output.
 static FAILURE: OnceLock<io::Error> = OnceLock::new();
 
-/// Writes to standard output; the text brings its own line ends. After a failed write, nothing more is written.
+/// Writes to standard output without adding a line break. After a failed write, nothing more is written.
 pub fn print_out(text: &str) {
     print_out_bytes(text.as_bytes());
 }
@@ -61,7 +60,7 @@ pub fn finish_output(code: ExitCode) -> ExitCode {
     }
 }
 
-/// Writes to standard error; the text brings its own line ends.
+/// Writes to standard error without adding a line break.
 pub fn print_err(text: &str) {
     // There is nowhere left to report a failure.
     let _failed = io::stderr().lock().write_all(text.as_bytes());

@@ -3,10 +3,10 @@
 use scl_text::suggest::closest_name;
 use std::fmt;
 
-/// One problem: what is wrong, where, and the way out.
+/// One problem: what is wrong, where, and what to do about it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
-    /// The text of a problem that the checker has found, which has all of it.
+    /// The whole text of a diagnostic of the checker; the other fields are not used then.
     rendered: Option<String>,
     message: String,
     place: Option<String>,
@@ -20,7 +20,7 @@ impl Problem {
         Self { rendered: None, message: message.into(), place: None, helps: Vec::new(), notes: Vec::new() }
     }
 
-    /// A diagnostic of the checker, as its text.
+    /// A problem with the whole text of a diagnostic of the checker.
     pub fn rendered(text: impl Into<String>) -> Self {
         Self { rendered: Some(text.into()), ..Self::new("") }
     }
@@ -30,30 +30,30 @@ impl Problem {
         &self.message
     }
 
-    /// Says where: `launch.yaml:3:5`.
+    /// Sets the place of the problem: `launch.yaml:3:5`.
     pub fn at(mut self, place: impl Into<String>) -> Self {
         self.place = Some(place.into());
         self
     }
 
-    /// Adds a way out.
+    /// Adds a help: what the user can do.
     pub fn help(mut self, text: impl Into<String>) -> Self {
         self.helps.push(text.into());
         self
     }
 
-    /// Adds the rule, or the valid names.
+    /// Adds a note, for example with the rule or the valid names.
     pub fn note(mut self, text: impl Into<String>) -> Self {
         self.notes.push(text.into());
         self
     }
 
-    /// Suggests the one of `names` that `wrong` probably means, if one is near enough.
+    /// Adds a help that suggests the one of `names` that is most similar to `wrong`, if one is similar enough.
     pub fn did_you_mean<'n>(self, wrong: &str, names: impl IntoIterator<Item = &'n str>) -> Self {
         self.did_you_mean_or(wrong, names, |problem| problem)
     }
 
-    /// [`did_you_mean`](Self::did_you_mean); if no name is near enough, adds something else.
+    /// As [`did_you_mean`](Self::did_you_mean), but applies `otherwise` if no name is similar enough.
     pub fn did_you_mean_or<'n>(
         self,
         wrong: &str,

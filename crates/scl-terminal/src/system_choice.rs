@@ -3,11 +3,12 @@
 use crate::{Problem, quoted_list};
 use std::ffi::OsString;
 
-/// The system that a command means: the one named with `--system`, else `$SCL_SYSTEM`, else the only one that runs,
-/// else that of the topology file in the working folder, which `here` reads. `None` if none of that says anything.
+/// Returns the system that a command means: the one named with `--system`, else `$SCL_SYSTEM`, else the only one that
+/// runs, else that of the topology file in the working folder, which `here` reads. `None` if none of these names a
+/// system.
 ///
 /// # Errors
-/// Several run, and the topology file is not that of one of them; or the variable is not text.
+/// Several systems run, and the topology file is not that of one of them; or the variable is not UTF-8.
 pub fn choose_system(
     name: Option<&str>,
     variables: &dyn Fn(&str) -> Option<OsString>,
@@ -32,7 +33,7 @@ pub fn choose_system(
 /// The system that the user has named: with `--system`, else with `$SCL_SYSTEM`.
 ///
 /// # Errors
-/// The variable is not text.
+/// The variable is not UTF-8.
 pub fn named_system(
     name: Option<&str>,
     variables: &dyn Fn(&str) -> Option<OsString>,

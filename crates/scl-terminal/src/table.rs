@@ -48,7 +48,7 @@ impl Table {
         Self { aligns, headings: Some(headings), rows: Vec::new(), indent: 0 }
     }
 
-    /// A table with columns of text, and columns of numbers at their right.
+    /// A table with columns of text, followed by columns of numbers.
     pub fn with_headings<'h>(texts: &[&'h str], numbers: &[&'h str]) -> Self {
         let texts = texts.iter().map(|heading| (*heading, Align::Left));
         Self::new(texts.chain(numbers.iter().map(|heading| (*heading, Align::Right))))
@@ -73,7 +73,7 @@ impl Table {
         self.rows.push(row);
     }
 
-    /// Whether there is no row.
+    /// Whether the table has no rows.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
@@ -122,7 +122,8 @@ impl Table {
     }
 }
 
-/// The width of the terminal; without limit if standard output is none, so that programs and files get everything.
+/// Returns the width of the terminal, or `usize::MAX` if standard output is not a terminal, so that pipes and files get
+/// everything.
 pub fn output_width() -> usize {
     let terminal = output_is_terminal().then(|| rustix::termios::tcgetwinsize(stdout()).ok()).flatten();
     // A terminal that does not know its size reports 0.

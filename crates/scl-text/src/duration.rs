@@ -27,7 +27,7 @@ impl DurationError {
     }
 }
 
-/// The duration that a text such as `500ms`, `1.5 s` or `2min` means.
+/// Parses a duration such as `500ms`, `1.5 s` or `2min`.
 ///
 /// # Errors
 ///

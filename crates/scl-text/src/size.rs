@@ -3,7 +3,7 @@
 /// The units and their bytes, the smallest first.
 pub const UNITS: [(&str, u64); 4] = [("B", 1), ("KiB", 1 << 10), ("MiB", 1 << 20), ("GiB", 1 << 30)];
 
-/// Units that people write for those of [`UNITS`]; compared in lower case.
+/// Other spellings of the units in [`UNITS`]; compared in lower case.
 const OTHER_UNITS: [(&str, &[&str]); 4] = [
     ("B", &["b", "byte", "bytes"]),
     ("KiB", &["k", "kb", "ki", "kib"]),
@@ -25,7 +25,7 @@ pub enum SizeError {
     TooLarge,
 }
 
-/// The number of bytes that a text such as `512KiB` or `8 MiB` means.
+/// Parses a size such as `512KiB` or `8 MiB` into a number of bytes.
 ///
 /// # Errors
 ///
@@ -51,8 +51,9 @@ pub fn text(bytes: u64) -> String {
 
 /// The sizes that a malformed text may have meant, the most likely first.
 ///
-/// A number without a unit means bytes, written in two units if they are a round number; a small one may be in any
-/// unit. Other spellings of a unit, such as `8 mb`, and fractions, such as `1.5MiB`, are written as SCL wants them.
+/// A number without a unit means bytes, and is also suggested in a larger unit if it is a round number; a small number
+/// may be in any unit. Other spellings of a unit, such as `8 mb`, and fractions, such as `1.5MiB`, are rewritten as SCL
+/// expects them.
 pub fn suggestions(malformed: &str) -> Vec<String> {
     let (number, unit) = split(malformed);
     if unit.is_empty() {

@@ -8,7 +8,7 @@ pub const MOST: usize = 3;
 /// Longer words, in bytes, are not compared: the comparison takes quadratic time.
 const LONGEST: usize = 128;
 
-/// The start of a name is a hint only from this many letters on.
+/// Minimum length of a word, in bytes, to count as the abbreviation of a name that starts with it.
 const ABBREVIATION: usize = 3;
 
 /// The candidate that looks most like `word`, if one is near enough; see [`nearest`]. Of equally near ones, the first.
@@ -18,9 +18,9 @@ pub fn closest_name<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
 
 /// The candidates that look most like `word`.
 ///
-/// One that is equal, but for its case, is the nearest; the others are within a third of the word's length of edits,
-/// at least one, or start with the word. All that are given are equally near, and keep their order. `count_steps` is
-/// told what each comparison costs.
+/// A candidate that differs only in case is the nearest. Others start with the word, or are within a third of its
+/// length in edits (one edit for a word of two letters). All that are returned are equally near, and keep their order.
+/// `count_steps` receives the cost of each comparison.
 pub fn nearest<'a>(
     word: &str,
     candidates: impl IntoIterator<Item = &'a str>,
@@ -44,7 +44,7 @@ pub fn nearest<'a>(
     near.into_iter().map(|(_, candidate)| candidate).collect()
 }
 
-/// The candidates that one typing error makes of a word. `count_steps` is told what each comparison costs.
+/// The candidates that differ from a word by one typing error. `count_steps` receives the cost of each comparison.
 pub fn one_edit_away<'a>(
     word: &str,
     candidates: impl IntoIterator<Item = &'a str>,
@@ -53,7 +53,7 @@ pub fn one_edit_away<'a>(
     candidates.into_iter().filter(move |candidate| distance(word, candidate, 1, &count_steps) == Some(1))
 }
 
-/// How far two lower-case words are apart, if not more than `limit`.
+/// The number of edits between two lower-case words; `None` if it is more than `limit`.
 fn distance(word: &str, candidate: &str, limit: usize, count_steps: impl Fn(usize)) -> Option<usize> {
     // An abbreviation, such as `que` for `queue`, counts as at most `limit` edits, however much is missing.
     if word.len() >= ABBREVIATION && candidate.len() > word.len() && candidate.starts_with(word) {
@@ -72,8 +72,8 @@ fn distance(word: &str, candidate: &str, limit: usize, count_steps: impl Fn(usiz
     Some(distance).filter(|distance| *distance <= limit)
 }
 
-/// What is left of two words without their common start and end, which do not change the distance: names of one file
-/// often differ by a number only, and the comparison takes quadratic time.
+/// Returns two words without their common start and end, which do not change the distance. This saves time: names in
+/// one file often differ by a number only, and the comparison takes quadratic time.
 fn without_common_ends<'a>(one: &'a str, other: &'a str) -> (&'a str, &'a str) {
     let same = |(one, other): &(char, char)| one == other;
     let start: usize = one.chars().zip(other.chars()).take_while(same).map(|(letter, _)| letter.len_utf8()).sum();

@@ -9,7 +9,7 @@ pub(crate) fn to_base64(bytes: &[u8]) -> String {
     STANDARD.encode(bytes)
 }
 
-/// Bytes from base64: of both alphabets, with or without padding, and with white space.
+/// Decodes base64 of either alphabet, with or without padding; white space is ignored.
 pub(crate) fn from_base64(text: &str) -> Result<Vec<u8>, String> {
     const LENIENT: GeneralPurpose = GeneralPurpose::new(
         &base64::alphabet::STANDARD,

@@ -116,7 +116,7 @@ impl Node {
     }
 }
 
-/// Whether one of the nodes holds, or does not hold.
+/// Whether `holds` returns `expected` for at least one of the nodes.
 fn is_one(nodes: &[Node], message: &Value, expected: bool) -> Result<bool, Mismatch> {
     for node in nodes {
         if node.holds(message)? == expected {
@@ -165,7 +165,7 @@ fn equal(left: &Value, right: &Value) -> bool {
     compare(left, right).map_or_else(|| left == right, Ordering::is_eq)
 }
 
-/// The order of two numbers or two texts.
+/// The order of two numbers or two texts; `None` for other values and for NaN.
 fn compare(left: &Value, right: &Value) -> Option<Ordering> {
     if let (Value::Text(left), Value::Text(right)) = (left, right) {
         return Some(left.cmp(right));
@@ -176,7 +176,7 @@ fn compare(left: &Value, right: &Value) -> Option<Ordering> {
     }
 }
 
-/// Whole numbers are compared as such: a float has not enough digits for all of them.
+/// Whole numbers are compared as integers, because a float cannot represent all of them exactly.
 fn integer(value: &Value) -> Option<i128> {
     match value {
         Value::Int(number) => Some((*number).into()),

@@ -36,9 +36,9 @@ pub struct DecodeError {
     pub length: usize,
     /// What it should be: `` a protobuf message `rover.Measurement` ``.
     pub expected: String,
-    /// Where in the message; empty at the top, and where the codec does not say.
+    /// The path in the message; empty at the top, and if the codec does not report it.
     pub path: String,
-    /// The number of bytes before the mistake, where the codec says so.
+    /// The number of bytes before the mistake, if the codec reports it.
     pub offset: Option<usize>,
     /// What is wrong.
     pub reason: String,
@@ -91,7 +91,7 @@ impl Mismatch {
         self
     }
 
-    /// The error as one of what contains the value; `segment` is `field` or `[2]`.
+    /// Turns the error into one of the containing value, by putting `segment` (`field` or `[2]`) before the path.
     pub(crate) fn below(mut self, segment: &str) -> Self {
         let rest = if self.path.starts_with('[') || self.path.is_empty() { "" } else { "." };
         self.path = format!("{segment}{rest}{}", self.path);

@@ -57,7 +57,8 @@ impl FieldKind {
         self.family().zip(other.family()).is_none_or(|(own, others)| own == others)
     }
 
-    /// The word of one of the kinds that are compared with each other; `None` for those that are compared with all.
+    /// The word of a group of kinds that can be compared with each other; `None` for kinds that can be compared with
+    /// all.
     fn family(&self) -> Option<&'static str> {
         match self {
             Self::Unknown | Self::Null => None,

@@ -1,8 +1,8 @@
-//! How much one message may unfold into. Payloads may come from anybody who can write to a socket or a file.
+//! Limits for the decoding of one message. Payloads may come from anybody who can write to a socket or a file.
 
 use std::cell::Cell;
 
-/// Maximum depth of lists, maps and messages within each other, as of the codecs that programs use.
+/// Maximum nesting depth of lists, maps and messages, which is that of the codec `protobuf`.
 pub(crate) const MAX_DEPTH: usize = 100;
 
 /// Maximum number of values in one message. A value takes about 100 bytes while it is decoded, its text a byte or more,
@@ -27,7 +27,7 @@ impl Budget {
         Self(Cell::new(MAX_VALUES))
     }
 
-    /// Takes room for a number of values.
+    /// Takes a number of values from the budget.
     pub(crate) fn take(&self, count: usize) -> Result<(), Exceeded> {
         self.0.set(self.0.get().checked_sub(count).ok_or(Exceeded::Values)?);
         Ok(())

@@ -31,7 +31,7 @@ enum Form {
 }
 
 impl MessageType {
-    /// The messages of a type in a codec; both as in a plan. `descriptors` is a serialized
+    /// The messages of a type in a codec, both named as in a plan. `descriptors` is a serialized
     /// `google.protobuf.FileDescriptorSet`.
     ///
     /// The messages of a codec that cannot be read without the program's own type are opaque: they are shown as bytes.
@@ -69,7 +69,7 @@ impl MessageType {
         matches!(self.form, Form::Opaque { .. })
     }
 
-    /// Returns true if the fields of a message are known without one.
+    /// Returns true if the fields of messages are known before one is decoded.
     pub fn is_described(&self) -> bool {
         self.descriptor().is_some()
     }
@@ -108,19 +108,20 @@ impl MessageType {
         }
     }
 
-    /// [`decode`](Self::decode), with bytes and the reason in place of an error.
+    /// Like [`decode`](Self::decode), but returns the bytes and the reason instead of an error.
     pub fn show(&self, bytes: &[u8]) -> Value {
         self.decode(bytes).unwrap_or_else(|error| Value::Opaque(Opaque::new(bytes, error.to_string())))
     }
 
-    /// A decoded message as it is printed in JSON. Of a type that is described, whole numbers beyond 2^53 are texts, as
-    /// in protobuf's JSON, and [`encode`](Self::encode) takes them back; in other messages they would stay texts.
+    /// Returns a decoded message as it is printed in JSON. If the type is described, whole numbers beyond 2^53 become
+    /// texts, as in protobuf's JSON, and [`encode`](Self::encode) takes them back; other messages are unchanged,
+    /// because in them they would stay texts.
     pub fn for_json(&self, value: Value) -> Value {
         if self.is_described() { value.with_large_numbers_as_texts() } else { value }
     }
 
-    /// Bytes that two messages have in common if they mean the same, whatever the order of their fields and maps; the
-    /// payload itself if it cannot be decoded.
+    /// Returns bytes that are equal for messages with the same meaning, whatever the order of their fields and maps;
+    /// the payload itself if it cannot be decoded.
     pub fn canonical(&self, payload: &[u8]) -> Bytes {
         let value = self.decode(payload).ok().filter(|value| !matches!(value, Value::Opaque(_)));
         let written = value.and_then(|value| write_msgpack(&canonical(&value)).ok());
@@ -164,21 +165,21 @@ impl MessageType {
         Some(protobuf::template(self.descriptor()?))
     }
 
-    /// The paths of all fields of a message that are no messages themselves, as columns of a table; `None` if the type
-    /// is not known.
+    /// The paths of all fields that are not messages themselves, as columns of a table; `None` if the type is not
+    /// known.
     pub fn columns(&self) -> Option<Vec<FieldPath>> {
         Some(protobuf::columns(self.descriptor()?))
     }
 
-    /// Checks that a message may have a field. If the type is not known, every field may be there.
+    /// Checks that a message may have a field. If the type is not known, every field may exist.
     ///
     /// # Errors
-    /// The type has no such field; it says which it has.
+    /// The type has no such field; the error lists its fields.
     pub fn check_field(&self, path: &FieldPath) -> Result<(), Mismatch> {
         self.kind_of(path).map(drop)
     }
 
-    /// What the value at a path may be.
+    /// Returns what kind of value is at a path.
     pub(crate) fn kind_of(&self, path: &FieldPath) -> Result<FieldKind, Mismatch> {
         self.descriptor().map_or(Ok(FieldKind::Unknown), |message| protobuf::kind_of(message, path))
     }

@@ -8,7 +8,7 @@ use thiserror::Error;
 
 /// The way to a value inside a message: names of fields and keys of maps, separated by dots, and indices of lists.
 ///
-/// A name that has other characters than letters, digits, `_`, `-` and `@` stands in quotes: `limits."front left"`, or
+/// A name with characters other than letters, digits, `_`, `-` and `@` stands in quotes: `limits."front left"`, or
 /// `limits["front left"]`. The empty path is the message itself; its text is `.`.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Hash)]
 pub struct FieldPath {
@@ -39,14 +39,14 @@ impl FieldPath {
         })
     }
 
-    /// The path of a field of what this path names.
+    /// The path of a field of the value at this path.
     #[must_use]
     pub fn field(mut self, name: &str) -> Self {
         self.segments.push(Segment::Name(name.to_owned()));
         self
     }
 
-    /// The path of an element of the list that this path names.
+    /// The path of an element of the list at this path.
     #[must_use]
     pub fn element(mut self, index: usize) -> Self {
         self.segments.push(Segment::Index(index));
@@ -58,12 +58,12 @@ impl FieldPath {
         self.segments.is_empty()
     }
 
-    /// Whether this is the other path or below it.
+    /// Whether this path is `other` or lies below it.
     pub fn starts_with(&self, other: &FieldPath) -> bool {
         self.segments.starts_with(&other.segments)
     }
 
-    /// The paths of the parts of a value that are no maps: the columns of a table.
+    /// The paths of the parts of a value that are not maps, or are empty ones, as columns of a table.
     pub fn leaves(value: &Value) -> Vec<FieldPath> {
         let mut leaves = Vec::new();
         add_leaves(value, &FieldPath::default(), &mut leaves);
@@ -117,7 +117,7 @@ fn is_name_character(c: char) -> bool {
     c.is_alphanumeric() || matches!(c, '_' | '-' | '@')
 }
 
-/// A text in quotes, in which `\` takes the next character as it is.
+/// Reads a quoted text, in which `\` escapes the next character, and returns what follows it.
 pub(crate) fn read_quoted(text: &str) -> Result<(String, &str), String> {
     let mut characters = text.char_indices();
     let quote = characters.next().map(|(_, quote)| quote);

@@ -30,7 +30,8 @@ pub(crate) fn decode(message: &MessageDescriptor, bytes: &[u8]) -> Result<Value,
     Ok(to_value::to_value(&decoded, 0))
 }
 
-/// Reads a message from its JSON. As every codec, it skips fields that the type does not have; they are named.
+/// Reads a message from its JSON. Like every codec, it skips fields that the type does not have; [`UNKNOWN`] lists
+/// their names.
 pub(crate) fn from_json(message: &MessageDescriptor, json: &Value) -> Result<Value, Mismatch> {
     let mut unknown = Unknown::Collect(Vec::new());
     let mut value = to_value::to_value(&from_value(message, json, &mut unknown)?, 0);

@@ -1,4 +1,4 @@
-//! JSON, CBOR and MessagePack without a type: bytes that say themselves what they are.
+//! JSON, CBOR and MessagePack without a type: these formats are self-describing.
 
 use crate::base64::from_base64;
 use crate::error::Mismatch;
@@ -59,7 +59,7 @@ fn read_simple_cbor(bytes: &[u8]) -> Result<Value, Wrong> {
     }
 }
 
-/// The library's own texts are those of `Debug`.
+/// Describes an error, because the library's own text is that of `Debug`.
 fn cbor_reason<E>(error: &cbor4ii::serde::DecodeError<E>) -> String {
     use cbor4ii::core::dec::Error as Core;
     use cbor4ii::serde::DecodeError;

@@ -12,7 +12,8 @@ pub use yaml::{ReadError, read_yaml, to_yaml};
 use crate::error::Mismatch;
 use crate::value::{Value, key_text};
 
-/// The bytes of an opaque message: bytes, or a map with `hex` or `text`, whose values are taken as they were written.
+/// Returns the bytes of an opaque message, which is given as bytes, or as a map with `hex` or `text`, whose values are
+/// taken as they were written.
 pub(crate) fn opaque_bytes(value: &Value) -> Result<Vec<u8>, Mismatch> {
     let wrong = |reason: &str| Mismatch::new(reason).help("write `{hex: 01ff}`, `{text: hello}` or `!binary AQL/`");
     let hex = match value {
@@ -30,7 +31,7 @@ pub(crate) fn opaque_bytes(value: &Value) -> Result<Vec<u8>, Mismatch> {
     from_hex(&hex).ok_or_else(|| wrong(&format!("expected pairs of hexadecimal digits, found `{}`", shortened(&hex))))
 }
 
-/// A scalar as it was written; `None` if it is no scalar, or nothing.
+/// A scalar as it was written; `None` for null, and for a value that is not a scalar.
 fn written(value: &Value) -> Option<String> {
     match value.meaning() {
         Value::Text(_) | Value::Bool(_) | Value::Int(_) | Value::Uint(_) | Value::Float(_) => Some(key_text(value)),
@@ -38,7 +39,8 @@ fn written(value: &Value) -> Option<String> {
     }
 }
 
-/// Pairs of digits, perhaps in groups with spaces between them, each perhaps after `0x`.
+/// Parses pairs of hexadecimal digits. They may be in groups with spaces between them, and each group may begin with
+/// `0x`.
 pub(crate) fn from_hex(text: &str) -> Option<Vec<u8>> {
     let mut digits: Vec<u8> = Vec::with_capacity(text.len());
     for group in text.split_ascii_whitespace() {

@@ -1,4 +1,4 @@
-//! A message as a value that has no type of its own.
+//! A message as a dynamically typed value.
 
 mod canonical;
 mod serialize;
@@ -20,7 +20,7 @@ pub enum Value {
     Int(i64),
     /// A whole number above the range of `Int`.
     Uint(u64),
-    /// Any other number. A number of 32 bits is the one with the shortest text that reads back: 1.84, not 1.8400000334.
+    /// Any other number. A 32-bit number becomes the 64-bit one with the same shortest text: 1.84, not 1.8400000334.
     Float(f64),
     /// A text.
     Text(String),
@@ -33,7 +33,7 @@ pub enum Value {
     Map(Vec<(Value, Value)>),
     /// A payload that cannot be decoded without its type.
     Opaque(Opaque),
-    /// A scalar that [`read_yaml`](crate::read_yaml) has read, where its meaning alone loses what was written.
+    /// A scalar that [`read_yaml`](crate::read_yaml) has read, if its meaning alone does not tell how it was written.
     Written(Box<Written>),
 }
 
@@ -42,7 +42,7 @@ pub enum Value {
 pub struct Written {
     /// What was written.
     pub text: String,
-    /// What it means to YAML; no list or map.
+    /// What it means in YAML; never a list or map.
     pub meaning: Value,
 }
 
@@ -61,7 +61,7 @@ impl Opaque {
     /// Maximum number of bytes in `hex`.
     pub const SHOWN: usize = 4096;
 
-    /// Shows bytes.
+    /// A payload of these bytes, and why it is not decoded.
     pub fn new(bytes: &[u8], why: impl Into<String>) -> Self {
         let mut hex: String = bytes.iter().take(Self::SHOWN).map(|byte| format!("{byte:02x}")).collect();
         if bytes.len() > Self::SHOWN {
@@ -70,7 +70,7 @@ impl Opaque {
         Self { length: bytes.len(), hex, why: why.into() }
     }
 
-    /// As the map that is printed.
+    /// Returns the map that is printed.
     pub(crate) fn fields(&self) -> Value {
         let length = i64::try_from(self.length).unwrap_or(i64::MAX);
         Value::fields([("length", length.into()), ("hex", self.hex.as_str().into()), ("why", self.why.as_str().into())])
@@ -83,7 +83,7 @@ impl Value {
         Value::Map(fields.into_iter().map(|(name, value)| (name.into(), value)).collect())
     }
 
-    /// The value of a field, or of the key with this text. `None` if this is no map or has no such key.
+    /// The value of a field, or of the key with this text. `None` if this is not a map or has no such key.
     pub fn get(&self, name: &str) -> Option<&Value> {
         let Value::Map(entries) = self else { return None };
         let is_named = |key: &Value| matches!(key, Value::Text(text) if text == name);
@@ -99,7 +99,8 @@ impl Value {
         }
     }
 
-    /// The value of a number of any kind, to be compared with others. Whole numbers from 2^53 on are rounded.
+    /// A number of any kind as a float, for comparisons; `None` for other values. Whole numbers beyond 2^53 are
+    /// rounded.
     pub fn as_number(&self) -> Option<f64> {
         match self.meaning() {
             Value::Int(number) => Some(*number as f64),
@@ -109,7 +110,8 @@ impl Value {
         }
     }
 
-    /// Whole numbers beyond 2^53 as texts, because most readers of JSON would round them; keys are texts anyway.
+    /// Replaces whole numbers beyond 2^53 by texts, because most readers of JSON would round them; keys are texts
+    /// anyway.
     #[must_use]
     pub fn with_large_numbers_as_texts(self) -> Self {
         match self {
@@ -143,7 +145,7 @@ impl PartialEq for Value {
     }
 }
 
-/// Up to this number, a float has every whole number.
+/// Up to this number, a float represents every whole number exactly.
 const EXACT: u64 = 1 << 53;
 
 /// A key of a map as the text that a field path and JSON use.
@@ -158,7 +160,7 @@ pub fn key_text(key: &Value) -> String {
     }
 }
 
-/// A number of 32 bits as the one of 64 bits with the same shortest text.
+/// Converts a 32-bit number to the 64-bit one with the same shortest text.
 pub(crate) fn widen(number: f32) -> f64 {
     if number.is_finite() { format!("{number:e}").parse().unwrap_or(f64::from(number)) } else { f64::from(number) }
 }

@@ -1,11 +1,11 @@
 //! Accepts the TLS connections of the gateway's network library.
 //!
-//! The library takes its connections from the crate `tls-listener`, with the functions that are here. The crate of that
-//! name in the registry accepts any number of connections, and returns a failed handshake as an error, after which the
-//! library accepts nothing for 100 ms: a thousand connections that break off keep all hosts out for minutes, and every
-//! file descriptor of the gateway with them. This one limits unfinished handshakes, in total and for each address, and
-//! keeps failed ones to itself. Connections that have not sent a whole ClientHello give way first: a host sends it at
-//! once.
+//! The library accepts its connections through the crate `tls-listener`, with the functions that are defined here. The
+//! crate of that name in the registry accepts any number of connections, and returns a failed handshake as an error,
+//! after which the library accepts nothing for 100 ms: a thousand aborted connections keep all hosts out for minutes,
+//! and occupy every file descriptor of the gateway. This crate limits unfinished handshakes, in total and for each
+//! address, and does not return failed ones. Connections that have not sent a whole ClientHello are dropped first,
+//! because a host sends it at once.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
@@ -34,7 +34,7 @@ use tokio_rustls::{LazyConfigAcceptor, TlsAcceptor};
 /// Maximum number of unfinished handshakes: a quarter of the file descriptors that a process has at least. The rest is
 /// for links and for the sockets of this host's components.
 const MOST: usize = 256;
-/// The same for one address.
+/// Maximum number of unfinished handshakes of one address.
 const MOST_OF_ONE: usize = 64;
 
 /// Maximum number of aborted handshakes that the runtime has not dropped yet: they still hold their file descriptors.
@@ -46,19 +46,19 @@ pub struct Builder {
     limit: Duration,
 }
 
-/// A listener with this configuration of TLS.
+/// Returns the settings of a listener with this TLS configuration.
 pub fn builder(acceptor: TlsAcceptor) -> Builder {
     Builder { config: Arc::clone(acceptor.config()), limit: Duration::from_secs(1) }
 }
 
 impl Builder {
-    /// How long a handshake may take. Default: 1 s.
+    /// Sets how long a handshake may take. Default: 1 s.
     pub fn handshake_timeout(&mut self, limit: Duration) -> &mut Self {
         self.limit = limit;
         self
     }
 
-    /// Accepts connections from this socket.
+    /// Creates a listener that accepts connections from this socket.
     pub fn listen(&self, socket: TcpListener) -> TlsListener {
         TlsListener {
             socket,
@@ -147,8 +147,8 @@ impl TlsListener {
         self.abort_surplus(source);
     }
 
-    /// Aborts a handshake of an address that has too many, or of the one that has most: the oldest that has not begun,
-    /// or else the oldest.
+    /// If there are too many handshakes, aborts one: of the newest connection's address if that has too many, otherwise
+    /// of the address that has the most. Takes the oldest one without a ClientHello, or else the oldest.
     fn abort_surplus(&mut self, newest: Source) {
         let of_newest = self.unfinished.iter().filter(|handshake| handshake.source == newest).count();
         let surplus = match (of_newest > MOST_OF_ONE, self.unfinished.len() > MOST) {
@@ -168,7 +168,8 @@ impl TlsListener {
         }
     }
 
-    /// Of several with as many handshakes, one with a handshake that has not begun, and of those the oldest.
+    /// Returns the address with the most unfinished handshakes. Of several, prefers the one that has the oldest
+    /// handshake without a ClientHello, or else the oldest handshake.
     fn largest_source(&self) -> Option<Source> {
         let mut counts = HashMap::new();
         self.unfinished.iter().for_each(|handshake| *counts.entry(handshake.source).or_insert(0) += 1);

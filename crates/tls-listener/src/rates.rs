@@ -4,10 +4,10 @@ use crate::source::Source;
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
-/// Handshakes that an address may begin at once: more hosts than that do not share one.
+/// Handshakes that an address may begin at once: no more hosts than that share one address.
 const BURST: u32 = 256;
-/// The time after which it may begin one more. A handshake takes some tenths of a millisecond of a processor, and a
-/// host tries four times in a second.
+/// The time after which an address may begin one more. A handshake takes a few tenths of a millisecond of CPU time, and
+/// a host tries four times per second.
 const REFILL: Duration = Duration::from_millis(10);
 /// Maximum number of addresses that are remembered. Beyond that, all start afresh.
 const MOST: usize = 4096;
@@ -20,7 +20,7 @@ pub(crate) struct Rates {
 }
 
 impl Rates {
-    /// Returns false if the address has to wait.
+    /// Takes a token of the address. Returns false if it has none left and must wait.
     pub(crate) fn take(&mut self, source: Source) -> bool {
         self.take_at(source, Instant::now())
     }

@@ -1,6 +1,6 @@
 //! The autopilot: from readings to set-points of the motors, once per inertial reading.
 //!
-//! Everything depends on messages and the times in them alone, not on clocks or the order of arrival, so a recorded
+//! Its outputs depend only on the messages and the times in them, not on clocks or the order of arrival, so a recorded
 //! flight can be repeated exactly, also by the twin in C, which has the same files.
 
 pub mod attitude;
@@ -28,7 +28,7 @@ use pending::Pending;
 use position::PositionEstimator;
 use vector::Vec3;
 
-/// Measurements take effect this long after their time, so that they arrive before.
+/// Measurements take effect this long after the time at which they were taken, so that they have arrived by then.
 const HEIGHT_DELAY_US: u64 = 20_000;
 const FIX_DELAY_US: u64 = 60_000;
 /// `Flight` messages per second.
@@ -38,18 +38,18 @@ const GAP: f64 = 0.02;
 /// After a longer gap than this, the state is of no use.
 const LONGEST_GAP_US: u64 = 2_000_000;
 
-/// What one beat results in.
+/// The outputs of one beat.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outputs {
     pub motors: Motors,
-    /// Only at some of the beats.
+    /// Present at some of the beats only.
     pub flight: Option<Flight>,
 }
 
 /// The whole state of the autopilot.
 #[derive(Clone, Debug, Default)]
 pub struct FlightController {
-    /// Of the last reading; 0 before the first.
+    /// Time of the last reading; 0 before the first.
     pub time_us: u64,
     pub parameters: Parameters,
     pub attitude: AttitudeEstimator,
@@ -61,7 +61,7 @@ pub struct FlightController {
     pub thrust: f64,
     /// By how much the motors missed roll, pitch and yaw at the last beat.
     pub cut: Vec3,
-    /// How often the autopilot was started again in the air.
+    /// Number of restarts of the autopilot in the air.
     pub restarts: u32,
     heights: Pending<Height>,
     fixes: Pending<Fix>,
@@ -87,8 +87,8 @@ impl FlightController {
         self.new_parameters = Some(parameters);
     }
 
-    /// Takes a command, which takes effect at a time of its own, and returns whether it is accepted. A command that is
-    /// repeated because its result was lost is accepted again, without effect.
+    /// Takes a command, which takes effect at the time that it states, and returns whether it is accepted. A command
+    /// that is repeated because its result was lost is accepted again, without effect.
     pub fn receive_command(&mut self, command: &Command) -> CommandResult {
         let known =
             command.id == self.navigator.command_id || self.commands.iter().any(|pending| pending.id == command.id);
@@ -101,7 +101,7 @@ impl FlightController {
         CommandResult { accepted: true, reason: String::new() }
     }
 
-    /// Works one beat. Returns nothing for a reading that is not newer than the last.
+    /// Processes one beat. Returns `None` for a reading that is not newer than the last.
     pub fn step(&mut self, reading: &Inertial) -> Option<Outputs> {
         let now = reading.time_us;
         if now + LONGEST_GAP_US < self.time_us {
@@ -149,7 +149,8 @@ impl FlightController {
         if elapsed > GAP || before == 0 { GAP } else { elapsed }
     }
 
-    /// The situation may have changed since the command was accepted, so it is checked again.
+    /// Begins the commands that are due. Each is checked again, because the situation may have changed since it was
+    /// accepted.
     fn begin_commands(&mut self, estimate: &Estimate) {
         while let Some(command) = self.commands.take_due(self.time_us) {
             if commands::check(&command, &self.situation(), &self.parameters).is_ok() {

@@ -9,7 +9,7 @@ use scl::RecvTimeoutError;
 use std::path::Path;
 use std::time::Duration;
 
-/// Without readings for this long the autopilot says so, and refuses commands.
+/// After this time without readings, the autopilot reports their absence and refuses commands.
 const SILENCE: Duration = Duration::from_millis(200);
 
 /// The state file, and what was read from it.
@@ -20,7 +20,7 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// Without the file the autopilot flies, but cannot carry on after a crash.
+    /// Opens the state file. Without it, the autopilot flies but cannot carry on after a crash.
     pub fn open(path: &Path) -> Self {
         match StateFile::open(path, state::COUNT) {
             Ok((file, numbers)) => {
@@ -46,7 +46,7 @@ impl Memory {
 /// Flies until the program is stopped.
 ///
 /// # Errors
-/// Those of the gates.
+/// Errors of the gates.
 pub fn run(mut gates: Autopilot, mut memory: Memory) -> scl::Result<()> {
     let mut controller = None;
     let mut mode = Mode::Grounded;
@@ -75,7 +75,7 @@ pub fn run(mut gates: Autopilot, mut memory: Memory) -> scl::Result<()> {
     }
 }
 
-/// Carries on in the air, or starts on the ground.
+/// Carries on in the air from the saved state, or starts on the ground.
 fn begin(saved: Option<FlightController>, reading: &Inertial) -> FlightController {
     if let Some(resumed) = saved.and_then(|saved| saved.resumed(reading.time_us)) {
         println!("carrying on in the air: restart {}", resumed.restarts);
@@ -85,7 +85,7 @@ fn begin(saved: Option<FlightController>, reading: &Inertial) -> FlightControlle
     FlightController::default()
 }
 
-/// What is urgent: from the readings to the motors.
+/// The urgent part of a beat: from the readings to the motors.
 fn beat(gates: &mut Autopilot, controller: &mut FlightController, reading: &Inertial) -> scl::Result<Option<Outputs>> {
     while let Some(parameters) = gates.parameters.try_recv()? {
         controller.receive_parameters(&parameters);
@@ -103,7 +103,7 @@ fn beat(gates: &mut Autopilot, controller: &mut FlightController, reading: &Iner
     Ok(outputs)
 }
 
-/// What may wait until the motors have their set-points.
+/// The part of a beat that may wait until the motors have their set-points.
 fn finish(gates: &mut Autopilot, controller: &mut FlightController, outputs: &Outputs, beat: Beat) -> scl::Result<()> {
     gates.beats.send_blocking(&beat)?;
     if let Some(flight) = &outputs.flight {
@@ -127,7 +127,7 @@ fn refuse_commands(gates: &mut Autopilot) -> scl::Result<()> {
     Ok(())
 }
 
-/// One line when the mode changes.
+/// Prints one line when the mode has changed.
 fn report(last: &mut Mode, controller: &FlightController) {
     let navigator = &controller.navigator;
     if navigator.mode == *last {

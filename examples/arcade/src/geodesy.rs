@@ -1,4 +1,4 @@
-//! Between metres east and north of home, and degrees of latitude and longitude.
+//! Conversion between metres east and north of home, and degrees of latitude and longitude.
 //!
 //! A local tangent plane around home, with the earth's radii of curvature there (Groves, Principles of GNSS, Inertial
 //! and Multisensor Integrated Navigation Systems, 2nd edition, equations 2.105, 2.106 and 2.111). Wrong by less than

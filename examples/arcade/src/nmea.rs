@@ -27,13 +27,13 @@ fn rmc(fix: &Fix) -> String {
     format!("GPRMC,{time},A,{place},{knots:.2},{course:.2},{DATE},,,A")
 }
 
-/// `$`, the text, and the exclusive or of its bytes.
+/// Makes a sentence: `$`, the text, and the exclusive or of its bytes.
 fn sentence(text: &str) -> String {
     let checksum = text.bytes().fold(0, |sum, byte| sum ^ byte);
     format!("${text}*{checksum:02X}\r\n")
 }
 
-/// hhmmss.ss
+/// Formats a time as hhmmss.ss.
 fn time(time_us: u64) -> String {
     let hundredths = time_us / 10_000;
     let seconds = hundredths / 100;
@@ -47,7 +47,7 @@ fn place(fix: &Fix) -> String {
     format!("{},{north},{},{east}", degrees_and_minutes(fix.latitude, 2), degrees_and_minutes(fix.longitude, 3))
 }
 
-/// Degrees with `digits` digits, then minutes with five decimals: 2 cm.
+/// Degrees with `digits` digits, then minutes with five decimals, which resolve 2 cm.
 fn degrees_and_minutes(degrees: f64, digits: usize) -> String {
     // Round degrees and minutes together, so 59.999999 minutes carry over into the next degree.
     let units = (degrees.abs() * 6_000_000.0).round() as u64; // minutes / 100000

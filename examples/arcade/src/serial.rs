@@ -12,7 +12,7 @@ use std::os::unix::ffi::OsStringExt;
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 
-/// When nobody reads, older bytes than these are dropped, as a serial port drops what is sent while it is closed.
+/// When more bytes than these are unread, they are dropped, as a serial port drops what is sent while it is closed.
 const MAX_UNREAD: u64 = 400;
 
 /// The end that writes. Dropping it removes the link.
@@ -39,7 +39,7 @@ impl SerialPort {
     /// Opens a pseudo-terminal and creates `link`. A link to a terminal that an earlier run left behind is replaced.
     ///
     /// # Errors
-    /// [`SerialError`] if the operating system has no terminal left, or there is something else at `link`.
+    /// [`SerialError`] if the operating system has no terminal left, or something else exists at `link`.
     pub fn open(link: &Path) -> Result<Self, SerialError> {
         let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY | OpenptFlags::CLOEXEC)?;
         grantpt(&master)?;
@@ -57,7 +57,7 @@ impl SerialPort {
     /// Sends text without waiting for a reader.
     ///
     /// # Errors
-    /// Those of the operating system, but not that the port is full.
+    /// Errors of the operating system; a full port is not an error.
     pub fn write(&self, text: &str) -> io::Result<()> {
         if ioctl_fionread(&self.slave)? > MAX_UNREAD {
             tcflush(&self.slave, QueueSelector::IFlush)?;

@@ -17,18 +17,18 @@ const HEIGHT_PERIOD: u64 = (RATE / height::RATE) as u64; // steps
 const BATTERY_PERIOD: u64 = 30; // steps: 10 readings a second
 const WORLD_PERIOD: u64 = 6; // steps: 50 a second
 
-/// What can be chosen.
+/// The settings of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Mean wind from the west, m/s.
     pub wind: f64,
     /// Standard deviation of the gusts, m/s.
     pub gusts: f64,
-    /// Of all random numbers.
+    /// Seed of all random numbers.
     pub seed: u64,
     /// Capacity of the battery, Ah.
     pub capacity: f64,
-    /// Of the battery, 0 to 1.
+    /// Charge of the battery at the start, 0 to 1.
     pub charge: f64,
 }
 
@@ -38,7 +38,7 @@ impl Default for Settings {
     }
 }
 
-/// The readings of one step. Not every sensor has one in each.
+/// The readings of one step. Not every sensor has a reading in each step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Readings {
     pub inertial: Inertial,
@@ -79,12 +79,12 @@ impl Simulation {
         self.steps * 1_000_000 / u64::from(RATE)
     }
 
-    /// How many steps there were.
+    /// Number of steps so far.
     pub fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// Since the last set-points for the motors.
+    /// Microseconds since the last set-points for the motors.
     pub fn silence_us(&self) -> u64 {
         self.controllers.silence_us(self.time_us())
     }

@@ -11,17 +11,17 @@ use crate::simulation::{RATE, Readings, Settings, Simulation};
 use crate::watch::Watch;
 use std::time::Duration;
 
-/// When the simulation could not run for more steps than these, 20 ms, it goes on from there: many steps at once would
-/// be a flight without control.
+/// Maximum number of missed steps that are made up for, 20 ms. After a longer interruption the simulation continues
+/// from there: many steps at once would be a flight without control.
 const MAX_MISSED: u64 = 6;
-/// Time begins when all parts are there, or without those that are not there by then.
+/// How long to wait for the other components before time begins without those that are missing.
 const PATIENCE: Duration = Duration::from_secs(20);
 const NMEA_PERIOD: u64 = (RATE / gps::RATE) as u64; // steps
 
 /// Runs the simulation until the program is stopped.
 ///
 /// # Errors
-/// Those of the gates and the timer.
+/// Errors of the gates, the timer and the serial port.
 pub async fn run(mut gates: Simulator, settings: Settings, serial: Option<SerialPort>) -> scl::Result<()> {
     let mut simulation = Simulation::new(&settings);
     let mut receiver = SerialReceiver { port: serial, receiver: Receiver::new(settings.seed) };

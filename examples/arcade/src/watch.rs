@@ -12,7 +12,7 @@ pub struct Watch {
     flying: bool,
     silent: bool,
     empty: bool,
-    /// Of the step before, m/s.
+    /// Climb rate at the previous step, m/s.
     climb: f64,
 }
 

@@ -1,9 +1,9 @@
 //! The band and its time slots, which the spectrum and the radio have to agree on.
 //!
 //! Time is divided into slots: data, then a quiet period in which every radio of the network is silent so that what
-//! remains in the band is noise and primary users. Quiet periods are those of IEEE Std 802.22-2011, the lengths are
-//! this example's: there a frame takes 10 ms, a superframe has 16 of them, and a primary user has to be detected within
-//! 2 s.
+//! remains in the band is noise and primary users. Quiet periods are those of IEEE Std 802.22-2011, but the lengths are
+//! this example's: in the standard, a frame takes 10 ms, a superframe has 16 of them, and a primary user has to be
+//! detected within 2 s.
 
 use std::time::Duration;
 

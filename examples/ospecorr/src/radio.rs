@@ -1,7 +1,7 @@
-//! The radio: sends the application's frames on the channel that it was told.
+//! The radio: sends the application's frames on the configured channel.
 //!
-//! It starts silent, and falls silent when its configuration is not repeated: it does not hear primary users itself, so
-//! it transmits only while a link optimizer watches over it.
+//! It starts silent, and falls silent when its configuration is not repeated: it does not detect primary users itself,
+//! so it transmits only while a link optimizer watches over it.
 
 use std::time::Duration;
 
@@ -17,7 +17,8 @@ const STATE_PERIOD: Duration = Duration::from_millis(100);
 /// How long a configuration is valid.
 pub const VALID_FOR: Duration = Duration::from_millis(500);
 
-/// Frames that cannot be sent wait: one here, others in the queue of the gate, and then the application waits.
+/// Runs the radio. Frames that cannot be sent wait: one here, others in the queue of the gate; when that is full, the
+/// application waits.
 pub async fn run(mut radio: Radio) -> scl::Result<()> {
     let mut state = RadioState::default();
     let mut valid_until = Instant::now();
@@ -67,7 +68,7 @@ async fn send(bursts: &mut scl::Push<Frame>, frame: Option<&Frame>) -> Result<()
     }
 }
 
-/// Changes the state as asked, or gives the reason why not.
+/// Changes the state as requested, or returns the reason why not.
 fn configure(state: &mut RadioState, asked: &Configuration) -> Configured {
     if asked.channel >= CHANNELS {
         let reason = format!("channel {} does not exist; the channels are 0 to {}", asked.channel, CHANNELS - 1);

@@ -18,8 +18,8 @@ use self::recorder::{Refused, Settings};
 use crate::ResourceMap;
 use crate::ospecorr::Statistics;
 
-/// How often observations are written, in one transaction each time: the disk is asked ten times a second instead of
-/// fifty times, and a crash costs a tenth of a second.
+/// How often observations are written, in one transaction each time: the disk is accessed ten times a second instead of
+/// fifty times, and a crash loses a tenth of a second.
 const FLUSH_PERIOD: Duration = Duration::from_millis(100);
 
 /// Where observations are kept.
@@ -34,7 +34,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// What they mean for the recorder.
+    /// Returns the settings of the recorder.
     ///
     /// # Errors
     /// There is no runtime folder.
@@ -47,15 +47,15 @@ impl Options {
     }
 }
 
-/// The folder of the system, which is usually in memory: what was observed before the last boot says little about the
-/// spectrum of today.
+/// Returns the folder of the system, which is usually in memory: observations from before the last boot say little
+/// about today's spectrum.
 fn default_folder() -> Result<PathBuf, RuntimeDirError> {
     let system = std::env::var("SCL_SYSTEM").ok().filter(|it| !it.is_empty());
     let folder = RuntimeDir::locate(&|name| std::env::var_os(name))?;
     Ok(folder.system(system.as_deref().unwrap_or("ospecorr"))?.folder().to_owned())
 }
 
-/// Runs until the database turns out to be one that this program may not use.
+/// Runs the resource map until the database turns out to be one that this program cannot use, and returns the reason.
 pub async fn run(mut map: ResourceMap, mut keeper: Keeper) -> scl::Result<Refused> {
     let mut tick = scl::time::interval(FLUSH_PERIOD)?;
     loop {

@@ -15,7 +15,8 @@ use crate::Spectrum;
 use crate::band::FRAME_TIME;
 use crate::ospecorr::{RadioState, Truth};
 
-/// In frames: three times as long as between two messages of the radio. One that is gone transmits no longer.
+/// The radio counts as gone, and transmits no longer, after this time without a message from it, in frames: three times
+/// the period of its messages.
 const RADIO_LOST_AFTER: u32 = 75;
 
 /// How long the band waits for the other components.
@@ -43,8 +44,8 @@ fn snr(text: &str) -> Result<f64, String> {
     snr.ok_or_else(|| "not a number from -30 to 60".to_owned())
 }
 
-/// Advances in real time, a step for each frame. After a pause of the program it goes on from there: time in the band
-/// is then late, but never runs faster.
+/// Advances in real time, one step for each frame. After a pause of the program it continues from there: time in the
+/// band is then late, but never runs faster.
 pub async fn run(mut spectrum: Spectrum, options: Options) -> scl::Result<()> {
     let primary_users =
         if options.random { PrimaryUsers::random(options.seed) } else { PrimaryUsers::Scheduled(options.primary) };
@@ -81,7 +82,7 @@ pub async fn run(mut spectrum: Spectrum, options: Options) -> scl::Result<()> {
     }
 }
 
-/// Prints which primary users have come and gone since the slot before.
+/// Prints which primary users have come and gone since the previous slot.
 fn print_changes(before: &Truth, now: &Truth) {
     let seconds = now.time_us as f64 / 1e6;
     for channel in now.primary_channels.iter().filter(|it| !before.primary_channels.contains(it)) {

@@ -1,4 +1,4 @@
-//! A sensor on a runtime of its own choice, in a program with a `main` of its own.
+//! A sensor in a program that has its own `main` and chooses its own runtime.
 
 use std::time::Duration;
 

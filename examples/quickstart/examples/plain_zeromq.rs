@@ -8,7 +8,7 @@
 //! cargo run -p quickstart --example plain_zeromq
 //! ```
 //!
-//! Such a program has no lock that keeps a second one away, and nobody checks what it was built for.
+//! No lock keeps a second such program from starting, and nothing checks the message type that it was built for.
 
 use std::error::Error;
 use std::path::PathBuf;

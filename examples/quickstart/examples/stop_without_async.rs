@@ -1,4 +1,4 @@
-//! The same controller without async.
+//! A controller without async that stops the motors before it ends.
 
 use scl::RecvTimeoutError;
 use std::time::Duration;

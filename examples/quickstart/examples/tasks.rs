@@ -1,4 +1,4 @@
-//! A controller whose gates work in tasks of their own.
+//! A controller whose gates are used in separate tasks.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -1,4 +1,4 @@
-//! A controller without async whose gates work in threads of their own.
+//! A controller without async whose gates are used in separate threads.
 
 use std::thread;
 

@@ -165,7 +165,7 @@ fn expand_signature(context: &Context<'_>, kind: GateKind, reply: &Option<TokenS
     }
 }
 
-/// The number tells apart two types whose names differ only in their dots.
+/// The name of a trait. The number distinguishes two types whose names differ only in their dots.
 fn trait_name(gate: &Gate, number: usize, span: Span) -> Ident {
     let codec = gate.codec().word().rsplit("::").next().unwrap_or_default();
     let words = format!("{}_supported_by_{codec}", gate.payload().to_string().replace(" -> ", "_and_"));

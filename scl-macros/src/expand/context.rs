@@ -74,7 +74,8 @@ fn includes(only: Option<&[Ident]>, component: &str) -> bool {
     only.is_none_or(|only| only.iter().any(|wanted| names_component(wanted, component)))
 }
 
-/// Two invocations may generate different components of one file in one module.
+/// Returns the path with the components in `only`: two invocations may generate different components of one file in one
+/// module.
 fn path_and_only(path: &str, only: Option<&[Ident]>) -> String {
     only.unwrap_or_default().iter().fold(path.to_owned(), |name, component| format!("{name}_{component}"))
 }

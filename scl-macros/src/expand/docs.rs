@@ -22,7 +22,7 @@ pub(super) struct GateDoc {
 }
 
 impl GateDoc {
-    /// Of a gate of a file without errors.
+    /// Describes a gate of a file without errors.
     pub(super) fn new(context: &Context<'_>, topology: &Topology, id: GateId) -> Self {
         let gate = topology.gate(id);
         let peers = gate.connections().iter().map(|&connection| topology.connection(connection).peer_of(id));
@@ -37,7 +37,7 @@ impl GateDoc {
         }
     }
 
-    /// Of a gate as it is written in a file with errors.
+    /// Describes a gate as it is written in a file with errors.
     pub(super) fn unchecked(
         context: &Context<'_>,
         gate: &GateModel,
@@ -89,7 +89,7 @@ pub(super) fn of_component(context: &Context<'_>, topology: &Topology, component
     format!("{}\nThe component {declared} `{}`.", summary(component.doc(), &gates), context.location(component.span()))
 }
 
-/// The same for a file with errors.
+/// The documentation of a struct from a file with errors.
 pub(super) fn of_unchecked_component(context: &Context<'_>, component: &ComponentModel, gates: &[GateDoc]) -> String {
     let doc = component.doc.as_ref().map(|doc| doc.value.as_str());
     let (name, location) = (&component.name.value, context.location(component.name.span));

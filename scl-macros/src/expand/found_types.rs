@@ -32,10 +32,10 @@ use scl_topology::topology::{Codec, Component, Payload, Topology, TypeName};
 use std::collections::{BTreeMap, BTreeSet};
 use syn::Ident;
 
-/// The gates that a report names; more are counted.
+/// Maximum number of gates that a report names; the rest are counted.
 const MOST_GATES: usize = 3;
 
-/// The lookups of all types. In a broken file, types that are not found are unknown like others, without an error.
+/// The lookups of all types. In a broken file, types that are not found become the unknown type, without an error.
 pub(super) fn expand_lookups(context: &Context<'_>) -> TokenStream {
     let gates = context.loaded.topology.as_ref().map(|topology| Requirements::collect(context, topology));
     let lookups = context.types.lookups();
@@ -102,7 +102,8 @@ fn expand_scopes(lookup: &Lookup, not_found: &Ident, span: Span) -> Option<(Toke
 /// What rustc checks where components are opened: that their types were found.
 #[derive(Default)]
 pub(super) struct Requirements {
-    /// By type: its trait, which every type has but the stand-in, and the gates that use it.
+    /// The types with the gates that use them, by the index of the type. Each has a trait that every type but the
+    /// stand-in implements.
     traits: BTreeMap<usize, (TypeName, Vec<String>)>,
 }
 
@@ -148,7 +149,7 @@ impl Requirements {
 
     /// The bounds of the methods that open a component; nothing if it has no type that is looked up.
     ///
-    /// A bound that does not hold is an error where it is declared, unless it has a lifetime of its own.
+    /// rustc reports an unsatisfied bound where it is declared, unless the bound has a lifetime parameter.
     pub(super) fn expand_bounds(
         &self,
         context: &Context<'_>,

@@ -6,7 +6,7 @@ use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use scl_topology::topology::{Gate, GateKind, Payload};
 
-/// The type of a gate, as if it were of this kind: its own, or the opposite one for its counterpart.
+/// The type of a gate for a kind: the gate's own kind, or the opposite one for its counterpart.
 pub(super) fn gate_type(context: &Context<'_>, gate: &Gate, kind: GateKind) -> TokenStream {
     let private = &context.private;
     let name = gate_struct(kind);

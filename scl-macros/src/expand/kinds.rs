@@ -4,7 +4,7 @@ use proc_macro2::Span;
 use scl_topology::topology::GateKind;
 use syn::Ident;
 
-/// The gate's type, and the variant of `GateKind`.
+/// The name of the gate's type, and of the variant of `GateKind`.
 pub(super) fn gate_struct(kind: GateKind) -> Ident {
     // `Debug` prints the name of the variant.
     Ident::new(&format!("{kind:?}"), Span::call_site())

@@ -44,8 +44,8 @@ pub(super) fn unknown_type_name(context: &Context<'_>) -> Ident {
     identifier(&name, context.span).unwrap_or_else(|| format_ident!("__scl_unknown"))
 }
 
-/// The type of what cannot be read from a broken file. For an editor it is a placeholder, which it does not know
-/// either, so that it offers no name.
+/// The type of what cannot be read from a broken file. For an editor it is the placeholder `_`: the editor does not
+/// know that type either, so it offers no name.
 pub(super) fn expand_unknown_type(context: &Context<'_>) -> TokenStream {
     if context.for_editor {
         return quote!(_);
@@ -67,7 +67,7 @@ pub(super) fn expand_unknown_as(context: &Context<'_>, first: TokenStream) -> To
     }
 }
 
-/// Components that `only` names and that do not exist. Nothing is reported for a broken file, which may declare them.
+/// Reports the components in `only` that do not exist. Nothing is reported for a broken file, which may declare them.
 fn unknown_components(context: &Context<'_>) -> Vec<Diagnostic> {
     if context.loaded.topology.is_none() {
         return Vec::new();

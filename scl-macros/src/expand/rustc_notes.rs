@@ -5,8 +5,8 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use scl_topology::source::{Sources, Span};
 
-/// The attribute with what rustc says where a trait is not implemented. The message may have the trait's parameters in
-/// braces.
+/// The attribute with the error that rustc reports where a trait is not implemented. The message may contain the
+/// trait's parameters in braces.
 pub(crate) fn on_unimplemented(message: &str, label: &str, notes: &[String]) -> TokenStream {
     let (label, notes) = (escape_braces(label), notes.iter().map(|note| escape_braces(note)));
     quote!(#[diagnostic::on_unimplemented(message = #message, label = #label #(, note = #notes)*)])

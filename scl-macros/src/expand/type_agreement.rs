@@ -22,7 +22,8 @@ pub(super) fn expand_agreements(context: &Context<'_>, topology: &Topology) -> T
     quote! { #(#agreements)* }
 }
 
-/// A component that is not generated belongs to another program, whose types need not exist in this one.
+/// Returns true if the components at both ends are generated. Others belong to other programs, whose types need not
+/// exist in this one.
 fn includes_both_ends(context: &Context<'_>, topology: &Topology, connection: &Connection) -> bool {
     [connection.source(), connection.sink()].iter().all(|&gate| {
         let owner = topology.component(topology.gate(gate).component());
@@ -86,8 +87,9 @@ fn expand_agreement(
     }
 }
 
-/// A type that is not found belongs to another program, where it is compared. These methods take precedence because
-/// they take the connection by value, the first one because it belongs to no trait.
+/// Expands methods that skip the check for a type that is not found: it belongs to another program, where it is
+/// compared. They take precedence because they take the connection by value, and the first one over the second because
+/// it belongs to no trait.
 fn expand_exceptions(context: &Context<'_>, stand_in: &Ident) -> TokenStream {
     quote_spanned! { context.span =>
         impl<Received> Connection<#stand_in, Received> {

@@ -21,8 +21,7 @@ pub(super) struct MessageTypes {
 }
 
 impl MessageTypes {
-    /// The message types of a loaded file, for the components that are generated. `crates` are the crates that the
-    /// program can name, if they are known.
+    /// The message types of a loaded file, as far as gates of the generated components use them.
     pub(super) fn of(
         loaded: &Loaded,
         includes: impl Fn(&str) -> bool,

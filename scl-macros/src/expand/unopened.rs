@@ -1,4 +1,5 @@
-//! The methods of components that nothing opens: the errors of their file stop the compiler, or an editor shows them.
+//! The methods of components that are never opened, because errors in their file stop the compiler, or because they are
+//! only shown in an editor.
 
 use super::context::Context;
 use proc_macro2::TokenStream;
@@ -6,7 +7,7 @@ use quote::{quote, quote_spanned};
 use syn::Ident;
 
 /// The implementations of `scl::Component` for a component and its counterpart, and the methods that users call. Their
-/// signatures are those of every component, the bodies never run.
+/// signatures are the same as for every component; the bodies never run.
 pub(super) fn expand_unopened(context: &Context<'_>, name: &Ident, peer: Option<&Ident>) -> TokenStream {
     let (private, for_tests) = (&context.private, &context.for_tests);
     let component = expand_implementation(context, name);

@@ -14,9 +14,9 @@ pub(super) struct FolderEvents {
 /// What has happened in the folder.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum FolderChange {
-    /// Something about these components; of some, a file was removed.
+    /// Files of these components have changed. The value is true if one was removed.
     Components(BTreeMap<String, bool>),
-    /// The folder is gone, or events were lost: look at everything, and watch anew.
+    /// The folder is gone, or events were lost: check every component, and start a new watch.
     Unknown,
 }
 

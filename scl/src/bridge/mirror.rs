@@ -27,7 +27,7 @@ pub enum MirrorError {
     /// Its plan contradicts itself.
     #[error(transparent)]
     Plan(#[from] OpenError),
-    /// What it announces is another component, or one of another system.
+    /// Its announcement or its plan names another component.
     #[error("host `{host}` announces component `{expected}` with the plan of `{found}`")]
     WrongPlan {
         /// The host.
@@ -37,7 +37,7 @@ pub enum MirrorError {
         /// The component of the plan.
         found: String,
     },
-    /// It runs here, too.
+    /// It runs on this host as well.
     #[error(
         "component `{component}` runs on host `{host}`, and on this host as well ({holder})\n\
          help: stop one of the two, or correct `hosts` in the launch file"
@@ -47,13 +47,13 @@ pub enum MirrorError {
         component: String,
         /// The other host.
         host: String,
-        /// Who runs it here.
+        /// The process that runs it here.
         holder: ComponentProcess,
     },
     /// The runtime folder cannot be used.
     #[error(transparent)]
     RuntimeDir(RuntimeDirError),
-    /// Its program was built without a connection.
+    /// Its program was built without this gate or connection.
     #[error("component `{component}` was built without {what}; build all programs from the same topology")]
     NoConnection {
         /// The component.
@@ -64,7 +64,7 @@ pub enum MirrorError {
 }
 
 impl Mirror {
-    /// Shows `component`, which runs on `host`.
+    /// Registers a stand-in for `component`, which runs on `host`.
     ///
     /// # Errors
     /// [`MirrorError`]; nothing is left behind.
@@ -96,8 +96,8 @@ impl Mirror {
     }
 
     /// Creates the files of the component again if they were removed, and lets its ends listen again. One watch of the
-    /// folder is enough for all mirrors of a process, see [`Change::Removed`](super::Change::Removed): a user may have
-    /// few.
+    /// folder serves all mirrors of a process, see [`Change::Removed`](super::Change::Removed): the number of inotify
+    /// instances per user is limited.
     ///
     /// # Errors
     /// [`MirrorError::RuntimeDir`], also if another process runs the component by now.
@@ -105,8 +105,8 @@ impl Mirror {
         self.registration.restore_if_removed().map(drop).map_err(MirrorError::RuntimeDir)
     }
 
-    /// The endpoint at which this component's `sub` gate connects to a publisher. What it receives is acknowledged by
-    /// the caller, within `window`.
+    /// Returns the endpoint at which this component's `sub` gate connects to a publisher. The caller acknowledges the
+    /// messages that this end receives; the publisher may have up to `window` unacknowledged.
     ///
     /// # Errors
     /// [`MirrorError::NoConnection`].
@@ -120,7 +120,7 @@ impl Mirror {
         })
     }
 
-    /// The endpoint at which this component's `pub` gate listens for a subscriber.
+    /// Returns the endpoint at which this component's `pub` gate listens for a subscriber.
     ///
     /// # Errors
     /// [`MirrorError::NoConnection`].
@@ -134,8 +134,8 @@ impl Mirror {
         })
     }
 
-    /// The endpoint at which this component's `pull` gate listens for pushers. What it receives is acknowledged by the
-    /// caller, within `window`.
+    /// Returns the endpoint at which this component's `pull` gate listens for pushers. The caller acknowledges the
+    /// messages that this end receives; each pusher may have up to `window` unacknowledged.
     ///
     /// # Errors
     /// [`MirrorError::NoConnection`].
@@ -144,7 +144,7 @@ impl Mirror {
         Ok(Endpoint { deferred: Some(window), ..Endpoint::accepting(gate.endpoint, gate.options.max_size) })
     }
 
-    /// The endpoint at which this component's `rep` gate listens for requesters.
+    /// Returns the endpoint at which this component's `rep` gate listens for requesters.
     ///
     /// # Errors
     /// [`MirrorError::NoConnection`].

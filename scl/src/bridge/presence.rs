@@ -1,4 +1,4 @@
-//! Which components run on this host: learned from events in the folder of the system, not by looking again and again.
+//! Which components run on this host: learned from events in the system's folder, without polling.
 
 use super::Profile;
 use super::folder_events::{FolderChange, FolderEvents};
@@ -15,7 +15,7 @@ pub struct Presence {
     running: HashMap<String, Profile>,
     changes: VecDeque<Change>,
     events: Option<FolderEvents>,
-    /// When files of other components were last removed, until that is reported.
+    /// When files of other components were last removed; `None` once that is reported.
     removed: Option<Instant>,
     /// Whether it was logged that the folder cannot be watched.
     warned: bool,
@@ -28,21 +28,22 @@ pub enum Change {
     Started {
         /// The component.
         component: String,
-        /// What it says of itself.
+        /// Its announcement, with its messages.
         profile: Box<Profile>,
     },
-    /// It was closed, or its process has ended. A restart is this and [`Started`](Self::Started), however quick it was.
+    /// It was closed, or its process has ended. A restart is reported as this and then [`Started`](Self::Started),
+    /// however quick it was.
     Stopped {
         /// The component.
         component: String,
     },
-    /// Files of components of other hosts were removed, perhaps because these have stopped: [`Mirror`](super::Mirror)s
-    /// that still exist are to be [restored](super::Mirror::restore).
+    /// Files of components of other hosts were removed, perhaps because these have stopped.
+    /// [Restore](super::Mirror::restore) every [`Mirror`](super::Mirror) that still exists.
     Removed,
 }
 
 impl Presence {
-    /// Watches these components. Those that run at first are reported as started.
+    /// Watches these components. Those that are already running are reported as started.
     pub fn new(dir: SystemDir, components: impl IntoIterator<Item = String>) -> Self {
         let components = components.into_iter().collect();
         let (running, changes) = (HashMap::new(), VecDeque::new());
@@ -90,7 +91,7 @@ impl Presence {
         }
     }
 
-    /// Starts watching, in a folder that is created again if it was removed, and looks at everything.
+    /// Creates the folder again if it was removed, starts to watch it, and then checks every component.
     async fn watch(&mut self) {
         match self.dir.create_again().and_then(|()| FolderEvents::start(&self.dir)) {
             Ok(events) => {

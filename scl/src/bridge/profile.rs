@@ -1,4 +1,4 @@
-//! What a component says of itself, as it travels to other hosts.
+//! A component's announcement and messages, as sent to other hosts.
 
 use crate::plan::{Plan, Schema};
 use crate::runtime_dir::{Announcement, SystemDir};
@@ -11,14 +11,14 @@ pub struct Profile {
     schema: Option<Bytes>,
 }
 
-/// The bytes are no profile.
+/// Received bytes are not a usable profile.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProfileError {
-    /// They end too early, or are no announcement.
+    /// The bytes end too early, or are not an announcement.
     #[error("what was received is not the announcement of a component; run the same release of SCL on all hosts")]
     Malformed,
-    /// The announcement has no plan, or one of another version.
+    /// The announcement has no plan, or a plan of another version.
     #[error(
         "component `{component}` announces no plan that this release can read; run the same release of SCL on all hosts"
     )]
@@ -45,12 +45,12 @@ impl Profile {
         Some(Self { announcement, schema })
     }
 
-    /// What the component announces.
+    /// Returns the component's announcement.
     pub fn announcement(&self) -> &Announcement {
         &self.announcement
     }
 
-    /// The profile as bytes: the length of the announcement, the announcement, the messages.
+    /// Encodes the profile: the length of the announcement, the announcement, the messages.
     pub fn to_bytes(&self) -> Bytes {
         let announcement = self.announcement.to_json().to_string();
         let schema = self.schema.clone().unwrap_or_default();
@@ -61,7 +61,7 @@ impl Profile {
         bytes.freeze()
     }
 
-    /// Reads what [`to_bytes`](Self::to_bytes) has written on another host.
+    /// Decodes a profile that [`to_bytes`](Self::to_bytes) has encoded on another host.
     ///
     /// # Errors
     /// The bytes are not a profile.

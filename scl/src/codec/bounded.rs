@@ -6,8 +6,8 @@
 //! each wrapper wraps the values that it passes on, and the calls that enter a level or move to the next element are
 //! counted.
 //!
-//! An element of one byte can also be a struct of thousands, all of whose fields have their default. The wrappers know
-//! the types of what is decoded, and count their sizes.
+//! An element of one byte can also decode to a struct of thousands of bytes, all of whose fields have their default.
+//! The wrappers know the types of the decoded values, and count their sizes.
 
 use serde::de::{
     Deserialize, DeserializeSeed, Deserializer, EnumAccess, Error, MapAccess, SeqAccess, VariantAccess, Visitor,
@@ -23,9 +23,10 @@ const EMPTY_ELEMENTS: usize = 4096;
 const ALLOCATING_LEVELS: usize = 16;
 /// How much memory lists, maps and structs may take, in multiples of the frame's length.
 const FACTOR: usize = 64;
-/// Short frames may take this much, in bytes.
+/// Memory that even a short frame may take, in bytes.
 const LEAST_MEMORY: usize = 16 << 20;
-/// A list that grows has room for up to twice what it holds. A map has, too, beside its smaller predecessor.
+/// A list that grows has room for up to twice as many elements as it holds. So has a map, and while it grows, its
+/// smaller predecessor takes memory as well.
 const LIST_ROOM: usize = 2;
 const MAP_ROOM: usize = 5;
 
@@ -47,8 +48,8 @@ pub(super) fn decode<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
 pub(super) enum Floats {
     /// As the format's library does it.
     OfTheirWidth,
-    /// From every number that the frame has. For self-describing formats whose library insists on the width: Python and
-    /// JavaScript have one width only, and send whole numbers as integers.
+    /// From numbers of any type. For self-describing formats whose library insists on the type's width: Python and
+    /// JavaScript have floats of one width only, and send whole numbers as integers.
     OfAnyNumber,
 }
 
@@ -63,7 +64,7 @@ struct Bounds {
 }
 
 impl Bounds {
-    /// Enters a level, for a value of type `T` that may be in a box.
+    /// Enters a level of nesting, and counts the memory of a `T`, which may be in a box.
     fn enter<T, E: Error>(&self) -> Result<Level<'_>, E> {
         self.count_memory(size_of::<T>())?;
         let left = self.levels.get().checked_sub(1);

@@ -1,6 +1,6 @@
-//! What stands for a codec whose cargo feature is off.
+//! Stand-ins for codecs whose cargo feature is off.
 
-/// A codec, or a stand-in for it and the error that names the feature.
+/// Exports a codec, or a stand-in for it and the error that names the missing feature.
 macro_rules! codec {
     ($feature:literal $codec:ident $check:ident $stand_in:ident $inner:ident) => {
         #[cfg(feature = $feature)]

@@ -13,10 +13,10 @@ use std::convert::Infallible;
 ///
 /// Unknown fields are skipped and missing optional fields become `None`, so the two ends may use different versions of
 /// a type. Floats are decoded from numbers of any sort, because other languages have floats of one width only and write
-/// whole numbers as integers, or shorten floats to 16 bits. A tag is left out: what is under it is decoded as if it
-/// stood there alone. Values nested deeper than 128 levels (each `Some` is one level), and data after the item are
-/// refused. The unit type is encoded as an empty list, and types that accept any value decode it as such:
-/// `serde_json::Value::Null` becomes an empty array.
+/// whole numbers as integers, or shorten floats to 16 bits. Tags are ignored, except those of big numbers: any other
+/// tagged item is decoded as if it had no tag. Values nested deeper than 128 levels (each `Some` is one level), and
+/// data after the item are refused. The unit type is encoded as an empty list, and types that accept any value decode
+/// it as such: `serde_json::Value::Null` becomes an empty array.
 #[derive(Debug)]
 pub struct Cbor;
 

@@ -57,7 +57,7 @@ codec_error!(DecodeError);
 
 #[cfg(any(feature = "json", feature = "cbor", feature = "msgpack", feature = "postcard", feature = "protobuf"))]
 impl DecodeError {
-    /// A frame of `length` bytes is something else than `what`.
+    /// Creates the error for a frame of `length` bytes that does not decode as `what`.
     pub(crate) fn not_a(what: &str, codec: &'static str, length: usize, source: impl Into<Cause>) -> Self {
         Self::new(codec, format!("this {length}-byte frame is not a {what} of the expected type")).caused_by(source)
     }

@@ -7,9 +7,10 @@ use prost::Message;
 /// Encodes the messages of `prost`.
 ///
 /// As protobuf requires, unknown fields are skipped and missing fields have their default, so an empty frame is a valid
-/// message. Fields of type `Bytes` share the received buffer. Messages nested deeper than 100 levels are refused.
-/// How much memory a message may take, the gate limits for messages of `schemas:` only. Of messages with your own
-/// `#[derive(prost::Message)]`, a -0.0 without `optional` is received as 0.0; `prost` takes it for the default.
+/// message. Fields of type `Bytes` share the received buffer. Messages nested deeper than 100 levels are refused. The
+/// gate limits the memory of a message only if its type is one of `schemas:`. In messages with your own
+/// `#[derive(prost::Message)]`, a -0.0 in a field without `optional` is received as 0.0, because `prost` takes it for
+/// the default.
 #[derive(Debug)]
 pub struct Protobuf;
 

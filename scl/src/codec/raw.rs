@@ -29,7 +29,7 @@ impl<T: IntoBytes + FromBytes + KnownLayout + Immutable> Codec<T> for Raw {
 }
 
 impl Raw {
-    /// The bytes received are too many or too few for a `T`.
+    /// Creates the error for a frame whose length, `received`, is not that of a `T`.
     pub(crate) fn wrong_length<T>(received: usize) -> DecodeError {
         DecodeError::new("raw", format!("expected exactly {} bytes, received {received}", size_of::<T>()))
     }

@@ -7,10 +7,10 @@ use crate::error::OpenError;
 use crate::service;
 use crate::spec::ComponentSpec;
 
-/// The variable, for `rover.sensor`, or `sensor` of any system; several have commas between them.
+/// The environment variable. Its value is `rover.sensor`, or `sensor` for any system; several are separated by commas.
 const VARIABLE: &str = "SCL_COMPONENT";
 
-/// Checks that the component is expected, if there is an expectation. If it is not, `scl run` is told, too.
+/// Checks that the component is expected, if the variable is set. If it is not, this also notifies `scl run`.
 ///
 /// # Errors
 /// [`OpenError::Unexpected`].

@@ -70,7 +70,8 @@ fn run<F: Future>(runtime: Runtime, future: F) -> F::Output {
     result.unwrap_or_else(|payload| panic::resume_unwind(payload))
 }
 
-/// What the end of `main` waits for: after a stop request only for connected peers, because all programs are stopping.
+/// Returns which peers the end of `main` waits for, and for how long: after a stop request only for connected ones,
+/// because all programs are stopping.
 fn last_flush() -> (Flush, Duration) {
     if stop::was_requested() { (Flush::Connected, stop::LAST_FLUSH) } else { (Flush::Running, LINGER) }
 }

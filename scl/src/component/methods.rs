@@ -102,7 +102,8 @@ macro_rules! __component_methods {
     };
 }
 
-/// What `#[scl::main]` calls. It has only the component's name, and cannot know what the program calls the crate `scl`.
+/// The functions that `#[scl::main]` calls. That macro has only the component's name, and cannot know the name under
+/// which the program imports the crate `scl`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __component_main_functions {

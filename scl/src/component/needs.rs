@@ -1,4 +1,4 @@
-//! What the gates of a component need of their transports, checked before the component is registered.
+//! Checks that the transports offer what a component's gates need, before the component is registered.
 
 use super::transports::Transports;
 use crate::error::{GateName, MissingGuarantee, OpenError};

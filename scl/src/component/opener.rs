@@ -155,7 +155,7 @@ impl Opener {
         Ok(gate)
     }
 
-    /// The connections of a gate: all, or in a unit test that to its counterpart.
+    /// Returns the connections of a gate: all of them, or only the one to its counterpart in a unit test.
     fn links(&self, spec: &'static GateSpec) -> &'static [ConnectionSpec] {
         let first = spec.connections.len().min(1);
         if self.state.is_test { &spec.connections[..first] } else { spec.connections }
@@ -184,7 +184,7 @@ impl Opener {
     }
 }
 
-/// Takes the component's name in the registry of the user's, if there is one.
+/// Registers the component in the registry that the user has chosen, if any.
 fn join(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<Box<dyn Registered>, OpenError> {
     match &options.registry {
         Some(registry) => {
@@ -194,10 +194,10 @@ fn join(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<Box<dyn R
     }
 }
 
-/// A component that has its name, what writes its stats, if it has any, and its transports.
+/// The registration of a component, its stats and their writer if it writes stats, and its transports.
 type Registering = (Box<dyn Registered>, Option<(ComponentStats, StatsWriter)>, Transports);
 
-/// Takes the component's name in the runtime folder.
+/// Registers the component in the runtime folder.
 fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<Registering, OpenError> {
     let variables = &|name: &str| options.variable(name);
     expected::check(spec, variables)?;
@@ -214,7 +214,7 @@ fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<Regis
     Ok((Box::new(registration), stats, transports))
 }
 
-/// The longest message at a gate that accepts messages of up to `max_size` bytes.
+/// Returns the length of the longest message at a gate that accepts messages of up to `max_size` bytes.
 fn longest<T, C: Codec<T>>(max_size: u64) -> usize {
     let max_size = usize::try_from(max_size).unwrap_or(usize::MAX);
     C::FIXED_LENGTH.map_or(max_size, |length| length.min(max_size))

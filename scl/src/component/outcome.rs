@@ -23,42 +23,42 @@ impl<E: Into<Error>> Outcome for Result<(), E> {
     }
 }
 
-/// Chooses the conversion of what `main` returned.
+/// Chooses the conversion for the value that `main` returned.
 ///
 /// No single trait covers `scl::Error`, every error type, `anyhow::Error` and `Box<dyn Error>`: the implementations
-/// would overlap. Here each is a method of a type of its own, and the compiler takes the first whose bounds hold,
-/// because the types dereference to each other.
+/// would overlap. Here each conversion is a method of a separate type, and the compiler takes the first whose bounds
+/// hold, because the types dereference to each other.
 pub struct Returned<R>(Boxable<R>);
 
 /// Errors that convert into a boxed error, such as `anyhow::Error`, `Box<dyn Error + Send + Sync>` and `String`.
 pub struct Boxable<R>(AnyOther<R>);
 
-/// Everything else: `Box<dyn Error>`, or the compiler says what `main` may return.
+/// Everything else: `Box<dyn Error>`. For any other type, the compiler says what `main` may return.
 pub struct AnyOther<R>(PhantomData<R>);
 
 impl<R> Returned<R> {
-    /// Looks at the type only.
+    /// Creates a value whose `convert` fits the type of the argument.
     pub fn of(_: &R) -> Self {
         Self(Boxable(AnyOther(PhantomData)))
     }
 }
 
 impl<R: Outcome> Returned<R> {
-    /// Converts it.
+    /// Converts the value that `main` returned.
     pub fn convert(&self, returned: R) -> Result<(), Error> {
         returned.into_result()
     }
 }
 
 impl<E: Into<Box<dyn StdError + Send + Sync>>> Boxable<Result<(), E>> {
-    /// Converts it.
+    /// Converts the value that `main` returned.
     pub fn convert(&self, returned: Result<(), E>) -> Result<(), Error> {
         returned.map_err(|error| Error::from_box(error.into()))
     }
 }
 
 impl<R> AnyOther<R> {
-    /// Converts it.
+    /// Converts the value that `main` returned.
     pub fn convert(&self, returned: R) -> Result<(), Error>
     where
         R: MainResult,

@@ -1,4 +1,4 @@
-//! Real-time priority, a processor of its own, and locked memory, as set in the environment of a program.
+//! Real-time priority, CPU affinity and locked memory, as set in the environment of a program.
 //!
 //! Without the privileges, the program logs a warning and continues, so one launch file works on the vehicle and on a
 //! desktop.
@@ -37,8 +37,8 @@ impl Settings {
         })
     }
 
-    /// Applies the settings to the calling thread and to those that it starts from now on. With any of them, the memory
-    /// of the program is locked. Logs a warning for what the operating system refuses.
+    /// Applies the settings to the calling thread and to those that it starts from now on. If any is set, locks the
+    /// memory of the program as well. Logs a warning for each step that the operating system refuses.
     pub(crate) fn apply(&self) {
         if let Some(cpu) = self.cpu {
             pin(cpu);

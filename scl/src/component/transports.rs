@@ -11,9 +11,9 @@ use std::sync::Arc;
 
 /// The transports of a component's connections.
 pub(super) enum Transports {
-    /// One of the user's, for all connections.
+    /// One transport that the user has chosen, for all connections.
     Own(Arc<dyn Transport>),
-    /// Those of the runtime folder.
+    /// The transports whose endpoints are in the runtime folder.
     Files(ByKind),
 }
 
@@ -21,7 +21,7 @@ pub(super) enum Transports {
 pub(super) struct ByKind {
     spec: &'static ComponentSpec,
     choice: TransportChoice,
-    /// The first is for the default.
+    /// The first entry is the default transport.
     transports: Vec<(TransportKind, Arc<dyn Transport>)>,
 }
 
@@ -50,7 +50,7 @@ impl Transports {
         Ok(Self::Files(ByKind { spec, choice, transports }))
     }
 
-    /// For an end of a gate, as [`TransportChoice::of`].
+    /// Returns the transport of an end of a gate, see [`TransportChoice::of`].
     pub(super) fn of(&self, gate: &GateSpec, connections: &[ConnectionSpec]) -> &dyn Transport {
         match self {
             Self::Own(transport) => &**transport,

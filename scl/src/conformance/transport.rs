@@ -1,18 +1,18 @@
 //! What SCL relies on in a transport, one function per guarantee.
 //!
-//! Each end has a waker of its own and is called again only after it has used that waker, so a missed wake-up makes any
+//! Each end has a separate waker and is called again only after it has used that waker, so a missed wake-up makes any
 //! of these tests fail. They run on a current-thread runtime and on one with two worker threads.
 //!
 //! | file | guarantees about |
 //! |---|---|
 //! | `delivery` | messages that arrive complete, in order, once |
-//! | `peers` | ends that find each other, in any order and again |
-//! | `pace` | peers of different speed, acknowledgements, and rest |
+//! | `peers` | ends that connect in any order, and reconnect |
+//! | `pace` | peers of different speed, acknowledgements, and idle ends |
 //! | `freshness` | ends that want only the newest message |
 //! | `detached` | calls without a runtime |
 //! | `threads` | ends that are moved between tasks and threads |
 //! | `loans` | memory that links lend |
-//! | `declared` | what the transport declares, and promises no test needs to drive |
+//! | `declared` | what the transport declares, and what gates conclude from it |
 //! | `requests` | requests and replies |
 
 mod declared;
@@ -100,12 +100,12 @@ impl Pattern {
         }))
     }
 
-    /// A sender and a receiver that are connected.
+    /// Returns a sender and a receiver that are connected.
     async fn connected(self, transport: &dyn Transport) -> (TestSender, TestReceiver) {
         self.connected_to(transport, &Endpoint::new(ENDPOINT)).await
     }
 
-    /// A sender, and a receiver with limits of its own.
+    /// Returns a sender connected to a receiver that has the limits of `receiving`.
     async fn connected_to(self, transport: &dyn Transport, receiving: &Endpoint) -> (TestSender, TestReceiver) {
         let mut sender = self.sender_at(transport, &Endpoint::new(receiving.name.clone()));
         let mut receiver = self.receiver_at(transport, receiving);
@@ -155,7 +155,7 @@ fn numbered(count: u32) -> Vec<Bytes> {
     (0..count).map(|number| Bytes::copy_from_slice(&number.to_be_bytes())).collect()
 }
 
-/// Bytes that tell whether some of them were lost or moved.
+/// Bytes with a pattern that shows whether some of them were lost or moved.
 fn content(size: usize) -> Bytes {
     (0..size).map(|index| (index % 251) as u8).collect()
 }

@@ -22,7 +22,7 @@ impl Error {
         Self(error)
     }
 
-    /// The same texts, for an error that may not be sent to other threads.
+    /// Copies the texts of an error that may not be sent to other threads, and those of its causes.
     pub(crate) fn copy_of(error: &(dyn std::error::Error + 'static)) -> Self {
         match error.downcast_ref::<BlockingError>() {
             Some(own) => Self(Box::new(*own)),

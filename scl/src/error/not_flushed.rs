@@ -1,4 +1,4 @@
-//! What a component could not hand over before it was closed.
+//! Messages that a component could not hand over before it was closed.
 
 use super::{GateName, PeerName};
 use crate::time::Rounded;

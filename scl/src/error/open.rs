@@ -22,7 +22,7 @@ pub enum OpenError {
     Registry {
         /// The component.
         component: &'static str,
-        /// Why.
+        /// The reason.
         source: crate::registry::RegistryError,
     },
     /// A gate's connection could not be set up.
@@ -30,7 +30,7 @@ pub enum OpenError {
     Gate {
         /// The gate.
         gate: GateName,
-        /// Why.
+        /// The reason.
         source: TransportError,
     },
     /// The operating system refused a timer for the gate's `timeout`.
@@ -41,7 +41,8 @@ pub enum OpenError {
         /// The operating system's error.
         source: std::io::Error,
     },
-    /// The process was started as another component, by `scl run` or a unit file of `scl deploy`: `SCL_COMPONENT`.
+    /// The process was started as another component, according to `SCL_COMPONENT`, which `scl run` and the unit files
+    /// of `scl deploy` set.
     #[error(
         "component `{component}` of system `{system}` was not expected: this program was started as {expected}; \
          correct its command in the launch file, or allow it there with `opens: [{component}]`"
@@ -89,7 +90,7 @@ pub enum OpenError {
         component: &'static str,
         /// The name of the gate.
         gate: String,
-        /// The word of the transport.
+        /// The transport, as `SCL_TRANSPORT` names it.
         transport: &'static str,
         /// The gate that was probably meant.
         nearest: Option<String>,
@@ -132,7 +133,7 @@ pub enum OpenError {
         /// Maximum size of all plans, in bytes.
         limit: usize,
     },
-    /// An environment variable has a value that it cannot have.
+    /// An environment variable has an invalid value.
     #[error("`{variable}={value}` is not understood; expected {expected}")]
     Environment {
         /// The variable.
@@ -144,7 +145,7 @@ pub enum OpenError {
     },
 }
 
-/// What a gate needs and its transport does not offer.
+/// A guarantee that a gate needs and its transport does not offer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct MissingGuarantee {

@@ -17,21 +17,21 @@ pub(super) struct CallWakers {
 }
 
 struct Wakers {
-    /// The calls in progress, with what wakes those that wait.
+    /// The calls in progress, each with its waker if it waits.
     calls: Vec<(u64, Option<Waker>)>,
-    /// Timers of calls, those of calls in progress excepted.
+    /// Timers that no call in progress uses.
     watchdogs: Vec<Watchdog>,
     task: Option<Waker>,
 }
 
 impl CallWakers {
-    /// For as many calls as there are watchdogs.
+    /// Creates the wakers for as many calls as there are watchdogs.
     pub(super) fn new(watchdogs: Vec<Watchdog>) -> Self {
         let calls = Vec::with_capacity(watchdogs.len());
         Self { wakers: Mutex::new(Wakers { calls, watchdogs, task: None }), in_progress: AtomicUsize::new(0) }
     }
 
-    /// Returns the timer of the call, which [`end`](Self::end) takes back.
+    /// Begins a call, and returns its timer, which [`end`](Self::end) takes back.
     pub(super) fn begin(&self, call: u64) -> Option<Watchdog> {
         let mut wakers = lock(&self.wakers);
         wakers.calls.push((call, None));
@@ -39,14 +39,14 @@ impl CallWakers {
         wakers.watchdogs.pop()
     }
 
-    /// Registers a call that waits. To be used under the lock of what it waits for, after it was polled.
+    /// Registers the waker of a call that waits. Call this after polling the end, while its lock is still held.
     pub(super) fn wait(&self, call: u64, waker: &Waker) {
         let mut wakers = lock(&self.wakers);
         let Some((_, known)) = wakers.calls.iter_mut().find(|(id, _)| *id == call) else { return };
         keep_waker(known, waker);
     }
 
-    /// Wakes a call that another party has something for.
+    /// Wakes a call whose result another call or the task has received.
     pub(super) fn wake_one(&self, call: u64) {
         let waker = lock(&self.wakers).calls.iter_mut().find(|(id, _)| *id == call).and_then(|(_, waker)| waker.take());
         waker.into_iter().for_each(Waker::wake);

@@ -1,7 +1,7 @@
 //! Asking the senders of a gate with `queue: 1` what they hold back.
 //!
 //! The senders may be slow to answer, each at another time, and the program may give up each of its calls after a
-//! while. It must have their newest message nevertheless, and one that is not older than its call.
+//! while. It must still get their newest message, and one that is not older than its call.
 
 use super::links::Links;
 use std::task::Poll;
@@ -12,20 +12,20 @@ const FRESH: Duration = Duration::from_millis(1);
 /// How old a second question may be when a call begins: longer than a slow sender needs, so that there is no third.
 const FRESH_ENOUGH: Duration = Duration::from_secs(1);
 
-/// Who looks for a message.
+/// The kind of call that polls for a message.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Caller {
-    /// A call, for the first time.
+    /// The first poll of a call.
     NewCall,
-    /// A call that waits.
+    /// A later poll of the same call.
     SameCall,
-    /// A stream: its call may be dropped, and another one begin, without notice.
+    /// A stream, whose call may be dropped and followed by another one without notice.
     Stream,
 }
 
 #[derive(Default)]
 pub(super) struct CatchUp {
-    /// The question that some senders have not answered. It stays open when the call that asked has vanished.
+    /// The question that some senders have not answered. It stays open if the call that asked is dropped.
     open: Option<Question>,
 }
 
@@ -42,8 +42,8 @@ impl CatchUp {
         self.open.is_some()
     }
 
-    /// Ready when each sender has said, since the call began, that it holds back nothing newer. To know that, the links
-    /// may have read messages that were not there before.
+    /// Ready when each sender has answered, since the call began, that it holds back nothing newer. The links may have
+    /// read further messages to learn that.
     pub(super) fn poll(&mut self, links: &mut Links, caller: Caller) -> Poll<()> {
         match &mut self.open {
             Some(question) => question.is_old |= !question.counts_for(caller),

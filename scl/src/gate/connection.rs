@@ -32,21 +32,21 @@ pub(crate) struct Connection {
     sender: Box<dyn Sender>,
     /// The link to the component at the other end.
     peer: Option<Box<dyn Link>>,
-    /// What waits for that component, connected or not.
+    /// Messages that wait for that component, whether it is connected or not.
     queue: Queue<Frame>,
     /// Plain ZeroMQ subscribers beside it or in its place.
     foreign: Vec<ForeignPeer>,
-    /// What plain ZeroMQ subscribers that have left have counted.
+    /// Counts of the plain ZeroMQ subscribers that have disconnected.
     foreign_left: Counts,
     /// Wakes the connection's task; senders pass it to the link too, so that the task continues what they leave behind.
     task: Waker,
     waiting_sender: Option<Waker>,
-    /// A dropped gate and the component's flush may both wait.
+    /// Wakers of pending flushes: a dropped gate and the component's flush may both wait.
     waiting_flushes: Vec<Waker>,
     watcher: Option<Waker>,
     /// Number of connects and disconnects so far.
     changes: u64,
-    /// Who was connected when that was last reported: the peer, and the number of others.
+    /// The state that was last reported: whether the peer was connected, and the number of plain ZeroMQ subscribers.
     reported: (bool, usize),
     account: Account,
     /// The last message, if the gate has `latched: true`.
@@ -106,7 +106,7 @@ impl Connection {
         }
     }
 
-    /// Takes a message without waiting; a full queue treats it as declared.
+    /// Sends or queues a message without waiting. If the queue is full, its declared policy applies.
     pub(crate) fn send(&mut self, message: Frame) {
         if let Some(latch) = &mut self.latch {
             latch.keep(&message);
@@ -135,7 +135,7 @@ impl Connection {
         self.check_account();
     }
 
-    /// Memory of the link to the peer, to be filled and sent without a copy.
+    /// Lends memory of the link to the peer, to be filled and sent without a copy.
     pub(crate) fn loan(&mut self, length: usize) -> Option<Loan> {
         self.peer.as_mut()?.loan(length)
     }
@@ -146,7 +146,7 @@ impl Connection {
         is_missing.then(|| Missing { connection: self.link, refusal: self.sender.refusal() })
     }
 
-    /// Ready when a message would find room, or would not have to wait for it.
+    /// Ready when one more message would not have to wait.
     pub(crate) fn poll_room(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         if self.would_wait() {
             self.hand_over(None);
@@ -258,7 +258,8 @@ impl Connection {
         }
     }
 
-    /// Gives the link what waits, in order, as much as it takes.
+    /// Hands the link the messages that wait, in order, as many as it takes. Wakes pending flushes, and the sender if
+    /// it need not wait any more.
     fn hand_over(&mut self, driven: Option<Driven>) {
         let mut cx = Context::from_waker(&self.task);
         let account = &mut self.account;
@@ -302,7 +303,7 @@ impl Connection {
         }
     }
 
-    /// Returns true if the peer was connected and has ended in order, so that nobody misses the messages.
+    /// Returns true if the peer was connected and has ended in order, so that it needs no more messages.
     fn has_completed(&self) -> bool {
         self.peer.is_none() && self.changes > 0 && self.has_ended.as_ref().is_some_and(|has_ended| has_ended())
     }
@@ -321,7 +322,8 @@ impl Connection {
     }
 }
 
-/// Sends a last message that is older than the link, with its age, once those before it are sent.
+/// Sends a latched message that is older than the link, with its age, once those before it are sent; otherwise returns
+/// it to the queue.
 fn send_joined(
     link: &mut dyn Link,
     latch: &mut Latch,
@@ -341,7 +343,7 @@ fn send_joined(
     }
 }
 
-/// The receiving gate's queue. It makes the sender wait only if the sending gate allows that.
+/// Returns the policy of the receiving gate's queue. It makes the sender wait only if the sending gate allows that.
 fn policy(spec: &GateSpec, link: &ConnectionSpec) -> QueuePolicy {
     let may_wait = spec.options.backpressure || link.when_full != WhenFull::Wait;
     let when_full = if may_wait { link.when_full } else { WhenFull::DropOldest };

@@ -10,8 +10,8 @@ use scl_shape::{Format, Language, MemoryEstimate};
 /// How much memory a decoded message may take, in multiples of the gate's `max_size`.
 #[cfg(feature = "protobuf")]
 const FACTOR: u64 = 16;
-/// A `max_size` below this one limits memory as this one does, because small messages of JSON take more than 16 times
-/// their length.
+/// A smaller `max_size` counts as this one when memory is limited, because small messages of JSON take more than 16
+/// times their length.
 #[cfg(feature = "protobuf")]
 const LEAST_SIZE: u64 = 1 << 20;
 
@@ -25,7 +25,7 @@ pub(super) struct Decoder<T> {
 }
 
 impl<T> Decoder<T> {
-    /// For what a gate of this component receives.
+    /// Creates the decoder for the messages that a gate of this component receives.
     pub(super) fn new<C: Codec<T>>(component: &ComponentState, gate: &'static GateSpec) -> Self {
         #[cfg(feature = "protobuf")]
         {

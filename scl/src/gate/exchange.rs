@@ -61,7 +61,7 @@ struct End {
 
 struct SentCall {
     id: u64,
-    /// Until the call takes it.
+    /// The answer, until the call takes it.
     result: Option<Result<Bytes, ExchangeError>>,
 }
 
@@ -143,7 +143,7 @@ impl Exchange {
         .await
     }
 
-    /// The call of a gate that is connected to nothing.
+    /// Waits until the deadline: the call of a gate without a connection.
     pub(super) async fn unconnected(deadline: Instant, state: &ComponentState) -> Result<Bytes, ExchangeError> {
         until(std::future::pending(), deadline, state).await
     }
@@ -265,8 +265,8 @@ impl End {
         }
     }
 
-    /// Hands each reply that has arrived to its call, and wakes it unless it is the caller. Requests of a broken
-    /// connection get none.
+    /// Hands each reply that has arrived to its call, and wakes that call unless it is `caller`. A broken connection
+    /// ends its calls with [`ExchangeError::Lost`].
     fn take_answers(&mut self, caller: Option<u64>) {
         while self.sent_calls.iter().any(|call| call.result.is_none()) {
             let (id, result) = match self.link.poll_answer(&mut Context::from_waker(&self.waker)) {
@@ -298,7 +298,7 @@ impl End {
         }
     }
 
-    /// Waits for the reply on the calling thread.
+    /// Waits on the calling thread, at most `within`. Returns true if something has arrived.
     fn wait(&mut self, within: Duration) -> bool {
         let in_wait = Arc::clone(&self.in_wait);
         let _waiting = in_wait.begin(|figures| self.read_figures(figures));
@@ -340,7 +340,7 @@ impl End {
     }
 }
 
-/// Waits for a future, no longer than until the deadline.
+/// Waits for a future until the deadline, or until the gate cannot be used any more.
 async fn until<F: Future>(future: F, deadline: Instant, state: &ComponentState) -> Result<F::Output, ExchangeError> {
     // Without a timer this could wait forever.
     let mut watchdog = Watchdog::new().map_err(|_no_timer| ExchangeError::TimedOut)?;

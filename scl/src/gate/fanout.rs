@@ -1,4 +1,4 @@
-//! The connections of a sending gate: a message that is encoded goes over each of them, or over one in turn.
+//! The connections of a sending gate: each encoded message goes over all of them, or over one of them in turn.
 
 use super::stats::{GateStats, PeerStats};
 use super::tap::{GateTap, ObservedKind};
@@ -34,7 +34,7 @@ pub(crate) struct Fanout {
     pub(super) strictest: Option<&'static ConnectionSpec>,
     /// Number of connects and disconnects reported by `peers_changed`.
     reported: u64,
-    /// Counts the gate itself, whose connections may live longer.
+    /// Dropped with the gate, whose connections may live longer.
     open: Arc<()>,
     pub(crate) state: Owner,
 }
@@ -42,7 +42,7 @@ pub(crate) struct Fanout {
 /// A message as a gate's connections get it.
 pub(super) enum Outbound {
     Bytes(Bytes),
-    /// Memory of the connection at an index.
+    /// Memory lent by the connection at this index.
     Loan(Loan, usize),
 }
 
@@ -81,7 +81,7 @@ impl Fanout {
         }
     }
 
-    /// The message that `encode` makes, if the gate can be used and each peer accepts that length.
+    /// Encodes a message, if the gate can be used, and checks that each peer accepts its length.
     pub(super) fn accept(&self, encode: impl FnOnce() -> Result<Outbound, EncodeError>) -> Result<Outbound, SendError> {
         self.state.check().map_err(self.refused())?;
         let message = encode().map_err(|source| SendError::Encode { gate: self.name, source })?;
@@ -178,7 +178,8 @@ impl Fanout {
         self.stats().peers
     }
 
-    /// Memory for a message, and the connection that lends it, if one does; else it is from the heap.
+    /// Returns memory for a message and the index of the connection that lends it, or memory from the heap if none
+    /// lends any.
     pub(super) fn lend(&self, length: usize, alignment: usize) -> (Loan, Option<usize>) {
         let fits = |loan: &Loan| loan.len() == length && loan.as_slice().as_ptr().addr().is_multiple_of(alignment);
         let count = self.connections.len();
@@ -247,7 +248,8 @@ impl Fanout {
         lock(&self.connections[lender]).send(loan.into());
     }
 
-    /// The next puller that can take a message now, or else whose queue can, or else that declared to drop one.
+    /// Chooses the next puller that can take a message now, or else one whose queue has room, or else one whose full
+    /// queue drops messages.
     fn next_in_turn(&mut self) -> usize {
         let count = self.connections.len();
         let turn = |offset| (self.turn + offset) % count;
@@ -308,7 +310,8 @@ impl Fanout {
     }
 }
 
-/// What is left to hand over stays with the component; the sockets are freed as soon as that is done.
+/// Leaves the connections to the component, which frees their sockets once the remaining messages are handed over, or
+/// after a time limit.
 impl Drop for Fanout {
     fn drop(&mut self) {
         if self.state.is_inherited() {

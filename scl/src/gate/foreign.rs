@@ -41,8 +41,8 @@ impl Counts {
 }
 
 impl ForeignPeer {
-    /// A subscriber that is to receive `waiting` first. `latches`: it gets the last message also if it subscribes to
-    /// that later.
+    /// Creates a subscriber that receives `waiting` first. With `latches`, it gets the last message even if it
+    /// subscribes to that later.
     pub(super) fn new(link: Box<dyn Link>, policy: QueuePolicy, mut waiting: VecDeque<Frame>, latches: bool) -> Self {
         let is_unwanted = |last: &mut Frame| latches && !link.wants(last.as_slice());
         let unwanted = waiting.pop_back_if(is_unwanted).map(Frame::into_bytes);

@@ -1,7 +1,7 @@
 //! Texts in frames that a program in another language has encoded.
 //!
 //! Libraries of C and C++ put any bytes into a `string`, and most receivers refuse the whole message then. So the
-//! sender is told, which can do something about it.
+//! sender, which can correct it, gets the error.
 
 use crate::codec::EncodeError;
 use crate::spec::GateSpec;
@@ -20,7 +20,7 @@ enum Format {
 }
 
 impl ForeignTexts {
-    /// `None` if this program encodes the messages itself, or they have no texts.
+    /// Returns `None` if this program encodes the messages itself, or they have no texts.
     pub(super) fn new(component: &ComponentState, gate: &'static GateSpec, codec: &str) -> Option<Self> {
         let format = match gate.codec {
             own if own == codec => return None,

@@ -26,7 +26,7 @@ const TAKE_IN: usize = 1024;
 /// need until its next call to answer.
 const CATCH_UP: Duration = Duration::from_millis(10);
 
-/// What has arrived at a gate and was not given to the program yet.
+/// Messages that have arrived at a gate and were not given to the program yet.
 pub(super) struct Inbox {
     pub(super) links: Links,
     queue: Queue<Arrived>,
@@ -34,7 +34,7 @@ pub(super) struct Inbox {
     was_empty: bool,
     /// Whether the queue was full when the links were drained last, so that messages wake neither call nor task.
     is_stalled: bool,
-    /// The time of the last message when the links of a full queue were last told what the program has received.
+    /// Time of the last message when the program's progress was last reported to the links of a full queue.
     told_at: Option<CoarseTime>,
     catch_up: CatchUp,
     newest_only: bool,
@@ -101,8 +101,8 @@ impl Inbox {
         first.map_or(Poll::Pending, Poll::Ready)
     }
 
-    /// Waits for the next message on the calling thread, without a runtime, for a short time. Only a gate with one peer
-    /// can: it waits for one socket.
+    /// Waits for the next message on the calling thread, without a runtime, at most `within`. Only a gate with one link
+    /// can wait this way, because it waits for one socket.
     pub(super) fn wait(&mut self, within: Duration) -> Option<Arrived> {
         let arrived = self.wait_on_link(within);
         self.report_ready();
@@ -177,19 +177,20 @@ impl Inbox {
         self.links.ask_later();
     }
 
-    /// From now on reports to a set whether something can be received.
+    /// Reports to `set`, from now on, whether a message can be received.
     pub(super) fn report_to(&mut self, set: Weak<ReadySet>) {
         self.ready.add(set);
         self.report_ready();
     }
 
-    /// The gate is gone, so nothing can be received any more.
+    /// Stops reporting: the gate is dropped, so nothing can be received any more.
     pub(super) fn stop_reporting(&mut self) {
         self.ready = ReadySignals::default();
     }
 
-    /// Called whenever messages were added or removed. Only what is in the queue counts, so it is filled first: then
-    /// the links have nothing, and wake the task as soon as they do.
+    /// Reports whether a message can be received; called whenever messages were added or removed. Only messages in the
+    /// queue count, so an empty queue is filled first: if it stays empty, the links have nothing, and wake the task as
+    /// soon as they do.
     fn report_ready(&mut self) {
         if self.ready.is_empty() {
             return;
@@ -200,8 +201,8 @@ impl Inbox {
         self.ready.report(!self.queue.is_empty());
     }
 
-    /// Drains the links into the queue, as far as it makes its senders wait, and tells them what the program has
-    /// received.
+    /// Drains the links into the queue, only up to its capacity if its senders rely on that, and tells them what the
+    /// program has received.
     fn take_in(&mut self) {
         if !self.links.may_have_more() {
             return;
@@ -245,7 +246,8 @@ impl Inbox {
         }
     }
 
-    /// Returns false if nothing has arrived; the links then wake the task as soon as something does.
+    /// Takes in one message. Returns false if nothing has arrived; the links then wake the task as soon as something
+    /// does.
     fn take_in_one(&mut self) -> bool {
         let Poll::Ready(arrived) = self.poll_links() else { return false };
         self.was_empty = false;

@@ -35,13 +35,13 @@ pub(crate) struct Incoming<T> {
     decoder: Decoder<T>,
     /// The link of the last message.
     last: usize,
-    /// Empty memory for the messages from which `latest` chooses.
+    /// Reused memory, empty between calls, for the messages from which `latest` chooses.
     arrived: VecDeque<Arrived>,
     /// When the message given to the program last was sent, if that was before this gate had joined.
     latched: Option<Instant>,
     #[cfg(feature = "raw")]
     codec: TypeId,
-    /// Dropped after the ends, which are this component's only as long as it holds its lock.
+    /// Dropped last: the ends belong to this component only as long as it holds its lock.
     pub(crate) state: Owner,
 }
 
@@ -131,7 +131,7 @@ impl<T> Incoming<T> {
     }
 
     /// Waits for a message on the calling thread, without the runtime, where that is possible: for a short time, and no
-    /// longer than `limit`. If nothing has arrived, returns what the call is from then on.
+    /// longer than `limit`. If nothing has arrived, returns the [`Caller`] to continue with.
     fn wait_directly(&self, limit: Duration) -> Result<Arrived, Caller> {
         let within = self.state.direct_wait().ok_or(Caller::NewCall)?.min(limit);
         let arrived = self.inbox.lock().wait(within).ok_or(Caller::SameCall)?;
@@ -139,7 +139,7 @@ impl<T> Incoming<T> {
         Ok(arrived)
     }
 
-    /// The next item of a stream, which may be dropped without notice.
+    /// Polls for the next item of a stream, which may be dropped without notice.
     pub(crate) fn poll_next(&mut self, cx: &mut Context<'_>) -> Poll<Result<T, RecvError>> {
         for _ in 0..AT_ONCE {
             let Some(arrived) = ready!(self.poll_arrived(cx, Caller::Stream)) else {
@@ -153,9 +153,9 @@ impl<T> Incoming<T> {
         Poll::Pending
     }
 
-    /// Returns no message if the call has to fail, as [`refuse`](Self::refuse) does. An error in its place would
-    /// overlap with the message, which the compiler then moves in pieces: with a short message that takes a noticeable
-    /// part of the time.
+    /// Returns `None` if the call must fail with the error of [`refuse`](Self::refuse). An error in its place would
+    /// share memory with the message, and the compiler would move the message in pieces: for a short message, that
+    /// takes a noticeable part of the time.
     fn poll_arrived(&self, cx: &mut Context<'_>, caller: Caller) -> Poll<Option<Arrived>> {
         if self.state.check().is_err() {
             return Poll::Ready(None);
@@ -172,7 +172,7 @@ impl<T> Incoming<T> {
         }
     }
 
-    /// The error of a call that the component's state does not allow, and never will again.
+    /// Returns the error of a call that the component's state does not allow, now or ever again.
     #[cold]
     fn refuse<R>(&self) -> Result<R, RecvError> {
         Err(self.refused(self.state.check().err().unwrap_or(BlockingError::Closed)))
@@ -318,7 +318,7 @@ impl<T: FromBytes + KnownLayout + Immutable> Incoming<T> {
         self.try_next(Self::view)
     }
 
-    /// Fails before a message is taken.
+    /// Fails, before a message is taken, if the gate's codec is not `raw`.
     fn check_views(&self) -> Result<(), RecvError> {
         if self.codec == TypeId::of::<Raw>() {
             return Ok(());

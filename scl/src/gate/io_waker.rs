@@ -27,14 +27,14 @@ struct Wakers {
 }
 
 impl IoWaker {
-    /// Registers the call that waits. To be used under the lock of what it waits for, after it was polled.
+    /// Registers the waker of the call that waits. Call this after polling the ends, while their lock is still held.
     pub(crate) fn wait(&self, call: &Waker, may_vanish: bool) {
         let mut wakers = lock(&self.wakers);
         wakers.may_vanish = may_vanish;
         keep_waker(&mut wakers.call, call);
     }
 
-    /// The call gave up. If an event was reported to it, the task handles that instead.
+    /// Unregisters a call that gave up. If an event was reported to it, the task handles that instead.
     pub(crate) fn cancel(&self) {
         let mut wakers = lock(&self.wakers);
         if wakers.call.take().is_none()
@@ -44,7 +44,8 @@ impl IoWaker {
         }
     }
 
-    /// A call that waits until `poll` is ready. Dropping it before that hands the I/O back to the background task.
+    /// Returns a call that waits until `poll` is ready. Dropping it before that hands the I/O back to the background
+    /// task.
     pub(super) fn call<R, P: FnMut(&mut Context<'_>) -> Poll<R> + Unpin>(&self, poll: P) -> Call<'_, P> {
         Call { io: self, poll, is_waiting: false }
     }
@@ -106,8 +107,8 @@ impl<P> Drop for Call<'_, P> {
     }
 }
 
-/// Whether ends that are polled under an [`IoWaker`] had nothing when all of them were polled last. Then they need not
-/// be polled again before an event: to look at them costs as much as a short message.
+/// Whether all ends that are polled under an [`IoWaker`] had nothing when they were last polled. Then they need not be
+/// polled again before an event: polling them costs as much as a short message.
 pub(super) struct Drained {
     io: Arc<IoWaker>,
     /// Set and not reset.
@@ -125,13 +126,13 @@ impl Drained {
         self.is_set
     }
 
-    /// To be called when all ends were polled since `still_holds` and none had anything, or when the queue is full, so
+    /// Call this when all ends were polled since `still_holds` and none had anything, or when the queue is full, so
     /// that nothing can be taken from them.
     pub(super) fn set(&mut self) {
         self.is_set = true;
     }
 
-    /// To be called when an end may have something without an event.
+    /// Call this when an end may have something without an event.
     pub(super) fn reset(&mut self) {
         self.is_set = false;
     }

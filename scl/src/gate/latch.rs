@@ -10,32 +10,34 @@ use std::time::{Duration, Instant};
 pub(super) struct Latch {
     /// The last message, and when it was sent.
     last: Option<(Bytes, Instant)>,
-    /// Whether it was put into the queue, at whose back it is then until it is handed over.
+    /// Whether it was put into the queue. It then stays at the back until it is handed over.
     is_queued: bool,
     /// Whether the queue has dropped it.
     is_dropped: bool,
     /// Whether the connected subscriber has joined since it was sent.
     has_joined: bool,
-    /// The subscriber that is connected, as it introduced itself, or what it would say if it reconnected now.
+    /// How the subscriber introduced itself when it connected; after it has disconnected, how it would if it
+    /// reconnected now.
     peer: Option<Resumed>,
     /// How many messages this connection had handed over when that subscriber connected.
     handed: u64,
 }
 
 impl Latch {
-    /// A message is sent.
+    /// Keeps the message that is being sent.
     pub(super) fn keep(&mut self, message: &Frame) {
         self.last = Some((message.to_bytes(), Instant::now()));
         (self.is_queued, self.is_dropped, self.has_joined) = (false, false, false);
     }
 
-    /// The message sent last was put into the queue, or the queue has dropped it.
+    /// Notes whether the queue has stored or dropped the message sent last.
     pub(super) fn note_queued(&mut self, pushed: Pushed) {
         (self.is_queued, self.is_dropped) = (pushed != Pushed::Dropped, pushed == Pushed::Dropped);
     }
 
-    /// A subscriber connects. Puts the last message into the queue, unless it is there, or the subscriber has it
-    /// because it merely reconnects. Returns true if so: the message is sent over this connection once more.
+    /// Called when a subscriber connects. Puts the last message into the queue, unless it is there already, or the
+    /// subscriber has it because it merely reconnects. Returns true if it was put there, to be sent over this
+    /// connection once more.
     pub(super) fn join(&mut self, queue: &mut Queue<Frame>, peer: Option<Resumed>, handed: u64) -> bool {
         let before = std::mem::replace(&mut self.peer, peer);
         self.handed = handed;
@@ -50,7 +52,7 @@ impl Latch {
         is_missing
     }
 
-    /// The subscriber has disconnected.
+    /// Called when the subscriber has disconnected.
     pub(super) fn leave(&mut self, handed: u64) {
         if let Some(peer) = &mut self.peer {
             peer.taken += handed - self.handed;
@@ -58,7 +60,7 @@ impl Latch {
         self.handed = handed;
     }
 
-    /// The last message, for a plain ZeroMQ subscriber that gets `waiting` first.
+    /// Appends the last message, unless it is there already, to `waiting`, which a plain ZeroMQ subscriber gets first.
     pub(super) fn join_foreign(&self, waiting: &mut VecDeque<Frame>) {
         if let Some((last, _)) = &self.last
             && (waiting.is_empty() || !self.is_queued)
@@ -73,7 +75,7 @@ impl Latch {
         Some((queue.items_mut().pop_back()?, sent.elapsed()))
     }
 
-    /// The subscriber that has joined has got it.
+    /// Called when the last message was sent to the subscriber that has joined.
     pub(super) fn note_sent(&mut self) {
         (self.is_queued, self.has_joined) = (false, false);
     }

@@ -1,4 +1,4 @@
-//! The links of a receiving gate, asked in turn for what has arrived.
+//! The links of a receiving gate, polled in turn for messages.
 
 use super::io_waker::{Drained, IoWaker};
 use crate::error::Missing;
@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 /// One link per peer, or one for all peers of a gate that listens.
 pub(super) struct Links {
     links: Vec<Link>,
-    /// The link to ask first, so that all get their turn.
+    /// The link to poll first, so that each gets its turn.
     next: usize,
     drained: Drained,
     waker: Waker,
@@ -25,13 +25,13 @@ struct Link {
     end: Box<dyn Receiver>,
     /// Number of connected peers when it was asked last.
     peers: usize,
-    /// Whether its sender keeps its last message for those that join.
+    /// Whether its sender keeps its last message for subscribers that join.
     is_latched: bool,
     /// Number of messages that it has returned.
     received: u64,
     /// How many of them wait in the gate's queue.
     waiting: u64,
-    /// Whether a sender waits to be told that they do not wait any more.
+    /// Whether a sender waits for a report of each message that leaves the queue.
     is_awaited: bool,
 }
 
@@ -44,7 +44,7 @@ pub(super) struct Arrived {
 }
 
 impl Links {
-    /// `io` is woken when it is worth asking the links again.
+    /// Creates the links. `io` is woken when it is worth polling them again.
     pub(super) fn new(ends: Vec<Box<dyn Receiver>>, io: Arc<IoWaker>, changes: Changes) -> Self {
         let to_link = |end| Link { end, peers: 0, is_latched: false, received: 0, waiting: 0, is_awaited: false };
         let (links, waker) = (ends.into_iter().map(to_link).collect(), Waker::from(Arc::clone(&io)));
@@ -55,17 +55,17 @@ impl Links {
         self.links.len()
     }
 
-    /// Returns false if nothing has arrived since all of them had nothing.
+    /// Returns false if all links had nothing when they were last polled, and nothing has arrived since.
     pub(super) fn may_have_more(&mut self) -> bool {
         !self.drained.still_holds()
     }
 
-    /// Asks all of them the next time, whatever they had.
+    /// Makes the next [`poll_next`](Self::poll_next) poll all links, even if they had nothing.
     pub(super) fn look_again(&mut self) {
         self.drained.reset();
     }
 
-    /// Asks none of them before an event.
+    /// Makes [`poll_next`](Self::poll_next) poll no link before an event.
     pub(super) fn rest(&mut self) {
         self.drained.set();
     }
@@ -93,7 +93,7 @@ impl Links {
         Poll::Pending
     }
 
-    /// Lets the links connect, and asks them for no messages before an event, because there is no room.
+    /// Lets the links connect, and takes no messages from them before an event, because the queue has no room.
     pub(super) fn connect(&mut self) {
         self.rest();
         let cx = &mut Context::from_waker(&self.waker);
@@ -103,13 +103,13 @@ impl Links {
         }
     }
 
-    /// Asks again after others had their turn.
+    /// Has the links polled again after other tasks had their turn.
     pub(super) fn ask_later(&mut self) {
         self.drained.reset();
         self.waker.wake_by_ref();
     }
 
-    /// Asks the operating system, because the runtime may not have had a turn for long.
+    /// Fetches messages from the operating system directly, because the runtime may not have had a turn for long.
     pub(super) fn fetch(&mut self, within: Duration) {
         self.drained.reset();
         self.links.iter_mut().for_each(|link| link.end.catch_up(within));
@@ -121,12 +121,12 @@ impl Links {
         self.links.first_mut().is_some_and(|link| link.end.wait(within))
     }
 
-    /// A call begins, for which no earlier answer of a sender counts.
+    /// Discards the senders' earlier answers, which do not count for a call that begins now.
     pub(super) fn forget_answers(&mut self) {
         self.links.iter_mut().for_each(|link| link.end.forget_answers());
     }
 
-    /// Whether a sender may hold something newer. Asks each, even if an earlier one is behind.
+    /// Returns true if a sender may hold a newer message. Asks every sender, even if an earlier one is behind.
     pub(super) fn are_behind(&mut self) -> bool {
         // Asking may read messages that have just arrived.
         self.drained.reset();
@@ -134,12 +134,12 @@ impl Links {
         self.links.iter_mut().fold(false, |behind, link| link.end.poll_caught_up(cx).is_pending() | behind)
     }
 
-    /// A message that was returned waits in the queue from now on.
+    /// Counts a message that was returned and now waits in the queue.
     pub(super) fn count_waiting(&mut self, link: usize) {
         self.links[link].waiting += 1;
     }
 
-    /// A message has left the queue.
+    /// Counts a message that has left the queue.
     pub(super) fn count_gone(&mut self, link: usize) {
         let link = &mut self.links[link];
         link.waiting -= 1;
@@ -149,13 +149,13 @@ impl Links {
         }
     }
 
-    /// No message waits in the queue any more.
+    /// Called when no message waits in the queue any more.
     pub(super) fn count_all_gone(&mut self) {
         self.links.iter_mut().for_each(|link| link.waiting = 0);
         self.note_waiting();
     }
 
-    /// The message returned last was dropped at once.
+    /// Tells the link that the message returned last was dropped at once.
     pub(super) fn note_dropped(&mut self, link: usize) {
         self.links[link].end.note_dropped();
     }
@@ -216,7 +216,8 @@ impl Link {
         self.is_awaited = self.end.note_waiting(cx, self.waiting);
     }
 
-    /// Called after every poll: a waiting call is woken instead of the task, and completes the connection.
+    /// Reports a change of the number of peers. Called after every poll, because a waiting call may be woken instead of
+    /// the task and complete the connection.
     fn report_peers(&mut self, changes: &Changes) {
         let peers = self.end.peers();
         if std::mem::replace(&mut self.peers, peers) != peers {

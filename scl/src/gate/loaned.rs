@@ -12,9 +12,9 @@ use std::time::Duration;
 /// [`Pub::loan_bytes`](super::Pub::loan_bytes).
 ///
 /// The memory is that of a connected peer if the transport has some to lend, as shared memory has, and from the heap
-/// otherwise; the program need not care. Dropping it sends nothing and gives the memory back.
+/// otherwise; the program need not care. Dropping the message sends nothing and gives the memory back.
 ///
-/// What it contains at first is unspecified: zeros, or parts of older messages. Write all of it.
+/// The initial content is unspecified: zeros, or parts of older messages. Write all of it.
 #[must_use = "a message that is dropped is not sent"]
 pub struct Loaned<'a, T: ?Sized> {
     fanout: &'a mut Fanout,
@@ -25,7 +25,7 @@ pub struct Loaned<'a, T: ?Sized> {
 }
 
 impl<'a, T: ?Sized> Loaned<'a, T> {
-    /// A message of `length` bytes for the peers of a gate.
+    /// Creates a message of `length` bytes for the peers of a gate.
     pub(super) fn new(fanout: &'a mut Fanout, length: usize, alignment: usize) -> Result<Self, LoanError> {
         let gate = fanout.name;
         fanout.state.check().map_err(|source| LoanError::Blocking { gate, source })?;
@@ -40,8 +40,8 @@ impl<'a, T: ?Sized> Loaned<'a, T> {
 
     /// Sends the message, as [`Pub::send`](super::Pub::send) does.
     ///
-    /// The peer that lent the memory gets it as it is. What the memory cannot be handed to gets a copy: other peers of
-    /// the gate, which share one, and a peer whose connection was replaced since.
+    /// The peer that lent the memory gets it without a copy. Any other recipient gets a copy: the other peers of the
+    /// gate, which share one, and a peer whose connection was replaced since.
     ///
     /// # Errors
     /// Those of `send`, except `Encode` and `TooLong`.

@@ -52,7 +52,7 @@ impl<T> Outgoing<T> {
         self.fanout.try_send(|| self.encoding.encode(message).map(Outbound::Bytes))
     }
 
-    /// Memory for one message, in the layout that `C` sends it.
+    /// Lends memory for one message. Fails if the gate's codec is not `C`.
     pub(crate) fn loan<C: Codec<T>, M: ?Sized>(
         &mut self,
         length: usize,

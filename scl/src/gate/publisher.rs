@@ -58,7 +58,7 @@ impl<T> Pub<T> {
     }
 
     /// [`send_blocking`](Self::send_blocking) with a time limit, which is exact to a millisecond. With
-    /// [`Duration::ZERO`] it looks once whether there is room.
+    /// [`Duration::ZERO`] it checks once whether there is room.
     ///
     /// # Errors
     /// [`SendTimeoutError::Timeout`] if a queue was still full after `timeout`; the message was sent to no peer then,
@@ -119,8 +119,8 @@ where
     /// Lends memory for one message, to be written in place and sent: for large messages, of a type with `codec: raw`.
     ///
     /// On a transport with shared memory, and with a view at the receiver ([`Sub::recv_view`](super::Sub::recv_view)),
-    /// the message is never copied. Everywhere else the memory is from the heap, which spares the copy of
-    /// [`send`](Self::send) all the same.
+    /// the message is never copied. Everywhere else the memory is from the heap, which still saves the copy that
+    /// [`send`](Self::send) makes.
     ///
     /// ```no_run
     /// use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout};

@@ -54,7 +54,7 @@ impl<T> Push<T> {
     }
 
     /// [`send_blocking`](Self::send_blocking) with a time limit, which is exact to a millisecond. With
-    /// [`Duration::ZERO`] it looks once whether there is room.
+    /// [`Duration::ZERO`] it checks once whether there is room.
     ///
     /// # Errors
     /// [`SendTimeoutError::Timeout`] if a queue was still full after `timeout`; the message was sent to no peer then,
@@ -116,7 +116,7 @@ where
     ///
     /// On a transport with shared memory, and with a view at the receiver
     /// ([`Pull::recv_view`](super::Pull::recv_view)), the message is never copied. Everywhere else the memory is from
-    /// the heap, which spares the copy of [`send`](Self::send) all the same.
+    /// the heap, which still saves the copy that [`send`](Self::send) makes.
     ///
     /// See [`Pub::loan`](super::Pub::loan) for an example.
     ///

@@ -1,4 +1,5 @@
-//! The bounded queue of a connection or gate, with the policy that the topology declares. Both ends use this one.
+//! The bounded queue of a connection or gate, with the policy that the topology declares. Sending and receiving ends
+//! both use this type.
 
 use crate::spec::WhenFull;
 use std::collections::VecDeque;
@@ -7,8 +8,8 @@ use std::collections::VecDeque;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct QueuePolicy {
     pub(crate) capacity: usize,
-    /// `Wait` concerns the sender, which asks [`Queue::is_full`] first; a message pushed all the same replaces the
-    /// oldest.
+    /// With `Wait`, the sender checks [`Queue::is_full`] before it pushes; a message pushed into a full queue anyway
+    /// replaces the oldest.
     pub(crate) when_full: WhenFull,
 }
 
@@ -16,7 +17,7 @@ pub(crate) struct QueuePolicy {
 pub(crate) struct Queue<T> {
     items: VecDeque<T>,
     pub(crate) policy: QueuePolicy,
-    /// Values that a newer one has replaced where only the newest counts: no drops.
+    /// Messages replaced by a newer one in a queue where only the newest counts; not counted as dropped.
     pub(crate) replaced: u64,
     pub(crate) dropped_oldest: u64,
     pub(crate) dropped_newest: u64,
@@ -55,7 +56,8 @@ impl<T> Queue<T> {
         pushed
     }
 
-    /// Like [`push`](Self::push), but counts nothing: a program in the peer's place has the message.
+    /// Like [`push`](Self::push), but counts nothing as replaced or dropped: a foreign program in the peer's place has
+    /// already received the messages.
     pub(crate) fn replace(&mut self, item: T) -> Pushed {
         if !self.is_full() {
             self.items.push_back(item);
@@ -69,7 +71,8 @@ impl<T> Queue<T> {
         Pushed::ReplacedOldest
     }
 
-    /// Stores a message that a full queue must not drop; there the newest of the others gives way, and is returned.
+    /// Stores a message that must not be dropped. If the queue is full, drops its newest message instead and returns
+    /// it.
     pub(crate) fn push_over_newest(&mut self, item: T) -> Option<T> {
         let newest = if self.is_full() { self.items.pop_back() } else { None };
         self.dropped_newest += u64::from(newest.is_some());
@@ -85,7 +88,7 @@ impl<T> Queue<T> {
         self.items.front()
     }
 
-    /// The messages themselves, for a link that takes several at once.
+    /// Returns the waiting messages, for a link that takes several at once.
     pub(crate) fn items_mut(&mut self) -> &mut VecDeque<T> {
         &mut self.items
     }

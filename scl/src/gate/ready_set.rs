@@ -1,7 +1,7 @@
-//! A file descriptor that is readable while one of several gates has something, for event loops.
+//! For event loops: a file descriptor that is readable while at least one of several gates has a message or request.
 //!
 //! All reasons to be readable are kept under one lock, together with the state of the descriptor, so the two always
-//! agree: no change can fall between looking at the reasons and clearing the descriptor.
+//! agree: no change can slip in between checking the reasons and clearing the descriptor.
 
 use crate::state::WakeCall;
 use crate::sync::lock;
@@ -19,9 +19,9 @@ pub(crate) struct ReadySet {
 /// Why the descriptor is readable.
 #[derive(Default)]
 struct Reasons {
-    /// Number of gates that have something.
+    /// Number of gates that have a message or request.
     gates: usize,
-    /// Whether a waker was woken and that was not acknowledged.
+    /// Whether a waker was woken and the wake-up has not been acknowledged yet.
     woken: bool,
     stop_requested: bool,
     stop_acknowledged: bool,
@@ -47,7 +47,8 @@ impl ReadySet {
         self.change(|reasons| reasons.stop_requested = true);
     }
 
-    /// May be called before the request was noticed here.
+    /// Acknowledges the stop request, so that it is no longer a reason. May be called before
+    /// [`request_stop`](Self::request_stop).
     pub(crate) fn acknowledge_stop(&self) {
         self.change(|reasons| reasons.stop_acknowledged = true);
     }
@@ -77,19 +78,19 @@ impl Wake for ReadySet {
     }
 }
 
-/// Ended calls are a reason to poll them.
+/// Makes the descriptor readable when calls are ended, so that the event loop polls them.
 impl WakeCall for ReadySet {
     fn wake_call(&self) {
         self.set_woken(true);
     }
 
-    /// An event loop waits as long as there is nothing for it.
+    /// An event loop counts as waiting while the descriptor is not readable.
     fn waits(&self, _futures: bool) -> bool {
         !lock(&self.reasons).raised
     }
 }
 
-/// Reports to the sets that a gate belongs to whether it has something.
+/// Reports whether a gate has a message or request to the sets that the gate belongs to.
 #[derive(Default)]
 pub(crate) struct ReadySignals {
     sets: Vec<Weak<ReadySet>>,
@@ -98,7 +99,7 @@ pub(crate) struct ReadySignals {
 }
 
 impl ReadySignals {
-    /// Returns true if nobody wants to know.
+    /// Returns true if the gate belongs to no set.
     pub(crate) fn is_empty(&self) -> bool {
         self.sets.is_empty()
     }
@@ -122,7 +123,7 @@ impl ReadySignals {
     }
 }
 
-/// A gate that is gone has nothing.
+/// Reports that a dropped gate has no message or request any more.
 impl Drop for ReadySignals {
     fn drop(&mut self) {
         self.report(false);

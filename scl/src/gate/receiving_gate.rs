@@ -1,5 +1,5 @@
-//! What `Sub` and `Pull` are besides their own calls, once for both. The calls themselves are written out in each, so
-//! that rustc shows a user plain code.
+//! The code that `Sub` and `Pull` share. Their public methods are written out in each, so that rustc shows users plain
+//! code.
 
 /// Implements `AnyGate` and `Stream` for a gate that receives.
 macro_rules! receiving_gate {

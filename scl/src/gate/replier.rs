@@ -47,14 +47,14 @@ pub struct Rep<A, B> {
     replies: ProcessOwned<Arc<Replies<B>>>,
 }
 
-/// What all requests of a gate need to be answered.
+/// State for sending replies, shared by all requests of a gate.
 struct Replies<B> {
     gate: GateName,
     encoding: Mutex<Encoding<B>>,
     tap: GateTap,
     /// The requester that accepts the shortest replies.
     strictest: Option<&'static ConnectionSpec>,
-    /// Dropped after the end, which is this component's only as long as it holds its lock.
+    /// Dropped after the end, which belongs to this component only while the component holds its lock.
     state: Owner,
 }
 
@@ -79,7 +79,7 @@ impl<A, B> Rep<A, B> {
     /// # Errors
     /// [`RecvError::Decode`] if the codec cannot read a request and the gate declares `undecodable: fail`; by default
     /// it is skipped. Either way the sender's call fails with [`CallError::Refused`](crate::CallError::Refused), except
-    /// that of a plain ZeroMQ program, which has no reply to wait for until its own timeout.
+    /// that of a plain ZeroMQ program, which receives nothing and waits until its own timeout.
     ///
     /// # Cancel safety
     /// Cancel safe: no request is lost if this is dropped before it is ready.
@@ -204,7 +204,7 @@ impl<A, B> Drop for Rep<A, B> {
     }
 }
 
-/// A request, which can be read like the message it carries, and its way back.
+/// A request and its way back to the requester. It can be read like the message that it carries.
 ///
 /// A request that is dropped is not answered: its sender waits until its timeout.
 #[must_use = "a request that is not answered keeps its sender waiting until the timeout"]
@@ -225,7 +225,7 @@ impl<A, B> Request<A, B> {
     /// Sends the reply. It never waits, and may be called from any thread, inside async code or not.
     ///
     /// # Errors
-    /// [`ReplyError::RequesterGone`] if nobody waits for the reply any more, which a replier may well ignore;
+    /// [`ReplyError::RequesterGone`] if the requester has disconnected, which a replier may well ignore;
     /// [`ReplyError::Encode`] if the codec cannot express it; [`ReplyError::TooLong`] if the requester does not accept
     /// a reply of this length.
     pub fn reply(self, reply: &B) -> Result<(), ReplyError> {

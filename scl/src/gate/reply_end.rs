@@ -14,11 +14,11 @@ use std::sync::{Arc, Mutex, Weak};
 use std::task::{Context, Poll, Waker, ready};
 use tokio::runtime::Handle;
 
-/// Up to this number of requesters, a call that takes a request looks at the others itself, which is cheaper than to
-/// wake the task.
+/// Up to this number of requesters, a call that takes a request polls the connections itself, which is cheaper than
+/// waking the task.
 const DRIVEN_BY_CALLS: usize = 64;
 
-/// A request, and how many had arrived with it.
+/// A request and its number at this gate, counted from 1.
 pub(super) type Numbered = (u64, IncomingRequest);
 
 pub(super) struct ReplyEnd {
@@ -36,15 +36,15 @@ struct Link {
     received: u64,
     undecodable: u64,
     activity: Activity,
-    /// A request that was read to know that there is one.
+    /// A request that was read ahead to find out whether there is one.
     next: Option<IncomingRequest>,
     ready: ReadySignals,
-    /// A dropped gate and the component's flush may both wait.
+    /// The wakers of waiting flushes: a dropped gate and the component may both be flushing.
     waiting_flushes: Vec<Waker>,
 }
 
 impl ReplyEnd {
-    /// Starts to listen. Needs a tokio runtime.
+    /// Opens the end and starts the task that drives it. Must be called inside a tokio runtime.
     pub(super) fn open(replier: Box<dyn Replier>, state: &Arc<ComponentState>) -> Arc<Self> {
         let io = Arc::new(IoWaker::default());
         state.register_calls(Arc::downgrade(&io) as _);
@@ -86,7 +86,7 @@ impl ReplyEnd {
         polled
     }
 
-    /// Ready when a request waits; otherwise registers the call, which may vanish.
+    /// Ready when a request is waiting; otherwise registers the call, which may vanish: see [`IoWaker::wait`].
     pub(super) fn poll_ready(&self, cx: &mut Context<'_>) -> Poll<()> {
         let mut link = lock(&self.link);
         let found = link.look_ahead();
@@ -108,7 +108,7 @@ impl ReplyEnd {
         }
     }
 
-    /// Makes the end report to sets whether there is a request, without keeping it open.
+    /// Returns a function that makes the end report to a set whether it has a request. It does not keep the end open.
     pub(super) fn reporter(&self) -> impl Fn(Weak<ReadySet>) + Send + Sync + 'static {
         let link = Arc::downgrade(&self.link);
         move |set| {
@@ -120,7 +120,8 @@ impl ReplyEnd {
         }
     }
 
-    /// The gate is gone, so no request can be taken any more, but the end may still have replies to write.
+    /// Stops reporting to sets: the gate was dropped, so no request can be taken any more, but the end may still have
+    /// replies to write.
     pub(super) fn stop_reporting(&self) {
         lock(&self.link).ready = ReadySignals::default();
     }
@@ -133,7 +134,7 @@ impl ReplyEnd {
         GateStats { waiting: 0, ..GateStats::of(|figures| lock(&self.link).read_figures(figures)) }
     }
 
-    /// Returns true for the first one.
+    /// Counts an undecodable request. Returns true for the first one.
     pub(super) fn count_undecodable(&self) -> bool {
         let mut link = lock(&self.link);
         link.undecodable += 1;
@@ -154,7 +155,7 @@ impl ReplyEnd {
         })
     }
 
-    /// The end itself, which the component keeps until the last reply is written.
+    /// Returns the link, which the component keeps until the last reply is written.
     pub(super) fn link(&self) -> Arc<Mutex<dyn SendingEnd>> {
         Arc::clone(&self.link) as _
     }
@@ -183,8 +184,9 @@ impl Link {
         polled
     }
 
-    /// The program may handle a request for long. Whatever woke its call wakes nobody again before the connections are
-    /// polled, so their heartbeats would not be answered meanwhile.
+    /// Polls all connections, or wakes the task to do so, because the program may take long to handle the request. The
+    /// event that woke its call causes no other wake-up before they are polled, so heartbeats would remain unanswered
+    /// in the meantime.
     fn keep_alive(&mut self) {
         if self.replier.peers() > DRIVEN_BY_CALLS {
             self.waker.wake_by_ref();
@@ -195,7 +197,7 @@ impl Link {
         }
     }
 
-    /// Brings the figures up to date, without those of the tap.
+    /// Updates the figures, except those of the tap.
     fn read_figures(&self, figures: &mut GateFigures) {
         figures.set(GateFigures {
             received: self.received,
@@ -209,7 +211,7 @@ impl Link {
         self.activity.add_to(figures);
     }
 
-    /// Returns true if there is a request.
+    /// Reads a request ahead, unless one was read already. Returns true if there is one.
     fn look_ahead(&mut self) -> bool {
         if self.next.is_none()
             && let Poll::Ready(request) = self.poll_request()
@@ -219,7 +221,7 @@ impl Link {
         self.next.is_some()
     }
 
-    /// Called whenever a request may have arrived or was taken.
+    /// Reports to the sets whether there is a request. Called whenever one may have arrived or was taken.
     fn report_ready(&mut self) {
         if !self.ready.is_empty() {
             let found = self.look_ahead();
@@ -227,7 +229,7 @@ impl Link {
         }
     }
 
-    /// Returns true if requesters came or left.
+    /// Drives the end from its task. Returns true if the number of requesters has changed.
     fn drive_by_task(&mut self) -> bool {
         let waker = self.waker.clone();
         self.drive(&mut Context::from_waker(&waker));
@@ -255,7 +257,7 @@ impl SendingEnd for Link {
         None
     }
 
-    /// Which requester did not read its reply is not known here; it learns that by its timeout.
+    /// Returns `None`: it is not known here which requester did not read its reply. That requester's call times out.
     fn leftover(&self, _acknowledged: bool) -> Option<Unflushed> {
         None
     }

@@ -19,7 +19,7 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use tokio::time::Instant;
 
-/// A timeout that never ends: 30 years.
+/// Replaces a timeout whose deadline would overflow: 30 years.
 const LONGEST: Duration = Duration::from_secs(30 * 365 * 86_400);
 
 /// Sends requests to the `rep` gate that this gate is connected to.
@@ -37,8 +37,8 @@ const LONGEST: Duration = Duration::from_secs(30 * 365 * 86_400);
 ///
 /// # Several calls at once
 ///
-/// A clone is a handle to the same gate, for another task or thread. As many calls as the gate's `in_flight` says are
-/// in progress at once, by default one; the others wait in order, within their timeouts. Each reply is matched with its
+/// A clone is a handle to the same gate, for another task or thread. Up to `in_flight` calls of the gate are in
+/// progress at once, by default one; the others wait in order, within their timeouts. Each reply is matched with its
 /// request, in whatever order the replier answers.
 ///
 /// ```no_run
@@ -67,7 +67,7 @@ struct Shared<A, B> {
     exchange: Option<Exchange>,
     encoding: Mutex<Encoding<A>>,
     decoder: Decoder<B>,
-    /// Dropped after the end, which is this component's only as long as it holds its lock.
+    /// Dropped after the end, which belongs to this component only while the component holds its lock.
     state: Owner,
 }
 
@@ -88,8 +88,8 @@ impl<A, B> Req<A, B> {
 
     /// Sends a request and waits for the reply, together no longer than the gate's `timeout`.
     ///
-    /// A replier that is not connected yet, or that restarts, is waited for within that time, and so is the end of
-    /// another call while as many are in progress as the gate's `in_flight` allows.
+    /// That time includes waiting for a replier that is not connected yet or restarts, and for the end of another call
+    /// while as many are in progress as the gate's `in_flight` allows.
     ///
     /// # Errors
     /// [`CallError::Timeout`] if no reply arrived in time, [`CallError::PeerLost`] if the replier disconnected after
@@ -103,13 +103,13 @@ impl<A, B> Req<A, B> {
         self.call_within(request, self.timeout()).await
     }
 
-    /// [`call`](Self::call) with a timeout of its own instead of the gate's.
+    /// [`call`](Self::call) with this timeout instead of the gate's.
     ///
     /// # Errors
     /// Those of `call`. After a timeout, too, the next call never receives the reply to this one.
     ///
     /// # Cancel safety
-    /// As `call`.
+    /// Same as `call`.
     pub async fn call_within(&mut self, request: &A, timeout: Duration) -> Result<B, CallError> {
         self.exchange(request, timeout).await
     }
@@ -154,7 +154,7 @@ impl<A, B> Req<A, B> {
         state.block_on(self.exchange(request, timeout)).map_err(|source| CallError::Blocking { gate, source })?
     }
 
-    /// The gate's `timeout`.
+    /// Returns the gate's `timeout`.
     pub fn timeout(&self) -> Duration {
         self.shared.spec.options.timeout
     }
@@ -187,7 +187,7 @@ impl<A, B> Req<A, B> {
         }
     }
 
-    /// Counts a reply that the program itself could not decode.
+    /// Counts a reply that the program itself could not decode, and returns the error of the call.
     pub(crate) fn reject(&self, source: DecodeError) -> CallError {
         self.shared.exchange.iter().for_each(Exchange::count_undecodable);
         CallError::Decode { gate: self.shared.name, peers: Peers::of(self.shared.spec), source }
@@ -203,7 +203,7 @@ impl<A, B> Req<A, B> {
     }
 }
 
-/// Both are the same gate: its connection, its limit of calls in progress and its counts are shared.
+/// A clone is a handle to the same gate: both share its connection, its limit of calls in progress and its counts.
 impl<A, B> Clone for Req<A, B> {
     fn clone(&self) -> Self {
         Self { shared: Arc::clone(&self.shared) }

@@ -1,5 +1,5 @@
-//! What `Pub` and `Push` are besides their own calls, once for both. The calls themselves are written out in each, so
-//! that rustc shows a user plain code.
+//! The code that `Pub` and `Push` share. Their public methods are written out in each, so that rustc shows users plain
+//! code.
 
 /// Implements `AnyGate` and `Sink` for a gate that sends.
 macro_rules! sending_gate {

@@ -12,7 +12,8 @@ pub struct GateStats {
     pub sent: u64,
     /// Messages received.
     pub received: u64,
-    /// Messages that a newer one has replaced in a queue of one with `drop_oldest`, as `queue: 1` asks for: no drops.
+    /// Messages replaced by a newer one in a queue of one with `drop_oldest`, which `queue: 1` declares; not counted as
+    /// dropped.
     pub replaced: u64,
     /// Messages dropped because a queue was full and `drop_oldest` was declared.
     pub dropped_oldest: u64,
@@ -22,9 +23,9 @@ pub struct GateStats {
     pub dropped_for_observers: u64,
     /// Messages that were on their way, or waited in the peer's gate, when their connection broke.
     pub lost: u64,
-    /// Messages received that could not be used: several frames, or not what the codec reads.
+    /// Messages received that could not be used: they had several frames, or the codec could not read them.
     pub rejected: u64,
-    /// Those of them that the codec could not read; see the option `undecodable`.
+    /// Rejected messages that the codec could not read; see the option `undecodable`.
     pub undecodable: u64,
     /// Bytes of the messages sent or received.
     pub bytes: u64,
@@ -47,15 +48,15 @@ pub struct PeerStats {
     pub peer: String,
     /// Whether the peer is connected.
     pub connected: bool,
-    /// Messages sent by this gate, and those among them that were sent once more ([`latched`](Self::latched)).
+    /// Messages sent to this peer, including those that were sent once more ([`latched`](Self::latched)).
     pub published: u64,
     /// How often the last message of a gate with `latched: true` was sent once more, to a subscriber that joined.
     pub latched: u64,
-    /// Messages that the peer's program has received, or passed over, or that its gate has dropped and counted there,
-    /// as far as the peer has said: when half of a window is on its way, twice a second if figures are written
-    /// (`SCL_STATS`), and when it ends. For a plain ZeroMQ program, those that were handed to its socket.
+    /// Messages that the peer's program has received or skipped, or that its gate has dropped and counted there, as far
+    /// as the peer has acknowledged them: it does so when half of a window is on its way, whenever it writes figures
+    /// (`SCL_STATS`), and when it ends. For a plain ZeroMQ program, messages handed to its socket.
     pub taken: u64,
-    /// Messages that a newer one has replaced in a queue of one with `drop_oldest`: no drops.
+    /// Messages replaced by a newer one in a queue of one with `drop_oldest`; not counted as dropped.
     pub replaced: u64,
     /// Messages dropped because the queue was full and `drop_oldest` was declared.
     pub dropped_oldest: u64,
@@ -69,7 +70,7 @@ pub struct PeerStats {
 }
 
 impl GateStats {
-    /// The counts of a gate whose figures `read` adds to those of a gate that has done nothing.
+    /// Returns the counts from the figures that `read` fills in, which are all zero before.
     pub(crate) fn of(read: impl FnOnce(&mut GateFigures)) -> Self {
         let mut figures = GateFigures::default();
         read(&mut figures);
@@ -92,11 +93,11 @@ impl GateStats {
     }
 }
 
-/// Bytes moved, and when last.
+/// Number of bytes moved, and when a message last moved.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Activity {
     bytes: u64,
-    /// When something was added last, to a few milliseconds.
+    /// When a message last moved, exact to a few milliseconds.
     pub(super) last: Option<CoarseTime>,
 }
 

@@ -78,11 +78,11 @@ impl<T> Sub<T> {
         self.incoming.latest()
     }
 
-    /// How long ago the message was sent that the last call returned, if its publisher has `latched: true` and sent it
-    /// before this gate was connected to it. `None` for every message that arrived while connected, and before the
-    /// first one.
+    /// Returns how long ago the message that the last call returned was sent, if its publisher has `latched: true` and
+    /// sent it before this gate was connected to it. Returns `None` for every message that arrived while connected, and
+    /// before the first one.
     ///
-    /// It goes on growing until the next message is received.
+    /// The age keeps growing until the next message is received.
     pub fn latched_age(&self) -> Option<Duration> {
         self.incoming.latched_age()
     }
@@ -100,10 +100,10 @@ impl<T> Sub<T> {
 
 #[cfg(feature = "raw")]
 impl<T: zerocopy::FromBytes + zerocopy::KnownLayout + zerocopy::Immutable> Sub<T> {
-    /// Waits for the next message, and returns it where it arrived instead of a copy: for large messages, of a type
-    /// with `codec: raw`.
+    /// Waits for the next message and returns a view of it in the memory in which it arrived, instead of a copy: for
+    /// large messages, of a type with `codec: raw`.
     ///
-    /// Bytes that are not aligned for the type are copied. Those of shared memory always are aligned.
+    /// Bytes that are not aligned for the type are copied. Messages in shared memory are always aligned.
     ///
     /// ```no_run
     /// use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout};
@@ -142,7 +142,7 @@ impl<T: zerocopy::FromBytes + zerocopy::KnownLayout + zerocopy::Immutable> Sub<T
         self.incoming.recv_view_blocking()
     }
 
-    /// Returns the next message where it arrived, if one has; it waits no longer than [`try_recv`](Self::try_recv).
+    /// Returns a view of the next message if one has arrived. It waits no longer than [`try_recv`](Self::try_recv).
     ///
     /// # Errors
     /// Those of `recv_view`, and [`RecvError::Blocking`] after a stop request.

@@ -1,4 +1,4 @@
-//! Where tools observe a gate: every message of a `pub`, `pull` or `rep` gate, with its number and time.
+//! Taps, where tools observe every message of a `pub`, `pull` or `rep` gate, with its number and time.
 
 pub(crate) use crate::tap_meta::ObservedKind;
 
@@ -35,7 +35,8 @@ struct End {
 }
 
 impl GateTap {
-    /// Opens the tap; a transport without taps gives `None`. `latches`: observers that join get the last message.
+    /// Opens the tap; `tap` is `None` if the transport has no taps. `latches`: observers that join get the last
+    /// message.
     pub(crate) fn new(tap: Option<Box<dyn Tap>>, latches: bool) -> Self {
         let Some(tap) = tap else { return Self { shared: None, _task: None } };
         let end = Mutex::new(End { tap, task: Waker::noop().clone() });
@@ -55,19 +56,20 @@ impl GateTap {
         self.observe_with(kind, call_id, || payload.clone());
     }
 
-    /// The same for a message that would have to be copied first.
+    /// Like [`observe`](Self::observe), for a message that would have to be copied first: calls `payload` only if it is
+    /// needed.
     pub(crate) fn observe_with(&self, kind: ObservedKind, call_id: u64, payload: impl FnOnce() -> Bytes) {
         if let Some(shared) = &self.shared {
             shared.observe(kind, call_id, payload);
         }
     }
 
-    /// Number of messages dropped because an observer reads slowly.
+    /// Returns the number of messages dropped because an observer reads slowly.
     pub(crate) fn dropped(&self) -> u64 {
         self.shared.as_ref().map_or(0, |shared| shared.dropped.load(Ordering::Relaxed))
     }
 
-    /// Tells the same for as long as the gate exists.
+    /// Returns a function that returns the value of [`dropped`](Self::dropped), or 0 once the gate is gone.
     pub(crate) fn dropped_later(&self) -> impl Fn() -> u64 + Send + Sync + 'static {
         let shared = self.shared.as_deref().map(Arc::downgrade);
         move || shared.as_ref().and_then(Weak::upgrade).map_or(0, |shared| shared.dropped.load(Ordering::Relaxed))

@@ -10,7 +10,7 @@ pub(super) const AT_ONCE: usize = 64;
 /// How long a call that does not wait may be held up by undecodable messages.
 const LONGEST_SKIP: Duration = Duration::from_millis(10);
 
-/// The undecodable messages of each link.
+/// Number of undecodable messages of each link.
 #[derive(Debug, Clone)]
 pub(super) struct UndecodableCount {
     over: Vec<u64>,
@@ -21,7 +21,7 @@ impl UndecodableCount {
         Self { over: vec![0; links.max(1)] }
     }
 
-    /// Returns true for the first message of a link.
+    /// Counts an undecodable message. Returns true for the first one of a link.
     pub(super) fn add(&mut self, link: usize) -> bool {
         let Some(count) = self.over.get_mut(link) else { return false };
         *count += 1;
@@ -33,18 +33,17 @@ impl UndecodableCount {
     }
 }
 
-/// Whether the gate passes such messages over.
+/// Returns true if the gate skips undecodable messages.
 pub(super) fn skips(gate: &GateSpec) -> bool {
     gate.options.undecodable == Undecodable::Skip
 }
 
-/// What a call returns for a message that it has tried to decode; `None` if the message is skipped.
+/// Returns the result of a call that has tried to decode a message, or `None` if the message is skipped.
 pub(super) fn unless_skipped<R>(gate: &GateSpec, decoded: Result<R, RecvError>) -> Option<Result<R, RecvError>> {
     if decoded.is_err() && skips(gate) { None } else { Some(decoded) }
 }
 
-/// Logs a message that is skipped, if it is the `first` of its peer, because a peer whose messages are undecodable
-/// sends many of them.
+/// Logs a skipped message, but only the `first` of each peer: a peer whose messages are undecodable sends many of them.
 pub(super) fn report(gate: &GateSpec, error: &RecvError, first: bool) {
     if first && skips(gate) {
         let error = text_with_causes(error);

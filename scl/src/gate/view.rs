@@ -17,7 +17,8 @@ pub struct View<T> {
 }
 
 impl<T: FromBytes + KnownLayout + Immutable> View<T> {
-    /// `None` if the bytes are too many or too few. Bytes that are not aligned for a `T` are copied.
+    /// Makes a view of a message, or returns `None` if its length is not that of a `T`. Bytes that are not aligned for
+    /// a `T` are copied.
     pub(super) fn new(bytes: Bytes) -> Option<Self> {
         if bytes.len() != size_of::<T>() {
             return None;
@@ -34,7 +35,7 @@ fn aligned<T>(bytes: &[u8]) -> Bytes {
 }
 
 impl<T> View<T> {
-    /// The message as bytes, without a copy.
+    /// Returns the message as bytes, without a copy.
     pub fn into_bytes(self) -> Bytes {
         self.bytes
     }

@@ -5,8 +5,8 @@ use crate::error::Missing;
 use crate::spec::GateSpec;
 use std::sync::Weak;
 
-/// Tells which required peers of a gate are not connected, and makes it report when it has something. A gate that was
-/// dropped misses none and has nothing.
+/// Tells which required peers of a gate are not connected, and makes the gate report when it has a message or request.
+/// A dropped gate has no missing peers and reports nothing.
 pub struct Watch {
     pub(crate) spec: &'static GateSpec,
     look: Box<dyn Fn() -> Vec<Missing> + Send + Sync>,
@@ -18,7 +18,7 @@ impl Watch {
         Self { spec, look: Box::new(look), report_to: None }
     }
 
-    /// The watch of a gate that receives.
+    /// Makes this the watch of a receiving gate, which reports to sets through `report_to`.
     pub(crate) fn reporting(self, report_to: impl Fn(Weak<ReadySet>) + Send + Sync + 'static) -> Self {
         Self { report_to: Some(Box::new(report_to)), ..self }
     }

@@ -7,7 +7,7 @@ use crate::error::{
 use crate::untyped::WaitError;
 use std::error::Error;
 
-/// What an error of a call says, whatever its type: for languages that have a status or a class of exceptions for it.
+/// The kind of an error, whatever its type: for languages that report errors as status codes or exception classes.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub enum ErrorKind<'e> {
@@ -51,7 +51,7 @@ macro_rules! kinds {
 }
 
 impl<'e> ErrorKind<'e> {
-    /// The kind of an error of a component or of one of its gates.
+    /// Returns the kind of an error of a component or of one of its gates.
     pub fn of(error: &'e (dyn Error + 'static)) -> Self {
         kinds! { error:
             BlockingError { source => Self::Blocking(*source), }

@@ -1,11 +1,11 @@
-//! What the messages of `schemas:` name in place of `prost`, so that the sign of -0.0 is sent.
+//! The modules that messages of `schemas:` use in place of `prost`, so that the sign of -0.0 is sent.
 //!
-//! prost leaves out a field that equals its default, and -0.0 equals 0.0. Protobuf leaves out only what has the bits of
-//! 0.0 (<https://protobuf.dev/programming-guides/proto3/#default>), as the libraries of other languages do. The macro
-//! makes such fields `required`, which prost always passes to `encode`, and that of these modules decides.
+//! prost leaves out a field that equals its default, and -0.0 equals 0.0. Protobuf leaves out only fields that have the
+//! bits of 0.0 (<https://protobuf.dev/programming-guides/proto3/#default>), as the libraries of other languages do. The
+//! macro makes such fields `required`, which prost always passes to `encode`; the `encode` of these modules decides.
 
-/// Where 0.0 is left out. Fields that have a value or none cannot be in the same message, because they have the same
-/// functions.
+/// For messages in which 0.0 is left out. They have no `optional` or `required` floats, which would be encoded by the
+/// same functions.
 pub mod without_zeros {
     pub use prost::*;
 
@@ -13,7 +13,7 @@ pub mod without_zeros {
         pub use super::super::hash_map;
         pub use prost::encoding::*;
 
-        /// The functions for a type of floats.
+        /// Defines the functions for one type of floats.
         macro_rules! floats {
             ($module:ident $float:ty) => {
                 pub mod $module {
@@ -37,7 +37,7 @@ pub mod without_zeros {
     }
 }
 
-/// Where 0.0 is sent, too, which means the same to a receiver.
+/// For messages in which 0.0 is sent, too, which means the same to a receiver.
 pub mod with_zeros {
     pub use prost::*;
 

@@ -15,13 +15,13 @@ use std::path::PathBuf;
 use std::slice::from_ref;
 use std::time::{Duration, SystemTime};
 
-/// The format's version. It grows when readers have to know; new keys alone do not need that.
+/// The version of the format. It is incremented for changes that readers must know about, not for new keys alone.
 const VERSION: u32 = 1;
 
-/// More than a gate with ten thousand connections announces.
+/// Maximum size of an announcement that is read, in bytes: more than a gate with ten thousand connections needs.
 const LIMIT: u64 = 16 << 20;
 
-/// What a running component says about itself in `<component>.json`.
+/// What a running component publishes about itself in `<component>.json`.
 ///
 /// It is published before the component's endpoints are opened. A connecting end reads it to name what differs between
 /// two builds; addresses are not in it. When reading, keys that are missing because the writer is older are left empty,
@@ -33,13 +33,14 @@ pub struct Announcement {
     pub version: u32,
     /// The component.
     pub component: String,
-    /// The id of its process, as that process sees it: another number outside of its container.
+    /// The id of its process, as that process sees it. Outside of its container, the process has another id.
     pub pid: u32,
     /// When it was opened; written in whole milliseconds.
     pub started: SystemTime,
-    /// The program. Characters that are not UTF-8 are lost in the file.
+    /// The path of the program. Bytes that are not UTF-8 are replaced in the file.
     pub program: PathBuf,
-    /// The host that it runs on, if that is another one: then the process is a gateway that stands in for it here.
+    /// The host that the component runs on, if that is another one: then the process is a gateway that stands in for it
+    /// here.
     pub host: Option<String>,
     /// The hash of the protobuf messages it was built with, which are in `<hash>.schema`.
     pub schema: Option<String>,
@@ -79,7 +80,7 @@ pub struct AnnouncedEndpoint {
 }
 
 impl Announcement {
-    /// An announcement of this process, opened now, without endpoints.
+    /// Returns an announcement of this process, opened now, without endpoints.
     pub fn of_this_process(component: impl Into<String>) -> Self {
         Self {
             version: VERSION,
@@ -94,7 +95,7 @@ impl Announcement {
         }
     }
 
-    /// An announcement of this process, opened now, with the endpoints of a component.
+    /// Returns an announcement of this process, opened now, with the endpoints of a component.
     pub(crate) fn of(spec: &ComponentSpec, choice: &TransportChoice) -> Self {
         Self {
             schema: spec.schema.map(|schema| schema.hash.to_owned()),
@@ -188,7 +189,7 @@ fn endpoints(spec: &ComponentSpec, gate: &GateSpec, choice: &TransportChoice) ->
     endpoints
 }
 
-/// The plan as `docs/plan.md` describes it; its messages are in a file of their own.
+/// Returns the plan as `docs/plan.md` describes it, without its messages, which are in a separate file.
 fn plan_to_json(plan: &Plan) -> Option<Value> {
     serde_json::from_str(&Plan { schema: None, ..plan.clone() }.to_json()).ok()
 }
@@ -197,7 +198,7 @@ fn text(json: &Value, key: &str) -> Option<String> {
     json[key].as_str().map(str::to_owned)
 }
 
-/// The texts of a list. Anything else in it is from a newer release.
+/// Reads the texts of a list. Skips anything else, which comes from a newer release.
 fn texts<'de, D: Deserializer<'de>>(list: D) -> Result<Vec<String>, D::Error> {
     let list = Vec::<Value>::deserialize(list)?;
     Ok(list.iter().filter_map(|item| Some(item.as_str()?.to_owned())).collect())

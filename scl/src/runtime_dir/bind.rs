@@ -78,7 +78,7 @@ pub fn bind_tcp(dir: &SystemDir, endpoint: &str) -> Result<BoundTcp, RuntimeDirE
     Ok(BoundTcp { listener, address, guard })
 }
 
-/// The file with the TCP address of an endpoint, given the path of its Unix socket.
+/// Returns the file with the TCP address of an endpoint, given the path of its Unix socket.
 pub(super) fn tcp_file(path: &Path) -> PathBuf {
     let mut file = path.as_os_str().to_owned();
     file.push(".tcp");

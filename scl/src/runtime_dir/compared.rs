@@ -1,4 +1,4 @@
-//! Remembering comparisons of messages: an end whose peer is incompatible tries again every few milliseconds.
+//! A cache of message comparisons, because an end whose peer is incompatible tries again every few milliseconds.
 
 use crate::sync::lock;
 use scl_shape::Difference;
@@ -11,7 +11,7 @@ const LIMIT: usize = 64;
 #[derive(Debug, Default)]
 pub(super) struct Compared(Mutex<HashMap<Key, Result<(), Difference>>>);
 
-/// The payload, the codec, the hash of this program's messages, and that of the peer's.
+/// The payload, the codec, and the hashes of this program's messages and of the peer's.
 pub(super) type Key = (&'static str, &'static str, &'static str, String);
 
 impl Compared {

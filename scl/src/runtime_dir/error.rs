@@ -1,4 +1,4 @@
-//! What can go wrong with the runtime folder.
+//! Errors of the runtime folder.
 
 use super::SOCKET_PATH_LIMIT;
 use rustix::io::Errno;
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RuntimeDirError {
-    /// A variable names a folder by a relative path, which would mean another folder in every working folder.
+    /// A variable names a folder by a relative path, which would mean a different folder in every working folder.
     #[error(
         "`{variable}` is `{}`, which is not an absolute path\n\
          help: use an absolute path, so that all components use the same folder wherever they are started",
@@ -25,7 +25,7 @@ pub enum RuntimeDirError {
         path: PathBuf,
     },
 
-    /// The path of a folder leads to something else.
+    /// The path of a folder leads to a symbolic link or a file.
     #[error(
         "the runtime folder `{}` is {found}, not a folder\n\
          help: remove it, or choose another folder with `SCL_RUNTIME_DIR`",
@@ -67,7 +67,7 @@ pub enum RuntimeDirError {
         mode: u32,
         /// Who has too many permissions: `the group`, `every user`.
         who: &'static str,
-        /// What they allow: `write to`, `access`.
+        /// What the permissions allow: `write to`, `access`.
         may: &'static str,
     },
 
@@ -105,7 +105,7 @@ pub enum RuntimeDirError {
     PathTooLong {
         /// The path.
         path: PathBuf,
-        /// Its length in bytes, or that of the temporary path while it is bound if that is longer.
+        /// Its length in bytes, or the length of the temporary path under which it is bound, if that is longer.
         length: usize,
         /// Length of the longest runtime folder that would fit, in bytes.
         room: usize,
@@ -162,7 +162,7 @@ impl RuntimeDirError {
     }
 }
 
-/// For texts: ``component `imu` is running as process 20739``.
+/// Describes how a component is running, for texts such as ``component `imu` is running as process 20739``.
 pub(super) fn running(holder: ComponentProcess) -> String {
     match holder {
         ComponentProcess::ThisProcess => "running in this process".to_owned(),

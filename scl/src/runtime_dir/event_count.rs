@@ -1,4 +1,4 @@
-//! Telling the ends of connections what happens in the folder: that it was created again, so that listening ends bind
+//! Notifies the ends of connections of events in the folder: that it was created again, so that listening ends bind
 //! their sockets there, and that files have arrived, so that connecting ends look for their peers.
 
 #![cfg_attr(not(feature = "zeromq"), allow(dead_code, reason = "only that transport has sockets"))]
@@ -8,14 +8,14 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, Weak};
 use std::task::{Context, Poll, Waker};
 
-/// Counts how often something has happened, and wakes those who wait for the next time.
+/// Counts how often an event has happened, and wakes the tasks that wait for the next one.
 #[derive(Debug, Default)]
 pub(super) struct EventCount {
     count: AtomicU64,
     waiting: Mutex<Vec<Weak<Slot>>>,
 }
 
-/// What one waiter has seen so far; new ones have seen nothing happen.
+/// The events that one waiter has seen so far; a new waiter has seen none.
 #[derive(Debug, Default)]
 pub(crate) struct Seen {
     count: u64,

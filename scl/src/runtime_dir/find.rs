@@ -9,7 +9,7 @@ use std::os::unix::fs::FileTypeExt;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-/// More than any address takes.
+/// Maximum size of an address file that is read, in bytes: more than any address takes.
 const ADDRESS_LIMIT: u64 = 256;
 
 /// The address of an endpoint.

@@ -1,4 +1,4 @@
-//! The runtime folder and the folders of systems: which they are, creating them, and verifying that they are safe.
+//! The runtime folder and the folders of systems: finding them, creating them, and verifying that they are safe.
 
 use super::SOCKET_PATH_LIMIT;
 #[cfg(feature = "protobuf")]
@@ -79,7 +79,7 @@ impl RuntimeDir {
         Ok(Self { path, is_chosen })
     }
 
-    /// Its path.
+    /// Returns its path.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -96,8 +96,8 @@ impl RuntimeDir {
         Ok(dir)
     }
 
-    /// The folder of a system, verified as [`system`](Self::system) does, or `None` if there is none. Creates nothing
-    /// and removes nothing.
+    /// Returns the folder of a system, verified as [`system`](Self::system) does, or `None` if it does not exist.
+    /// Creates nothing and removes nothing.
     ///
     /// # Errors
     ///
@@ -137,19 +137,19 @@ struct Shared {
     runtime_dir: RuntimeDir,
     restored: EventCount,
     arrived: EventCount,
-    /// Number of watches of the folder that report what arrives.
+    /// Number of watches of the folder that report arriving files.
     watches: AtomicUsize,
     #[cfg(feature = "protobuf")]
     compared: Compared,
 }
 
 impl SystemDir {
-    /// Its path.
+    /// Returns its path.
     pub fn folder(&self) -> &Path {
         &self.path
     }
 
-    /// The path of an endpoint's socket.
+    /// Returns the path of an endpoint's socket.
     ///
     /// # Errors
     ///
@@ -171,7 +171,7 @@ impl SystemDir {
         Ok(path)
     }
 
-    /// The path of one of a component's own files; `ending` starts with a full stop.
+    /// Returns the path of one of a component's own files; `ending` starts with a full stop.
     pub(super) fn file_of(&self, component: &str, ending: &str) -> Result<PathBuf, RuntimeDirError> {
         Ok(self.path.join(format!("{}{ending}", plain("a component", component)?)))
     }
@@ -180,7 +180,7 @@ impl SystemDir {
         Ok(self.path.join(format!("{}.schema", plain("a schema", hash)?)))
     }
 
-    /// The path of the runtime folder above.
+    /// Returns the path of the runtime folder, which contains this folder.
     pub(super) fn runtime_folder(&self) -> &Path {
         &self.shared.runtime_dir.path
     }
@@ -192,25 +192,25 @@ impl SystemDir {
         self.shared.restored.poll(seen, cx)
     }
 
-    /// Wakes those who wait in [`poll_restored`](Self::poll_restored) at any clone of this value.
+    /// Wakes the tasks that wait in [`poll_restored`](Self::poll_restored) of any clone of this value.
     pub(crate) fn mark_restored(&self) {
         self.shared.restored.mark();
     }
 
     /// Ready when a file has arrived in the folder since `seen`, which is updated then. Otherwise registers the task's
-    /// waker. Reported only while [`reports_arrivals`](Self::reports_arrivals).
+    /// waker. Arrivals are reported only while [`reports_arrivals`](Self::reports_arrivals) returns true.
     #[cfg_attr(not(feature = "zeromq"), expect(dead_code, reason = "only that transport has sockets"))]
     pub(crate) fn poll_arrived(&self, seen: &mut Seen, cx: &mut Context<'_>) -> Poll<()> {
         self.shared.arrived.poll(seen, cx)
     }
 
-    /// Whether the folder is watched for files that arrive.
+    /// Returns true if the folder is watched for arriving files.
     #[cfg_attr(not(feature = "zeromq"), expect(dead_code, reason = "only that transport has sockets"))]
     pub(crate) fn reports_arrivals(&self) -> bool {
         self.shared.watches.load(Ordering::SeqCst) > 0
     }
 
-    /// Wakes those who wait in [`poll_arrived`](Self::poll_arrived) at any clone of this value.
+    /// Wakes the tasks that wait in [`poll_arrived`](Self::poll_arrived) of any clone of this value.
     pub(crate) fn mark_arrived(&self) {
         self.shared.arrived.mark();
     }
@@ -225,7 +225,7 @@ impl SystemDir {
         self.mark_arrived();
     }
 
-    /// The comparisons of messages made so far.
+    /// Returns the comparisons of messages made so far.
     #[cfg(feature = "protobuf")]
     pub(super) fn compared(&self) -> &Compared {
         &self.shared.compared
@@ -242,7 +242,7 @@ impl SystemDir {
     }
 }
 
-/// Creates and verifies a folder, and its parents if it was chosen.
+/// Creates a folder, with its parents if it was chosen, and verifies it.
 fn create_folder(path: &Path, is_chosen: bool) -> Result<(), RuntimeDirError> {
     match DirBuilder::new().mode(0o700).recursive(is_chosen).create(path) {
         Err(error) if error.kind() != io::ErrorKind::AlreadyExists => {
@@ -260,8 +260,8 @@ fn verify_existing(path: &Path, others_may_read: bool) -> Result<bool, RuntimeDi
     }
 }
 
-/// Verifying once is enough: other users cannot change a folder that is ours and not writable for them, in a parent
-/// that is ours too, or sticky as folders for temporary files are.
+/// Verifies that a folder is safe from other users. Doing so once is enough: other users cannot change a folder that is
+/// ours and not writable for them, in a parent that is ours too, or sticky as folders for temporary files are.
 fn verify_folder(path: &Path, others_may_read: bool) -> Result<(), RuntimeDirError> {
     let found =
         fs::symlink_metadata(path).map_err(|error| RuntimeDirError::io("examine the runtime folder", path, error))?;
@@ -298,8 +298,8 @@ fn own_user() -> u32 {
     rustix::process::geteuid().as_raw()
 }
 
-/// A name that stays inside its folder and differs from temporary names, which start with a full stop. Shortened names
-/// of connections contain `~`.
+/// Returns the name if it stays inside its folder and differs from temporary names, which start with a full stop.
+/// Shortened names of connections contain `~`.
 fn plain<'n>(what: &'static str, name: &'n str) -> Result<&'n str, RuntimeDirError> {
     if is_plain(name) { Ok(name) } else { Err(RuntimeDirError::BadName { what, name: name.to_owned() }) }
 }

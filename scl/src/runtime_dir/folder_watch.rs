@@ -1,4 +1,4 @@
-//! Noticing that a component's files in the folder of its system, or the folder itself, were removed, and that files of
+//! Detects that a component's files in the folder of its system, or the folder itself, were removed, and that files of
 //! other components have arrived there.
 
 use super::error::RuntimeDirError;
@@ -10,11 +10,12 @@ use std::os::unix::ffi::OsStrExt;
 use std::time::Duration;
 use tokio::time::{Instant, timeout};
 
-/// Removing a folder takes several steps and fails if files appear in it meanwhile. So nothing is created again until
-/// no file was removed for this long.
+/// How long to wait after the last removal before anything is created again: removing a folder takes several steps and
+/// fails if files appear in it in the meantime.
 pub(crate) const QUIET: Duration = Duration::from_millis(100);
 
-/// Components rename their files into the folder; plain ZeroMQ programs create their sockets there.
+/// Events of arriving files: components rename their files into the folder, plain ZeroMQ programs create their sockets
+/// there.
 const ARRIVED: WatchFlags = WatchFlags::MOVED_TO.union(WatchFlags::CREATE);
 
 /// Maximum time to wait for quiet.
@@ -28,9 +29,9 @@ pub(crate) struct FolderWatch {
     inotify: Inotify,
     arrivals: Arrivals,
     runtime_folder: i32,
-    /// The name of the folder.
+    /// The name of the system's folder.
     system: OsString,
-    /// The component's files start with this: `sensor.`.
+    /// Prefix of the names of the component's files: `sensor.`.
     prefix: String,
     schema: Option<String>,
 }
@@ -72,7 +73,7 @@ impl FolderWatch {
         Ok(())
     }
 
-    /// Waits for removals, and reports arrivals meanwhile. Returns true if at least one removal is about this
+    /// Waits for removals, and reports arrivals while it waits. Returns true if at least one removal is about this
     /// component.
     async fn next_events(&self) -> io::Result<bool> {
         loop {
@@ -106,12 +107,12 @@ impl FolderWatch {
     }
 }
 
-/// Whether an event is about a file that will be renamed.
+/// Returns true if an event is about a temporary file, which will be renamed.
 fn is_temporary(event: &Event<'_>) -> bool {
     event.file_name().is_some_and(|name| name.to_bytes().starts_with(b"."))
 }
 
-/// Says at the folder that arrivals are reported, as long as they are.
+/// Counts as a watch that reports arrivals in the folder, until it is dropped.
 #[derive(Debug)]
 struct Arrivals(SystemDir);
 

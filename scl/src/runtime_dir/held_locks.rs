@@ -23,28 +23,28 @@ use std::os::unix::fs::{MetadataExt, OpenOptionsExt};
 use std::path::Path;
 use std::sync::Mutex;
 
-/// Attempts to lock a file that is removed or unlocked just at that moment.
+/// Maximum number of attempts to lock a file that is removed or unlocked at the same time.
 const ATTEMPTS: usize = 100;
 
-/// The files that must not be closed now. In a forked child they are those of its parent, and must stay open: closing
-/// one would release a lock that the child itself has taken on the same file since.
+/// The files that must stay open. A forked child keeps those of its parent open, too: closing one would release a lock
+/// that the child itself has since taken on the same file.
 static OPEN: Mutex<Vec<OpenFile>> = Mutex::new(Vec::new());
 
 struct OpenFile {
     id: FileId,
     process: ProcessMark,
     file: File,
-    /// Another descriptor of it that must stay open as well.
+    /// Another descriptor of the file, which must stay open as well.
     read_only: Option<File>,
     /// Whether it is locked by this copy of the library, and not by another one in the process.
     locked: bool,
 }
 
-/// Links are not followed, and pipes not waited for.
+/// Flags for opening files: links are not followed, and opening does not wait at pipes.
 const FLAGS: OFlags = OFlags::NOFOLLOW.union(OFlags::NONBLOCK);
 
 impl OpenFile {
-    /// Opens a file that stays open for writing, which locking it later takes.
+    /// Opens the file for writing as well: it stays open, and locking it later requires that.
     fn make_writable(&mut self, path: &Path) {
         let mut options = OpenOptions::new();
         options.read(true).write(true).custom_flags(FLAGS.bits().cast_signed());
@@ -65,7 +65,7 @@ pub(super) struct FileId {
 }
 
 impl FileId {
-    /// The file that has this path now. Does not follow links.
+    /// Identifies the file that has this path now. Does not follow links.
     pub(super) fn at(path: &Path) -> io::Result<Self> {
         fs::symlink_metadata(path).map(|found| Self::of(&found))
     }
@@ -93,7 +93,7 @@ pub(super) fn unlock(id: FileId) {
     lock(&OPEN).retain(|open| open.id != id || !open.locked || !open.process.is_own());
 }
 
-/// Who holds the lock on the file at `path`, if any process does.
+/// Returns the process that holds the lock on the file at `path`, if any.
 pub(super) fn lock_holder(path: &Path) -> Option<ComponentProcess> {
     let mut open = lock(&OPEN);
     // Open it for reading only: programs that watch the folder take a `CLOSE_WRITE` event of a lock file for the end of
@@ -111,7 +111,7 @@ pub(super) fn lock_holder(path: &Path) -> Option<ComponentProcess> {
     holder
 }
 
-/// Steps of [`try_lock`] between which tests intervene.
+/// Steps of [`try_lock`] after which tests intervene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Step {
     Examined,
@@ -162,7 +162,8 @@ fn try_lock_with(path: &Path, step: &mut dyn FnMut(Step)) -> io::Result<Attempt>
 }
 
 enum Opened {
-    /// A file of the list that this copy has not locked. To be removed from it unless another copy has.
+    /// The index in the list of a file that this copy has not locked. The caller removes it unless another copy has
+    /// locked it.
     At(usize),
     LockedHere,
 }

@@ -7,15 +7,16 @@ use std::os::fd::OwnedFd;
 use std::path::Path;
 use tokio::io::unix::AsyncFd;
 
-/// An instance of inotify. Those of all programs of a user are limited, see `/proc/sys/fs/inotify/max_user_instances`.
+/// An instance of inotify. A user can have only a limited number of them, see
+/// `/proc/sys/fs/inotify/max_user_instances`.
 #[derive(Debug)]
 pub(crate) struct Inotify(AsyncFd<OwnedFd>);
 
 impl Inotify {
-    /// Must be called inside a tokio runtime.
+    /// Creates an instance. Must be called inside a tokio runtime.
     ///
     /// # Errors
-    /// The limit is reached.
+    /// The limit of the user is reached.
     pub(crate) fn new() -> io::Result<Self> {
         let inotify = inotify::init(CreateFlags::CLOEXEC | CreateFlags::NONBLOCK)?;
         #[expect(deprecated, reason = "unsound only for types that change their descriptor; an `OwnedFd` keeps it")]
@@ -27,7 +28,7 @@ impl Inotify {
         Ok(inotify::add_watch(self.0.get_ref(), path, events | WatchFlags::DONT_FOLLOW)?)
     }
 
-    /// Waits for events and passes them on: all that there are, up to the length of a buffer.
+    /// Waits for events and passes all pending ones to `handle`, up to the length of a buffer.
     ///
     /// # Cancel safety
     ///
@@ -41,10 +42,10 @@ impl Inotify {
         }
     }
 
-    /// Passes on the events that there are.
+    /// Passes the pending events to `handle`.
     ///
     /// # Errors
-    /// There are none ([`io::ErrorKind::WouldBlock`]).
+    /// No event is pending ([`io::ErrorKind::WouldBlock`]).
     #[cfg(test)]
     pub(crate) fn read_now(&self, mut handle: impl FnMut(&Event<'_>)) -> io::Result<()> {
         read_now(self.0.get_ref(), &mut handle)

@@ -42,7 +42,7 @@ impl ComponentLock {
         }
     }
 
-    /// The process that runs a component, if there is one.
+    /// Returns the process that runs a component, if there is one.
     pub fn holder(dir: &SystemDir, component: &str) -> Option<ComponentProcess> {
         lock_holder(&dir.file_of(component, ".lock").ok()?)
     }

@@ -1,4 +1,4 @@
-//! Looking at what runs, for tools: nothing here creates, changes or removes a file.
+//! Inspects what is running, for tools: nothing here creates, changes or removes a file.
 
 use super::error::ComponentProcess;
 use super::folder::{RuntimeDir, SystemDir, is_plain};
@@ -22,8 +22,8 @@ pub enum ComponentState {
 }
 
 impl RuntimeDir {
-    /// The names of the systems whose folders are here, sorted. Whether anything of a system runs,
-    /// [`SystemDir::state`] says of each component.
+    /// Returns the names of the systems whose folders are here, sorted. [`SystemDir::state`] tells whether a component
+    /// of a system runs.
     ///
     /// # Errors
     ///
@@ -33,7 +33,7 @@ impl RuntimeDir {
         names(fs::read_dir(self.path())?, |kind, name| Some(name).filter(|_| kind.is_dir()))
     }
 
-    /// The names of the systems of which a component runs, sorted.
+    /// Returns the names of the systems of which at least one component runs, sorted.
     ///
     /// # Errors
     ///
@@ -51,7 +51,7 @@ impl RuntimeDir {
 }
 
 impl SystemDir {
-    /// The names of the components that run or once ran in this folder, sorted.
+    /// Returns the names of the components that run or once ran in this folder, sorted.
     ///
     /// # Errors
     ///
@@ -62,7 +62,7 @@ impl SystemDir {
         })
     }
 
-    /// Whether a component runs. One that is not known here counts as stopped.
+    /// Returns whether a component runs. One that never ran in this folder counts as stopped.
     ///
     /// A component that hangs is running: what it has done lately is in its [`ComponentStats`](super::ComponentStats).
     pub fn state(&self, component: &str) -> ComponentState {
@@ -81,7 +81,7 @@ impl SystemDir {
         path.is_ok_and(|path| fs::symlink_metadata(path).is_ok_and(|found| found.is_file()))
     }
 
-    /// The protobuf messages that a program was built with, by the hash in its
+    /// Returns the protobuf messages that a program was built with, by the hash in its
     /// [`Announcement::schema`](super::Announcement::schema): a serialized `google.protobuf.FileDescriptorSet`. `None`
     /// if there is no such file or it is longer than 16 MiB. The bytes are not checked.
     pub fn schema(&self, hash: &str) -> Option<Bytes> {
@@ -89,8 +89,8 @@ impl SystemDir {
     }
 }
 
-/// The names that `pick` finds in a folder, each once and sorted. Entries that vanish meanwhile, and names that SCL
-/// never gives, are passed over.
+/// Returns the names that `pick` finds in a folder, each once and sorted. Skips entries that are removed at the same
+/// time, and names that SCL never uses.
 fn names(entries: fs::ReadDir, pick: impl Fn(FileType, &str) -> Option<&str>) -> io::Result<Vec<String>> {
     let mut found = BTreeSet::new();
     for entry in entries {

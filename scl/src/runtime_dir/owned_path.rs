@@ -27,7 +27,7 @@ impl OwnedPath {
         Ok(Self { path: path.to_owned(), opened, process: ProcessMark::new() })
     }
 
-    /// The file; for reading its attributes, or for writing if it was opened so.
+    /// Returns the file, for reading its attributes, or for writing if it was opened with that access.
     pub(super) fn file(&self) -> &File {
         &self.opened
     }
@@ -40,7 +40,7 @@ impl OwnedPath {
         }
     }
 
-    /// The path.
+    /// Returns the path.
     pub fn path(&self) -> &Path {
         &self.path
     }

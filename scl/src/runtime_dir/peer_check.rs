@@ -1,4 +1,4 @@
-//! Whether a running peer was built for the same connection: the same type, codec and messages.
+//! Checks whether a running peer was built for the same connection: the same type, codec and messages.
 
 use super::SystemDir;
 use super::announcement::{AnnouncedEndpoint, Announcement};
@@ -32,7 +32,8 @@ pub fn check_peer(
     })
 }
 
-/// Why a peer is not connected: the end of a sentence that starts with the name of the peer or its gate.
+/// Explains why a peer is not connected: returns the end of a sentence that starts with the name of the peer or its
+/// gate.
 pub fn explain_missing(dir: &SystemDir, own: &ComponentSpec, gate: &GateSpec, connection: &ConnectionSpec) -> String {
     let Some(holder) = ComponentLock::holder(dir, connection.peer_component) else {
         return "is not running".to_owned();
@@ -50,7 +51,7 @@ pub fn explain_missing(dir: &SystemDir, own: &ComponentSpec, gate: &GateSpec, co
     }
 }
 
-/// Which process runs a peer, or on which other host it runs.
+/// Describes which process runs a peer, or on which other host it runs.
 fn whereabouts(announcement: Option<&Announcement>, holder: ComponentProcess) -> String {
     let host = announcement.and_then(|announcement| announcement.host.as_deref());
     host.map_or_else(|| holder.to_string(), |host| format!("host `{}`", shown(host)))

@@ -1,12 +1,12 @@
-//! `<component>.stats`: what a component has done so far, written twice a second for tools.
+//! `<component>.stats`: what a component has done so far, written for tools every half a second by default.
 //!
-//! The file is one block of fixed length, written in place, so a reader needs neither the component's help nor its
-//! answer: it works while the component hangs, and after it was killed. A component that closes removes its file. The
-//! environment variable `SCL_STATS` sets the period (`500ms` by default), or switches the file off (`off`).
+//! The file is one block of fixed length, written in place, so a reader needs no help from the component: reading works
+//! while the component hangs, and after it was killed. A component that closes removes its file. The environment
+//! variable `SCL_STATS` sets the period (`500ms` by default), or switches the file off (`off`).
 //!
-//! `docs/stats.md` describes the format, for readers in other languages. A writer writes a counter at the begin of the
-//! block, then the figures, then the same counter at the end; a reader reads in the opposite order, so that equal
-//! counters prove that what it has read is whole.
+//! `docs/stats.md` describes the format, for readers in other languages. A writer writes a counter at the beginning of
+//! the block, then the figures, then the same counter at the end; a reader reads in the opposite order, so that equal
+//! counters prove that it has read a whole block.
 
 mod file;
 mod layout;
@@ -21,7 +21,7 @@ use std::time::{Duration, SystemTime};
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ComponentStats {
-    /// When this was written. A component that hangs or is dead does not write any more.
+    /// When this was written. A component that hangs or is dead no longer writes.
     pub written: SystemTime,
     /// How often the component writes.
     pub period: Duration,
@@ -44,7 +44,7 @@ pub struct GateFigures {
     pub sent: u64,
     /// Messages received.
     pub received: u64,
-    /// Messages that a newer one has replaced in a queue of one with `drop_oldest`: no drops.
+    /// Messages replaced by a newer one in a queue of one with `drop_oldest`; not counted as dropped.
     pub replaced: u64,
     /// Messages dropped because a queue was full and `drop_oldest` was declared.
     pub dropped_oldest: u64,
@@ -52,13 +52,13 @@ pub struct GateFigures {
     pub dropped_newest: u64,
     /// Messages dropped for plain ZeroMQ subscribers and for observers.
     pub dropped_for_observers: u64,
-    /// Those of them that were dropped for observers at the gate's tap, each observer counted.
+    /// The part of `dropped_for_observers` that was dropped for observers at the gate's tap, each observer counted.
     pub tap_dropped: u64,
     /// Messages that were on their way, or waited in the peer's gate, when their connection broke.
     pub lost: u64,
     /// Messages received that could not be used.
     pub rejected: u64,
-    /// Those of them that the codec could not read.
+    /// Rejected messages that the codec could not read.
     pub undecodable: u64,
     /// Bytes of the messages sent or received.
     pub bytes: u64,
@@ -85,15 +85,15 @@ pub struct ConnectionFigures {
     /// Messages that wait for the peer in the queue; at a `req` gate, a call that is under way. 0 at a gate that
     /// receives, whose messages wait in one queue.
     pub waiting: u64,
-    /// Messages that the peer's program has received, as far as it has said, which it does twice a second and when it
-    /// ends. At a `req` gate: replies. At a gate that receives: messages received from this peer, or 0 if that is not
-    /// known because several peers share an endpoint.
+    /// Messages that the peer's program has received, as far as the peer has acknowledged them, which it does twice a
+    /// second and when it ends. At a `req` gate: replies. At a gate that receives: messages received from this peer, or
+    /// 0 if that is not known because several peers share an endpoint.
     pub taken: u64,
     /// Messages dropped because the queue was full.
     pub dropped: u64,
     /// Messages that were on their way, or waited in the peer's gate, when the connection broke.
     pub lost: u64,
-    /// Messages that a newer one has replaced in a queue of one with `drop_oldest`: no drops.
+    /// Messages replaced by a newer one in a queue of one with `drop_oldest`; not counted as dropped.
     pub replaced: u64,
     /// Messages that are on their way, wait in the peer's gate, or have been received and not been acknowledged yet.
     pub in_flight: u64,
@@ -102,7 +102,8 @@ pub struct ConnectionFigures {
 }
 
 impl ConnectionFigures {
-    /// Number of messages that a `pub` or `push` gate has sent to this peer, with those that were sent once more.
+    /// Returns the number of messages that a `pub` or `push` gate has sent to this peer, including those that were sent
+    /// once more.
     pub fn published(&self) -> u64 {
         let Self { waiting, taken, dropped, lost, replaced, in_flight, .. } = self;
         taken + in_flight + waiting + replaced + dropped + lost
@@ -110,7 +111,7 @@ impl ConnectionFigures {
 }
 
 impl ComponentStats {
-    /// The figures of a component that has done nothing yet.
+    /// Returns the figures of a component that has done nothing yet.
     pub(crate) fn initial(spec: &ComponentSpec, pid: u32, started: SystemTime, period: Duration) -> Self {
         let gates = spec.gates.iter().map(|gate| GateFigures::of_connections(gate.connections.len())).collect();
         Self { written: started, period, pid, started, ready: false, gates }
@@ -125,7 +126,7 @@ impl ComponentStats {
 }
 
 impl GateFigures {
-    /// All zero.
+    /// Returns figures that are all zero.
     pub(crate) fn of_connections(connections: usize) -> Self {
         Self { connections: vec![ConnectionFigures::default(); connections], ..Self::default() }
     }

@@ -73,7 +73,7 @@ impl Drop for TempEntry {
     }
 }
 
-/// Removes the temporary entries of killed processes. Those that cannot be removed do no damage.
+/// Removes the temporary entries of killed processes. Entries that cannot be removed do no damage.
 pub(super) fn remove_stale_entries(folder: &Path, now: SystemTime) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let is_stale = || {
@@ -86,8 +86,8 @@ pub(super) fn remove_stale_entries(folder: &Path, now: SystemTime) {
     }
 }
 
-/// A short name, because the path of a socket must not exceed the limit under its temporary name either. Starting from
-/// the process id makes it rare that two processes try the same name.
+/// Returns a short name, because the path of a socket must not exceed the limit under its temporary name either.
+/// Starting from the process id makes it rare that two processes try the same name.
 fn temporary_name() -> String {
     let start = std::process::id().wrapping_mul(0x9e37_79b1) >> 8;
     let number = start.wrapping_add(NEXT.fetch_add(1, Ordering::Relaxed));

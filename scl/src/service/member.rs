@@ -8,21 +8,22 @@ use std::time::Duration;
 
 /// What is known of one component.
 ///
-/// It shows life by the calls of its gates ([`called`](Self::called)), and by its regular [`tick`](Self::tick), which a
-/// task of the component's runtime makes. On a current-thread runtime of the program's own, the tick alone is a proof:
-/// a program that computes keeps the runtime from running its tasks. Elsewhere the runtime goes on while the program
-/// hangs, so the tick `follows_calls`: it counts only if a call was made since the last report or waits now, or if none
-/// was ever made.
+/// A component proves that it is alive by calls to its gates ([`called`](Self::called)), and by a regular
+/// [`tick`](Self::tick), which a task on the component's runtime makes. On the program's own current-thread runtime,
+/// the tick alone is proof: a program that computes keeps the runtime from running its tasks. Elsewhere the runtime
+/// goes on while the program hangs, so the tick `follows_calls`: it counts only if a call was made since the last
+/// report or is waiting now, or if no call was ever made.
 pub(crate) struct Member {
     service: Arc<Service>,
     follows_calls: bool,
     readiness: Mutex<Readiness>,
     /// Whether a gate was ever called.
     has_called: AtomicBool,
-    /// Whether a gate was called, or a tick counted, since the last report. Both stay set if nobody wants a report.
+    /// Whether a gate was called, or a tick counted, since the last report. Both stay set if the manager wants no
+    /// reports.
     called: AtomicBool,
     ticked: AtomicBool,
-    /// Number of calls that wait, where they say so.
+    /// Number of waiting calls that [`wait`](Self::wait) has counted.
     waiting: AtomicUsize,
 }
 
@@ -55,13 +56,13 @@ impl Member {
         }
     }
 
-    /// How often to tick, if the manager wants to know that the process is alive: four times in its period, so that a
-    /// call that has just begun to wait is reported within half of it.
+    /// Returns how often to tick, if the manager wants to know that the process is alive: four times in its period, so
+    /// that a call that has just begun to wait is reported within half of it.
     pub(crate) fn tick_period(&self) -> Option<Duration> {
         self.service.watchdog.map(|period| (period / 4).max(Duration::from_micros(100)))
     }
 
-    /// The program has called a gate. Costs two atomic reads, except for the first call after each report.
+    /// Records that the program has called a gate. Costs two atomic reads, except for the first call after each report.
     pub(crate) fn called(&self) {
         if self.called.load(Ordering::Relaxed) {
             return;
@@ -80,7 +81,8 @@ impl Member {
         Waiting(self)
     }
 
-    /// To be called regularly; `waits` tells whether any call waits that was not counted.
+    /// Reports that the component is alive, if this tick proves it. Must be called regularly. `waits` returns true if
+    /// any call waits that [`wait`](Self::wait) has not counted.
     pub(crate) fn tick(&self, waits: impl FnOnce() -> bool) {
         let is_alive = !self.follows_calls
             || !self.has_called.load(Ordering::Relaxed)
@@ -93,7 +95,7 @@ impl Member {
         }
     }
 
-    /// The names of the required peers that are not connected.
+    /// Reports the names of the required peers that are not connected.
     pub(crate) fn report_missing(&self, missing: Vec<String>) {
         let changed = {
             let mut readiness = lock(&self.readiness);

@@ -1,10 +1,10 @@
-//! From the constants of a program back to the plan that they were made from.
+//! Turns the constants of a program back into the plan from which they were made.
 
 use super::{ComponentSpec, ConnectionSpec, GateSpec};
 use scl_plan::{ConnectionPlan, GatePlan, Payload, Plan};
 
 impl ComponentSpec {
-    /// The plan, without its messages.
+    /// Returns the plan, without its messages.
     pub(crate) fn plan(&self) -> Plan {
         Plan {
             system: self.system.to_owned(),
@@ -31,7 +31,7 @@ fn gate_plan(gate: &GateSpec) -> GatePlan {
     }
 }
 
-/// Reads what `Payload` displays.
+/// Parses a payload as `Payload` displays it.
 fn payload(gate: &GateSpec) -> Payload {
     match gate.exchanged() {
         Some((request, reply)) => Payload::Exchange { request: request.to_owned(), reply: reply.to_owned() },

@@ -13,11 +13,11 @@ pub(super) const DIRECT_WAIT: Duration = Duration::from_millis(2);
 
 /// Wakes the call that waits at one end of a gate.
 pub(crate) trait WakeCall: Send + Sync {
-    /// Wakes it, if there is one.
+    /// Wakes the call, if one waits.
     fn wake_call(&self);
 
-    /// Returns true if a call waits. `futures`: whether a future that was polled counts, although nobody can tell
-    /// whether it was abandoned.
+    /// Returns true if a call waits. `futures`: whether a future that was polled counts, although it may have been
+    /// abandoned.
     fn waits(&self, futures: bool) -> bool;
 }
 
@@ -69,14 +69,15 @@ impl ComponentState {
         self.member.as_ref().map(|member| member.wait())
     }
 
-    /// Returns true if the program was told to stop and leaves that to SCL: its calls then stay pending or fail.
+    /// Returns true if the gates are stopped: a stop was requested, and the program does not handle it itself or its
+    /// grace period is over. Calls then stay pending or fail.
     pub(crate) fn is_stopped(&self) -> bool {
         crate::stop::gates_stopped()
     }
 
-    /// Fails if a call that does not wait must not be made any more. A stop request comes before the end of the
-    /// component, which often follows it: programs treat the first as an orderly end, and may handle the second as an
-    /// error.
+    /// Fails if a call that does not wait must not be made any more. A stop request takes precedence over the end of
+    /// the component, which often follows it: programs treat the former as an orderly end, and may handle the latter as
+    /// an error.
     pub(crate) fn may_proceed(&self) -> Result<(), BlockingError> {
         match self.check() {
             Err(BlockingError::Forked) => Err(BlockingError::Forked),
@@ -85,7 +86,7 @@ impl ComponentState {
         }
     }
 
-    /// Fails if the component cannot be closed here and now by a call that blocks the thread. Also after a stop
+    /// Fails if the component cannot be closed by a call that blocks this thread. It can be closed after a stop
     /// request, and on a thread that is ending.
     pub(crate) fn may_close(&self) -> Result<(), BlockingError> {
         if self.is_inherited() {
@@ -97,13 +98,13 @@ impl ComponentState {
         }
     }
 
-    /// Fails if a call that may block the thread must not be made here and now.
+    /// Fails if a call that may block must not be made any more, or not on this thread.
     pub(crate) fn may_block(&self) -> Result<(), BlockingError> {
         self.may_proceed()?;
         runtime::refuse_to_wait()
     }
 
-    /// Waits for a future from a plain thread, or until the program is told to stop.
+    /// Waits on a plain thread until a future is ready or the gates are stopped.
     pub(crate) fn block_on<F: Future>(&self, future: F) -> Result<F::Output, BlockingError> {
         self.may_block()?;
         let _waiting = self.waiting();
@@ -130,9 +131,9 @@ impl ComponentState {
         done.transpose()
     }
 
-    /// How long a blocking call may wait for its socket itself before it drives the component's runtime, if the
-    /// component owns one. That spares the event loop of the runtime, which costs as much as everything else of a round
-    /// trip.
+    /// Returns how long a blocking call may wait for its socket itself before it drives the component's own runtime,
+    /// which avoids the runtime's event loop: the loop costs as much as everything else in a round trip. Returns `None`
+    /// if the call must not wait that way.
     ///
     /// Messages that were held back to be written together are written first: the peer may have to answer them.
     pub(crate) fn direct_wait(&self) -> Option<Duration> {
@@ -143,7 +144,7 @@ impl ComponentState {
         (unwritten == 0).then_some(DIRECT_WAIT)
     }
 
-    /// Keeps the component's own runtime driven while no call does it, if there is one.
+    /// Keeps the component's own runtime, if there is one, driven while no call drives it.
     pub(crate) fn drive_always(&self) -> Option<Driven> {
         self.runtime.as_ref().map(|runtime| runtime.drive_always())
     }

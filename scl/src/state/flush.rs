@@ -1,4 +1,4 @@
-//! Handing over what is left when a gate is dropped, a component closed, or a program ends.
+//! Hands over the messages left when a gate is dropped, a component is closed, or a program ends.
 
 use crate::error::Unflushed;
 use crate::sync::lock;
@@ -11,15 +11,15 @@ use std::time::{Duration, Instant};
 
 /// How long a gate or component that is dropped, or a program that ends, waits for its peers.
 pub(crate) const LINGER: Duration = Duration::from_secs(1);
-/// How often a flush looks whether an absent peer is still running.
+/// How often a flush checks whether an absent peer is still running.
 const LOOK: Duration = Duration::from_millis(20);
 /// The pause between two attempts of a component that is dropped, which has no runtime to be woken by.
 const PAUSE: Duration = Duration::from_micros(500);
 
-/// Whom a flush waits for.
+/// Which peers a flush waits for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Flush {
-    /// Peers that are connected. For programs that were told to stop: their peers may be stopping too.
+    /// Peers that are connected. For programs after a stop request: their peers may be stopping, too.
     Connected,
     /// Peers that are connected, and those that are running but not connected yet.
     Running,
@@ -31,10 +31,10 @@ pub(crate) trait SendingEnd: Send {
     /// it. Wakes the task when that may have changed.
     fn poll_flushed(&mut self, acknowledged: bool, cx: &mut Context<'_>) -> Poll<()>;
 
-    /// What waits for a peer that is not connected.
+    /// Returns what waits for a peer that is not connected.
     fn waits_for_absent_peer(&self) -> Option<Unflushed>;
 
-    /// What a connected peer has not taken.
+    /// Returns what a connected peer has not taken.
     fn leftover(&self, acknowledged: bool) -> Option<Unflushed>;
 
     /// Does background work.
@@ -91,7 +91,7 @@ pub(super) async fn flush(
     leftovers(ends, flush, true)
 }
 
-/// The same on the calling thread, without a runtime. The ends are of no use for anything else afterwards.
+/// Like [`flush`], but on the calling thread, without a runtime. The ends cannot be used for anything else afterwards.
 pub(super) fn flush_detached(
     ends: &Ends,
     flush: Flush,
@@ -123,7 +123,7 @@ fn leftovers(ends: &Ends, flush: Flush, acknowledged: bool) -> Vec<Unflushed> {
     ends.iter().filter_map(|end| leftover(&mut *lock(end), flush, acknowledged)).collect()
 }
 
-/// What a peer did not take, or what waits for one that is not connected.
+/// Returns what a connected peer did not take, or what waits for a peer that is not connected.
 pub(super) fn leftover(end: &mut dyn SendingEnd, flush: Flush, acknowledged: bool) -> Option<Unflushed> {
     end.leftover(acknowledged).or_else(|| end.waits_for_absent_peer().filter(|_| flush == Flush::Running))
 }

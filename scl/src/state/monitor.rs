@@ -1,4 +1,4 @@
-//! Following what a component does, for tools: its figures, and whether its required peers are connected.
+//! Monitors a component for tools: its figures, and whether its required peers are connected.
 
 use crate::environment::{self, Variables};
 use crate::error::OpenError;
@@ -37,7 +37,7 @@ impl Monitor {
         followed.open[index] = true;
     }
 
-    /// Brings everything up to date, and passes it on. Allocates nothing.
+    /// Updates the figures and passes them to `then`. Allocates nothing.
     pub(crate) fn refresh(&self, then: impl FnOnce(&ComponentStats)) {
         let mut followed = lock(&self.followed);
         let Followed { sources, open, stats } = &mut *followed;
@@ -52,7 +52,7 @@ impl Monitor {
         then(&followed.stats);
     }
 
-    /// The required peers that are not connected, or `None` while the gates are being opened.
+    /// Returns the required peers that are not connected, or `None` while the gates are being opened.
     pub(crate) fn missing(&self) -> Option<Vec<String>> {
         self.refresh(|_| {});
         let followed = lock(&self.followed);
@@ -70,8 +70,8 @@ impl Followed {
         self.sources.iter().all(Option::is_some)
     }
 
-    /// The required peers that are not connected. Gates that listen for any number of peers have none, and those that
-    /// were dropped wait for nobody.
+    /// Returns the required peers that are not connected. Gates that listen for any number of peers have none, and
+    /// dropped gates wait for no peer.
     fn missing(&self, spec: &'static ComponentSpec) -> impl Iterator<Item = &'static ConnectionSpec> {
         let gates = spec.gates.iter().zip(&self.open).zip(&self.stats.gates);
         let waiting = gates.filter(|((gate, open), _)| gate.endpoint.is_empty() && **open);
@@ -84,7 +84,7 @@ impl Followed {
     }
 }
 
-/// Follows what the component does, and writes it where it has files.
+/// Creates the monitor of a component, and the task that writes its stats, if it writes any.
 pub(super) fn start(
     spec: &'static ComponentSpec,
     stats: Option<(ComponentStats, StatsWriter)>,
@@ -99,8 +99,8 @@ pub(super) fn start(
     (monitor, task)
 }
 
-/// Writes the figures again and again, as long as the component is open. For a task of the component's runtime: where
-/// the program drives that only now and then, the component's own thread does when no call is under way.
+/// Writes the figures periodically, as long as the component is open. Runs as a task on the component's runtime: where
+/// the program drives that only now and then, the component's own thread drives it while no call does.
 async fn write_stats(monitor: Weak<Monitor>, writer: StatsWriter) {
     loop {
         let mut period = PERIOD;

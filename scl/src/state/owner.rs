@@ -1,5 +1,5 @@
 //! Shared ownership of a component by its handle and its gates. The last owner closes the component on its own thread;
-//! in a forked child none does.
+//! in a forked child, no owner does.
 
 use super::ComponentState;
 use std::ops::Deref;
@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 const LAST_USE: Duration = Duration::from_secs(1);
 const PAUSE: Duration = Duration::from_micros(20);
 
-/// A component, as its handle and its gates hold it.
+/// A reference to a component, held by its handle and by each gate.
 ///
 /// Tasks and other threads hold the component for a moment, too. If one of them dropped it last, it would be closed
 /// there, perhaps after the program has tried to open it again, or not at all because the program has ended.
@@ -20,7 +20,7 @@ const PAUSE: Duration = Duration::from_micros(20);
 pub(crate) struct Owner(Arc<ComponentState>);
 
 impl Owner {
-    /// The first owner of a component.
+    /// Makes the first owner of a component.
     pub(crate) fn new(state: ComponentState) -> Self {
         state.owners.store(1, Ordering::SeqCst);
         Self(Arc::new(state))
@@ -55,8 +55,8 @@ impl Drop for Owner {
     }
 }
 
-/// Waits until nobody else holds a value of which tasks have only weak references, so that dropping it drops its
-/// contents.
+/// Waits until this is the only strong reference to a value, so that dropping it drops the value, but at most
+/// [`LAST_USE`]. Tasks hold weak references, which they upgrade only for a moment.
 pub(super) fn await_other_users<T: ?Sized>(value: &Arc<T>) {
     let started = Instant::now();
     while Arc::strong_count(value) > 1 && started.elapsed() < LAST_USE {

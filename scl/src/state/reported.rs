@@ -1,4 +1,4 @@
-//! What a service manager is told of a component: the task that reports it.
+//! The task that reports a component to a service manager.
 
 use super::ComponentState;
 use crate::service::Member;
@@ -8,12 +8,12 @@ use std::time::Duration;
 use tokio::runtime::{Handle, RuntimeFlavor};
 use tokio::time::timeout;
 
-/// How often it is looked whether a component is ready: most changes are reported, but not that a gate was opened or
-/// dropped.
+/// How often the task checks whether a component is ready: most changes wake it, but the opening or dropping of a gate
+/// does not.
 const UNTIL_READY: Duration = Duration::from_millis(50);
 const ONCE_READY: Duration = Duration::from_secs(1);
 
-/// Whether calls of the gates are needed to see that the program is alive: see [`Member`].
+/// Returns true if only calls to its gates prove that the program is alive: see [`Member`].
 pub(super) fn follows_calls(owns_runtime: bool, handle: &Handle) -> bool {
     owns_runtime || handle.runtime_flavor() != RuntimeFlavor::CurrentThread
 }

@@ -20,7 +20,7 @@ use tokio::runtime::{Builder, EnterGuard, Handle, Runtime};
 use tokio::sync::Notify;
 
 const IDLE: Duration = Duration::from_millis(2);
-/// The longest pause of the idle thread while calls follow each other; each look at them costs one a wake-up.
+/// The longest pause of the idle thread while calls follow each other; each time it checks for calls costs a wake-up.
 const LONGEST_REST: Duration = Duration::from_millis(16);
 /// How long calls that wait for nothing may follow each other without a turn of the runtime.
 const TURN: Duration = Duration::from_millis(1);
@@ -33,9 +33,9 @@ pub(crate) struct OwnedRuntime {
 
 #[derive(Debug)]
 struct Shared {
-    /// `None` once dropped, which may happen anywhere.
+    /// `None` once dropped, which may happen inside async code.
     runtime: Option<Runtime>,
-    /// What futures are polled with by the call that drives the runtime, and by no other.
+    /// The waker with which the call that drives the runtime, and no other call, polls its future.
     driver: Waker,
     /// Number of calls that drive the runtime or want to.
     callers: AtomicUsize,
@@ -46,7 +46,7 @@ struct Shared {
     opened: Instant,
     last_call: AtomicDuration,
     last_turn: AtomicDuration,
-    /// What the idle thread rests on, and whether the end of a call must wake it.
+    /// The mutex of `called`, on which the idle thread rests; and whether the end of a call must wake it.
     rest: Mutex<()>,
     awaits_end: AtomicBool,
     called: Condvar,
@@ -140,7 +140,8 @@ impl OwnedRuntime {
     }
 }
 
-/// For an event loop that waits for the component's gates with no call that would drive the runtime.
+/// Keeps the runtime driven by the component's thread, for an event loop that waits for gates without a call that would
+/// drive it.
 #[derive(Debug)]
 pub(crate) struct Driven(Arc<Shared>);
 
@@ -185,7 +186,7 @@ impl Shared {
         self.opened.elapsed().saturating_sub(self.last_turn.get()) >= TURN
     }
 
-    /// The future's result; if it had nothing to wait for, then after a turn of the runtime where one is due.
+    /// Awaits a future. If it had nothing to wait for, gives the runtime a turn afterwards if one is due.
     async fn with_a_turn<F: Future>(&self, future: F) -> F::Output {
         let mut future = pin!(future);
         let mut had_turn = false;
@@ -205,8 +206,8 @@ impl Shared {
         ready
     }
 
-    /// Like tokio's `yield_now`, which allocates memory. Returns false if that was no turn, because another call has
-    /// the runtime, and perhaps waits for its own socket: only turns of the runtime may count as such.
+    /// Like tokio's `yield_now`, but allocates no memory. Returns false if the runtime had no turn, because another
+    /// call has it and perhaps waits for its own socket.
     async fn give_a_turn(&self) -> bool {
         let mut had_turn = None;
         poll_fn(|cx| match had_turn {
@@ -260,7 +261,7 @@ impl Shared {
         }
     }
 
-    /// Waits however long a call takes.
+    /// Waits until no call is under way, however long that takes.
     fn wait_for_end_of_call<'r>(&self, rest: MutexGuard<'r, ()>) -> MutexGuard<'r, ()> {
         self.awaits_end.store(true, Ordering::SeqCst);
         // Check for calls only now: a call that ended before it could see the flag does not wake this thread.
@@ -276,7 +277,7 @@ impl Shared {
     }
 }
 
-/// Counts a call out.
+/// Counts a call as ended when dropped.
 struct Called<'a>(&'a Shared);
 
 impl Drop for Called<'_> {
@@ -290,7 +291,8 @@ impl Drop for Called<'_> {
     }
 }
 
-/// What a runtime that nobody else uses yet polls the future of its driver with.
+/// Returns the waker with which a runtime polls the future of the call that drives it. The runtime must not be in use
+/// yet.
 fn waker_of_driver(runtime: &Runtime) -> io::Result<Waker> {
     thread::scope(|threads| {
         // On a thread of its own, because this one may be inside another runtime.
@@ -300,12 +302,13 @@ fn waker_of_driver(runtime: &Runtime) -> io::Result<Waker> {
     })
 }
 
-/// Waits on a plain thread while the runtime of the component runs elsewhere.
+/// Waits for a future on a plain thread while the runtime of the component runs elsewhere.
 pub(super) fn park_until<F: Future>(future: F) -> F::Output {
     park_until_or(Duration::MAX, future).unwrap_or_else(|| unreachable!("no time is as long"))
 }
 
-/// The same, but no longer than a given time. The runtime may have ended, so its timers are of no use here.
+/// Like [`park_until`], but gives up after a given time and then returns `None`. The runtime may have ended, so its
+/// timers cannot be used here.
 pub(super) fn park_until_or<F: Future>(time: Duration, future: F) -> Option<F::Output> {
     let started = Instant::now();
     let mut future = pin!(future);
@@ -320,9 +323,9 @@ pub(super) fn park_until_or<F: Future>(time: Duration, future: F) -> Option<F::O
     }
 }
 
-/// Makes what calls to components need of the calling thread's thread-local values. For bindings whose programs make
-/// calls in destructors and at their exit: a thread-local value that the binding makes after this call is destroyed
-/// before those, so its destructor tells when calls have to be made on another thread.
+/// Creates the thread-local values of the calling thread that calls to components need. For bindings whose programs
+/// make calls in destructors and at their exit: a thread-local value that the binding creates after this call is
+/// destroyed before those, so its destructor shows from when on calls have to be made on another thread.
 pub fn prepare_thread() {
     // This creates tokio's thread-local values, which are then destroyed after those that the thread creates later.
     if refuse_to_wait().is_ok()

@@ -1,6 +1,6 @@
 //! The thread that watches for SIGTERM and SIGINT.
 //!
-//! A thread of its own, because the program's threads may be computing or blocked.
+//! It is a separate thread, because the program's threads may be computing or blocked.
 
 use super::state::StopState;
 use crate::service;
@@ -13,11 +13,11 @@ use tokio::signal::unix::{Signal, SignalKind, signal};
 use tokio::time::Instant;
 use tracing::subscriber::NoSubscriber;
 
-/// Signals that follow one this soon belong to the same request: `timeout` signals its program and then the program's
-/// group, and wrappers pass on a Ctrl-C that the program has had from the terminal.
+/// Signals that arrive this soon after the first belong to the same request: `timeout` signals its program and then the
+/// program's group, and wrappers pass on a Ctrl-C that the program has already received from the terminal.
 pub const ONE_REQUEST: Duration = Duration::from_millis(500);
-/// How long the flush after a stop request may take. A program that handles the request itself has it on top of its
-/// grace period.
+/// How long the flush after a stop request may take. A program that handles the request itself has this time on top of
+/// its grace period.
 pub(crate) const LAST_FLUSH: Duration = Duration::from_millis(500);
 /// Maximum time for writing a log line before exiting: standard error may be a full pipe.
 const LOG_WRITE: Duration = Duration::from_millis(100);
@@ -33,7 +33,7 @@ pub enum StopSignal {
 }
 
 impl StopSignal {
-    /// The exit code of a program that this signal has ended, as a shell reports it.
+    /// Returns the exit code of a program that this signal has ended, as a shell reports it.
     pub(super) fn exit_code(self) -> u8 {
         match self {
             Self::Interrupt => 128 + 2,
@@ -84,7 +84,7 @@ fn run(stop: &StopState, grace_period: Duration, started: impl FnOnce(io::Result
 }
 
 /// Requests the stop on the first signal. Returns the exit code when the process has to be ended: on a second signal
-/// that is a request of its own, and when the grace period is over.
+/// that is a separate request, or when the grace period is over.
 async fn watch(
     stop: &StopState,
     grace_period: Duration,

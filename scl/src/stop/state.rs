@@ -12,7 +12,7 @@ const OVERDUE: u8 = 4;
 /// A stop request: whether it was made, and who acts on it.
 #[derive(Debug)]
 pub(crate) struct StopState {
-    /// All in one, so that the check in each gate call reads one atomic.
+    /// All flags in one atomic, so that each gate call reads only that.
     flags: AtomicU8,
     /// The exit code of a program that is still running after its grace period.
     overdue_code: AtomicU8,
@@ -38,7 +38,7 @@ impl StopState {
         self.set(REQUESTED);
     }
 
-    /// From now on the program handles the request itself: its gates work until the grace period is over.
+    /// Makes the program handle the request itself: its gates work until the grace period is over.
     pub(super) fn handle(&self) {
         // Programs may call this in a loop, so write only once.
         if !self.has(HANDLED) {
@@ -59,7 +59,7 @@ impl StopState {
         self.has(HANDLED)
     }
 
-    /// The exit code, if the grace period is over.
+    /// Returns the exit code, if the grace period is over.
     pub(crate) fn overdue_code(&self) -> Option<u8> {
         self.has(OVERDUE).then(|| self.overdue_code.load(Ordering::Acquire))
     }
@@ -69,12 +69,12 @@ impl StopState {
         flags & OVERDUE != 0 || flags & (REQUESTED | HANDLED) == REQUESTED
     }
 
-    /// Waits until [`is_requested`](Self::is_requested).
+    /// Waits until [`is_requested`](Self::is_requested) returns true.
     pub(crate) async fn requested(&self) {
         self.wait_until(Self::is_requested).await;
     }
 
-    /// Waits until [`gates_stopped`](Self::gates_stopped).
+    /// Waits until [`gates_stopped`](Self::gates_stopped) returns true.
     pub(crate) async fn until_gates_stopped(&self) {
         self.wait_until(Self::gates_stopped).await;
     }

@@ -2,8 +2,8 @@
 
 /// Returns true while tokio's clock is paused, which only tests can do.
 ///
-/// Tokio does not tell, but its paused clock stands still while the operating system's advances. Takes four readings of
-/// the clock, about 0.1 us.
+/// Tokio does not expose this, but its paused clock stands still while the operating system's advances. Takes four
+/// readings of the clock, about 0.1 us.
 pub(super) fn is_paused() -> bool {
     let before = tokio::time::Instant::now();
     let start = std::time::Instant::now();

@@ -16,7 +16,7 @@ pub struct Timer {
 }
 
 impl Timer {
-    /// A timer that is not set. Needs a tokio runtime.
+    /// Creates a timer that is not set. Must be called inside a tokio runtime.
     pub fn new() -> io::Result<Self> {
         let timer = timerfd_create(TimerfdClockId::Monotonic, TimerfdFlags::NONBLOCK | TimerfdFlags::CLOEXEC)?;
         #[expect(deprecated, reason = "unsound only for types whose descriptor changes; that of an `OwnedFd` does not")]
@@ -24,7 +24,7 @@ impl Timer {
         Ok(Self { descriptor })
     }
 
-    /// Expires after `first`, which must not be zero, and then every `period` unless that is zero.
+    /// Makes the timer expire after `first`, which must not be zero, and then every `period` unless that is zero.
     pub fn set(&self, first: Duration, period: Duration) -> io::Result<()> {
         let times = Itimerspec { it_value: timespec(first), it_interval: timespec(period) };
         timerfd_settime(self.descriptor.get_ref(), TimerfdTimerFlags::empty(), &times)?;

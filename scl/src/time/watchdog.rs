@@ -1,9 +1,9 @@
 //! Deadlines that are nearly always met.
 //!
-//! A timeout of the async runtime is set and cancelled in each call, and while one is set, each wait of the runtime
-//! sets and cancels a timer of the operating system: measured, that adds up to a third to a round trip. This timer is
-//! left running instead: it expires now and then, finds that the call it was set for has long returned, and is set
-//! again.
+//! A timeout of the async runtime would be set and cancelled in each call, and while one is set, each wait of the
+//! runtime sets and cancels a timer of the operating system. Measured, that adds up to a third to a round trip. This
+//! timer is left running instead: it expires now and then, usually long after the call it was set for has returned, and
+//! is set again.
 
 use super::clock;
 use super::timer::Timer;
@@ -19,17 +19,17 @@ pub(crate) struct Watchdog {
     timer: Timer,
     /// Used instead of `timer` while tokio's clock is paused in a test.
     paused: Option<Pin<Box<Sleep>>>,
-    /// When the timer that was set expires; it may be earlier than the deadline.
+    /// When the running timer expires; this may be before the deadline.
     expires: Option<Instant>,
 }
 
 impl Watchdog {
-    /// Needs a tokio runtime.
+    /// Creates a watchdog. Must be called inside a tokio runtime.
     pub(crate) fn new() -> io::Result<Self> {
         Ok(Self { timer: Timer::new()?, paused: None, expires: None })
     }
 
-    /// Ready when the deadline has passed. Deadlines are told by tokio's clock, which tests can pause.
+    /// Ready when the deadline has passed on tokio's clock, which tests can pause.
     ///
     /// # Errors
     /// The timer has failed. The caller must give up as if the deadline had passed: it would not be woken again.

@@ -1,4 +1,4 @@
-//! What a transport is told about the end of a connection that it opens.
+//! Endpoints: what a transport needs to know to open an end of a connection.
 
 use super::Resumed;
 use std::borrow::Cow;
@@ -16,29 +16,30 @@ pub struct Endpoint {
     /// The longest message that this end accepts, in bytes. A peer that announces a longer one is disconnected before
     /// memory is reserved. Default: 64 MiB.
     pub max_size: usize,
-    /// The receiving gate's queue of this connection, in messages: what its engine has to have room for. Default: 100.
+    /// Capacity of the receiving gate's queue for this connection, in messages, for which shared memory must have room.
+    /// Default: 100.
     pub queue: usize,
-    /// The longest message of this connection, in bytes: what the receiving gate accepts, or the length of all messages
-    /// of a type with a fixed one. Default: 64 MiB.
+    /// The longest message of this connection, in bytes: the limit of the receiving gate, or the length of every
+    /// message if its type has a fixed one. Default: 64 MiB.
     pub longest: usize,
     /// Whether only the newest message matters to this receiving end, as with `queue: 1`. It then keeps few messages in
     /// flight, so that [`Receiver::poll_caught_up`](super::Receiver::poll_caught_up) can tell exactly whether the
     /// sender has a newer one.
     pub newest_only: bool,
-    /// Whether this sending end waits for slow peers instead of dropping messages. It tells them, see
+    /// Whether this sending end waits for slow peers instead of dropping messages. It announces this to them, see
     /// [`Receiver::is_lossless`](super::Receiver::is_lossless).
     pub lossless: bool,
     /// How many requests this requesting end may have sent without a reply. Default: 1.
     pub in_flight: usize,
-    /// Whether this publishing end keeps its last message for subscribers that join later. It tells them, see
-    /// [`Receiver::is_latched`](super::Receiver::is_latched).
+    /// Whether this publishing end keeps its last message for subscribers that join later. It announces this to them,
+    /// see [`Receiver::is_latched`](super::Receiver::is_latched).
     pub latched: bool,
-    /// For a subscribing end that continues for an earlier one: what a latched publisher is told of both. Default:
-    /// none, which is a new end.
+    /// For a subscribing end that takes over from an earlier one: what it reports about both to a latched publisher.
+    /// Default: none, for a new end.
     pub resumed: Option<Resumed>,
-    /// For a receiving end that passes messages on: how much the sender may have unacknowledged, and that messages are
-    /// acknowledged by [`Receiver::acknowledge`](super::Receiver::acknowledge) only, never because they were returned.
-    /// Default: none.
+    /// For a receiving end that forwards messages: how much the sender may have unacknowledged. If set, only
+    /// [`Receiver::acknowledge`](super::Receiver::acknowledge) acknowledges messages; returning them does not. Default:
+    /// none.
     pub deferred: Option<Window>,
     /// Called by a connecting end each time before it connects; an error keeps it from connecting.
     pub check: Option<PeerCheck>,
@@ -51,7 +52,7 @@ impl Endpoint {
     /// The default queue: 100 messages.
     pub const QUEUE: usize = 100;
 
-    /// An endpoint with default limits.
+    /// Creates an endpoint with default limits.
     pub fn new(name: impl Into<Cow<'static, str>>) -> Self {
         Self {
             name: name.into(),
@@ -68,7 +69,7 @@ impl Endpoint {
         }
     }
 
-    /// An endpoint that accepts messages of up to `max_size` bytes, with default limits otherwise.
+    /// Creates an endpoint that accepts messages of up to `max_size` bytes, with default limits otherwise.
     pub fn accepting(name: impl Into<Cow<'static, str>>, max_size: u64) -> Self {
         // A limit beyond the address space is no limit.
         Self { max_size: usize::try_from(max_size).unwrap_or(usize::MAX), ..Self::new(name) }

@@ -6,9 +6,9 @@ use std::fmt;
 
 /// A message for a [`Link`](super::Link).
 ///
-/// Most messages are [`Bytes`]. A link that can send memory of its own without copying it, such as shared memory, lends
-/// it with [`Link::loan`](super::Link::loan); the gate fills it and returns it to the same link as a [`Loan`]. If that
-/// link is gone meanwhile, another one is given the loan, and copies it out.
+/// Most messages are [`Bytes`]. A link that can send its own memory without a copy, such as shared memory, lends it
+/// with [`Link::loan`](super::Link::loan); the filled memory returns to the same link as a [`Loan`]. If that link is
+/// gone by then, another link gets the loan and sends a copy.
 pub enum Frame {
     /// Bytes that any link can send.
     Bytes(Bytes),
@@ -20,7 +20,7 @@ pub enum Frame {
 const _: () = assert!(size_of::<Frame>() == size_of::<Bytes>());
 
 impl Frame {
-    /// Its length in bytes.
+    /// Returns the length in bytes.
     #[inline]
     pub fn len(&self) -> usize {
         self.as_slice().len()
@@ -32,7 +32,7 @@ impl Frame {
         self.len() == 0
     }
 
-    /// Its content.
+    /// Returns the content.
     #[inline]
     pub fn as_slice(&self) -> &[u8] {
         match self {
@@ -41,7 +41,7 @@ impl Frame {
         }
     }
 
-    /// Its content as bytes, by [`Loan::into_bytes`] if it is a loan.
+    /// Returns the content as bytes; converts a loan with [`Loan::into_bytes`].
     #[inline]
     pub fn into_bytes(self) -> Bytes {
         match self {
@@ -50,7 +50,7 @@ impl Frame {
         }
     }
 
-    /// Its content as bytes, shared if it consists of bytes, and copied if it is a loan.
+    /// Returns the content as bytes: shared if the frame consists of bytes, copied if it is a loan.
     #[inline]
     pub fn to_bytes(&self) -> Bytes {
         match self {
@@ -59,7 +59,7 @@ impl Frame {
         }
     }
 
-    /// The frame as bytes in place: a loan becomes what [`Loan::into_bytes`] returns.
+    /// Converts the frame into bytes in place: a loan becomes what [`Loan::into_bytes`] returns.
     #[inline]
     pub fn make_bytes(&mut self) -> &Bytes {
         if matches!(self, Self::Loan(_)) {
@@ -116,43 +116,43 @@ impl fmt::Debug for Frame {
 /// of older messages.
 pub struct Loan(Box<dyn LoanedMemory>);
 
-/// What a transport lends.
+/// Memory that a transport lends.
 ///
-/// The address and the length stay the same until it is dropped. A gate uses memory that is aligned for its message
-/// type only, so it should be aligned to 64 bytes or more.
+/// Its address and length must not change until it is dropped. A gate uses it only if it is aligned for the message
+/// type, so it should be aligned to 64 bytes or more.
 pub trait LoanedMemory: Any + Send + Sync {
-    /// The content.
+    /// Returns the content.
     fn bytes(&self) -> &[u8];
 
-    /// The content, to be filled.
+    /// Returns the content, to be filled.
     fn bytes_mut(&mut self) -> &mut [u8];
 
-    /// The content as bytes, for peers that cannot be sent the memory itself. The default copies and gives the memory
-    /// back, which is right for all memory of which there is not much.
+    /// Returns the content as bytes, for peers to which the memory itself cannot be sent. The default copies the
+    /// content and gives the memory back, which is right for scarce memory.
     fn into_bytes(self: Box<Self>) -> Bytes {
         Bytes::copy_from_slice(self.bytes())
     }
 }
 
 impl Loan {
-    /// Lends `memory`.
+    /// Creates a loan of `memory`.
     pub fn new(memory: impl LoanedMemory) -> Self {
         Self(Box::new(memory))
     }
 
-    /// The content.
+    /// Returns the content.
     #[inline]
     pub fn as_slice(&self) -> &[u8] {
         self.0.bytes()
     }
 
-    /// The content, to be filled.
+    /// Returns the content, to be filled.
     #[inline]
     pub fn as_mut_slice(&mut self) -> &mut [u8] {
         self.0.bytes_mut()
     }
 
-    /// Its length in bytes.
+    /// Returns the length in bytes.
     #[inline]
     pub fn len(&self) -> usize {
         self.0.bytes().len()
@@ -164,12 +164,12 @@ impl Loan {
         self.len() == 0
     }
 
-    /// The content as bytes, as [`LoanedMemory::into_bytes`] makes them: usually a copy.
+    /// Returns the content as bytes, by [`LoanedMemory::into_bytes`]: usually a copy.
     pub fn into_bytes(self) -> Bytes {
         self.0.into_bytes()
     }
 
-    /// The memory as what the transport lent, if that was an `M`.
+    /// Returns the memory that the transport lent, if it is an `M`.
     pub fn downcast_ref<M: LoanedMemory>(&self) -> Option<&M> {
         (&*self.0 as &dyn Any).downcast_ref()
     }

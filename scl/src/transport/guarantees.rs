@@ -2,15 +2,17 @@
 
 use std::fmt;
 
-/// Something that some gates need of a transport, beyond messages of one connection that arrive complete and in order.
+/// A promise that some gates need from a transport, beyond delivering the messages of a connection complete and in
+/// order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Guarantee {
     /// [`Link::unacknowledged`](super::Link::unacknowledged) counts messages until the receiving program has taken
-    /// them, and [`Link::request_acknowledgement`](super::Link::request_acknowledgement) asks for the rest. Without it,
-    /// a flush ends when messages are written, and a peer's counts are those of messages handed to the transport.
+    /// them, and [`Link::request_acknowledgement`](super::Link::request_acknowledgement) asks the peer to acknowledge
+    /// the rest. Without it, a flush ends when messages are written, and a peer's counts are those of messages handed
+    /// to the transport.
     Acknowledgement,
-    /// A link refuses messages of a receiver that does not take them, instead of dropping any, and the receiving end
+    /// A link refuses messages for a receiver that does not take them, instead of dropping any, and the receiving end
     /// knows whether its sender relies on that ([`Receiver::is_lossless`](super::Receiver::is_lossless)).
     Waiting,
     /// A receiving end finds out whether its sender has a newer message
@@ -21,11 +23,11 @@ pub enum Guarantee {
 }
 
 impl Guarantee {
-    /// All of them.
+    /// All guarantees.
     pub const ALL: [Self; 4] = [Self::Acknowledgement, Self::Waiting, Self::Freshness, Self::Requests];
 }
 
-/// What it means for a gate, for messages.
+/// Describes what the guarantee gives a gate, for error messages.
 impl fmt::Display for Guarantee {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -50,28 +52,28 @@ impl fmt::Display for Guarantee {
 pub struct Guarantees(u8);
 
 impl Guarantees {
-    /// None of them.
+    /// No guarantees.
     pub const NONE: Self = Self(0);
-    /// All of them.
+    /// All guarantees.
     pub const ALL: Self = Self::NONE
         .with(Guarantee::Acknowledgement)
         .with(Guarantee::Waiting)
         .with(Guarantee::Freshness)
         .with(Guarantee::Requests);
 
-    /// These and one more.
+    /// Returns this set with `guarantee` added.
     #[must_use]
     pub const fn with(self, guarantee: Guarantee) -> Self {
         Self(self.0 | 1 << guarantee as u8)
     }
 
-    /// These but one.
+    /// Returns this set without `guarantee`.
     #[must_use]
     pub const fn without(self, guarantee: Guarantee) -> Self {
         Self(self.0 & !(1 << guarantee as u8))
     }
 
-    /// Returns true if the set has it.
+    /// Returns true if the set contains `guarantee`.
     pub const fn contains(self, guarantee: Guarantee) -> bool {
         self.0 & (1 << guarantee as u8) != 0
     }

@@ -3,7 +3,7 @@
 use super::LoanedMemory;
 use bytes::Bytes;
 
-/// Zeros on the heap, aligned as asked.
+/// Zeroed heap memory with the requested alignment.
 pub(crate) struct HeapMemory {
     /// Longer than needed, because safe code cannot choose where an allocation begins.
     memory: Vec<u8>,
@@ -12,14 +12,14 @@ pub(crate) struct HeapMemory {
 }
 
 impl HeapMemory {
-    /// Memory of `length` bytes, aligned to `alignment`.
+    /// Allocates `length` zeroed bytes, aligned to `alignment`.
     pub(crate) fn zeroed(length: usize, alignment: usize) -> Self {
         let memory = vec![0; length + alignment - 1];
         let address = memory.as_ptr().addr();
         Self { start: address.next_multiple_of(alignment) - address, memory, length }
     }
 
-    /// The content, without a copy.
+    /// Returns the content without copying it.
     pub(crate) fn freeze(self) -> Bytes {
         Bytes::from(self.memory).slice(self.start..self.start + self.length)
     }

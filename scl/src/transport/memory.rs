@@ -11,7 +11,7 @@
 //! | `request_reply` | the ends for requests and replies |
 //!
 //! No end needs a task, a thread or the operating system: an end that has to wait stores its waker where the other end
-//! finds it, and the other end uses it after it has released its lock.
+//! finds it, and the other end wakes it after releasing its lock.
 
 mod catch_up;
 mod lend;
@@ -30,11 +30,12 @@ use request_reply::{ToReplier, ToRequester};
 use std::sync::Arc;
 use switchboard::Switchboard;
 
-/// How many messages a connection holds that the receiver has not taken.
+/// Maximum number of messages of a connection that the receiver has not taken.
 const IN_FLIGHT: usize = 64;
-/// The same if the receiver wants only the newest message: what a sender cannot send yet, it can still replace.
+/// The same if the receiver wants only the newest message: a sender can still replace a message that it cannot send
+/// yet.
 const IN_FLIGHT_NEWEST: usize = 1;
-/// The same in a unit test: more than a test sends before the component looks.
+/// The same in a unit test: more than a test sends before the component receives.
 const IN_FLIGHT_NEWEST_OF_TEST: usize = 1000;
 
 /// Connects ends within this process. Clones share their endpoints; separate values share nothing.
@@ -44,8 +45,8 @@ const IN_FLIGHT_NEWEST_OF_TEST: usize = 1000;
 /// one. What a link has accepted still arrives after the link is dropped. Links lend memory of any length, which the
 /// receiver gets without a copy.
 ///
-/// A subscriber whose publisher drops the connection and goes on listening has been replaced by another one. It stays
-/// unconnected until a new publisher listens, because two ends that replace each other at once would never stop.
+/// A subscriber whose publisher drops the connection and goes on listening has been replaced by another subscriber. It
+/// stays unconnected until a new publisher listens; otherwise the two subscribers would replace each other forever.
 ///
 /// # Example
 ///
@@ -72,13 +73,13 @@ impl Memory {
         Self::holding::<IN_FLIGHT_NEWEST>()
     }
 
-    /// For unit tests with threads: what was sent to an end that wants only the newest message can be received at once,
-    /// without waiting for the sender's thread to replace what it could not send.
+    /// Creates a transport for unit tests with threads: an end that wants only the newest message can receive at once
+    /// what was sent to it, without waiting for the sender's thread to replace what it could not send.
     pub(crate) fn of_test() -> Self {
         Self::holding::<IN_FLIGHT_NEWEST_OF_TEST>()
     }
 
-    /// `NEWEST`: how many messages are in flight to an end that wants only the newest one.
+    /// `NEWEST`: how many messages may be in flight to an end that wants only the newest one.
     fn holding<const NEWEST: usize>() -> Self {
         // Only the receiving end decides how much is in flight.
         let publishing = Switchboard::new(|listener, connector| pipe_of(in_flight::<NEWEST>(connector), listener));
@@ -90,7 +91,7 @@ impl Memory {
     }
 }
 
-/// How many messages a connection to this receiving end holds.
+/// Returns how many messages a connection to this receiving end may hold.
 fn in_flight<const NEWEST: usize>(receiving: &Endpoint) -> usize {
     if receiving.newest_only { NEWEST } else { IN_FLIGHT }
 }

@@ -7,20 +7,20 @@ use std::time::{Duration, Instant};
 /// The listening end of a tap. Observers come and go; none of them ever delays the gate.
 pub trait Tap: Send {
     /// Accepts observers and continues writing. Returns true if at least one is connected; only then is it worth
-    /// calling [`observe`](Self::observe). An observer that learns during this call that it is connected is shown
-    /// everything from now on: what is sent meanwhile comes after this call.
+    /// calling [`observe`](Self::observe). An observer that learns during this call that it is connected is shown every
+    /// message from then on: messages sent during this call are observed after it.
     fn drive(&mut self, cx: &mut Context<'_>) -> bool;
 
     /// Sends a message of two frames, `payload` and `meta`, to each observer, or drops it for those that read slowly.
     fn observe(&mut self, cx: &mut Context<'_>, payload: &Bytes, meta: &[u8]);
 
-    /// Keeps a message for each observer that joins from now on, in place of the one kept before. Only at a latched
-    /// gate.
+    /// Keeps a message for each observer that joins from now on, replacing the one kept before. Called only for a
+    /// latched gate.
     fn latch(&mut self, payload: &Bytes, meta: &[u8]) {
         let _keeps_nothing = (payload, meta);
     }
 
-    /// Number of messages dropped so far because an observer reads slowly, each observer counted.
+    /// Number of messages dropped so far for slow observers; a message counts once for each observer that misses it.
     fn dropped(&self) -> u64;
 }
 
@@ -30,7 +30,7 @@ pub trait Receiver: Send {
     /// and skipped.
     fn poll_recv(&mut self, cx: &mut Context<'_>) -> Poll<Bytes>;
 
-    /// Connects to a peer, or accepts those that come, without taking in messages. Called instead of
+    /// Connects to a peer, or accepts new peers, without taking in messages. Called instead of
     /// [`poll_recv`](Self::poll_recv) while there is no room for another message, so that a peer that starts now is not
     /// kept waiting. The default does nothing, for transports that connect without being called.
     fn connect(&mut self, cx: &mut Context<'_>) {
@@ -52,9 +52,9 @@ pub trait Receiver: Send {
         false
     }
 
-    /// When the message returned last was sent, if the sender had sent it before this end joined, as
-    /// [`Link::send_latched`](super::Link::send_latched) does. Ask at once: the answer is forgotten with the next
-    /// message.
+    /// Returns when the message returned last was sent, if the sender had published it before this end joined, and sent
+    /// it with [`Link::send_latched`](super::Link::send_latched). Call it right after [`poll_recv`](Self::poll_recv):
+    /// the next message replaces the answer.
     fn take_latched(&mut self) -> Option<Instant> {
         None
     }
@@ -72,24 +72,24 @@ pub trait Receiver: Send {
         let _acknowledges_by_itself = count;
     }
 
-    /// Returns true if a sender has asked since the last call to have everything acknowledged that it has sent, as a
-    /// flush does. Only an end with [`Endpoint::deferred`](super::Endpoint::deferred) does; ask it after
+    /// Returns true if, since the last call, a sender has requested an acknowledgement of everything that it has sent,
+    /// as a flush does. Only for an end with [`Endpoint::deferred`](super::Endpoint::deferred); call it after
     /// [`poll_recv`](Self::poll_recv).
     fn take_acknowledgement_request(&mut self) -> bool {
         false
     }
 
-    /// Tells how many of the messages that were returned wait in the gate's queue, for
+    /// Reports how many of the returned messages wait in the gate's queue, for
     /// [`Link::not_received`](super::Link::not_received): the program has received the others, or the queue has dropped
-    /// them. Called after an event, when no message waits any more, and as long as it returns true for each message
-    /// that leaves the queue: because a sender waits to be told. So it must be cheap.
+    /// them. Called after an event and when the queue becomes empty. If it returns true, because a sender waits for
+    /// this number, it is called again for each message that leaves the queue, so it must be cheap.
     fn note_waiting(&mut self, cx: &mut Context<'_>, waiting: u64) -> bool {
         let _does_not_tell_its_senders = (cx, waiting);
         false
     }
 
-    /// Tells that the message returned last was dropped at once, because the gate's queue was full: the messages that
-    /// wait are older than it.
+    /// Reports that the message returned last was dropped at once, because the gate's queue was full: the messages that
+    /// wait are older.
     fn note_dropped(&mut self) {}
 
     /// Acknowledges everything that the program has received, because it will receive no more over this end.
@@ -99,42 +99,43 @@ pub trait Receiver: Send {
     /// with them and is not lost. Only for an end with [`Endpoint::deferred`](super::Endpoint::deferred).
     fn finish(&mut self) {}
 
-    /// Returns true if every connected sender has done what [`finish`](Self::finish) asks, and
-    /// [`poll_recv`](Self::poll_recv) has returned all that was sent before. Ask after that returned `Pending`; its
-    /// waker is used when this changes. A sender of an older release never does.
+    /// Returns true if every connected sender has complied with [`finish`](Self::finish), and
+    /// [`poll_recv`](Self::poll_recv) has returned everything sent before. Call it after `poll_recv` has returned
+    /// `Pending`, which registers the waker for a change of this result, too. A sender of an older release never
+    /// complies.
     fn is_finished(&self) -> bool {
         true
     }
 
-    /// A receiving call begins: what senders said before it does not count for
+    /// Marks the start of a receiving call: earlier answers of senders no longer count for
     /// [`poll_caught_up`](Self::poll_caught_up).
     fn forget_answers(&mut self) {}
 
-    /// Ready when each sender has said, since [`forget_answers`](Self::forget_answers), that it has nothing newer than
-    /// what [`poll_recv`](Self::poll_recv) returned. The answer of one counts until all have answered. Asks senders
-    /// that may hold messages back; call it after `poll_recv` returned `Pending`, and `poll_recv` again after it is
-    /// ready.
+    /// Ready when each sender has answered, since [`forget_answers`](Self::forget_answers), that it has nothing newer
+    /// than what [`poll_recv`](Self::poll_recv) returned. An answer stays valid until all senders have answered. Asks
+    /// senders that may hold messages back. Call it after `poll_recv` has returned `Pending`, and call `poll_recv`
+    /// again once it is ready.
     fn poll_caught_up(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         let _cannot_be_behind = cx;
         Poll::Ready(())
     }
 
-    /// Fetches what has arrived from the operating system without help from a runtime, so that the next `poll_recv`
+    /// Reads what has arrived directly from the operating system, without a runtime, so that the next `poll_recv`
     /// returns it. For an end with [`Endpoint::newest_only`](super::Endpoint::newest_only), waits up to `within` for
     /// what the sender holds back.
     fn catch_up(&mut self, within: Duration) {
         let _always_caught_up = within;
     }
 
-    /// Waits on the calling thread, without a runtime, until something has arrived, at most `within`; the next poll
-    /// handles it. Returns false if nothing has, or at once if this end cannot wait so: that is the default.
+    /// Blocks the calling thread, without a runtime, until something has arrived or `within` is over; the next poll
+    /// handles what arrived. Returns false if nothing arrived, and at once if this end cannot wait like this, which is
+    /// the default.
     fn wait(&mut self, within: Duration) -> bool {
         let _cannot = within;
         false
     }
 
-    /// Why this end does not connect to the peer that is listening, if its [`Endpoint::check`](super::Endpoint::check)
-    /// refused it.
+    /// Returns why [`Endpoint::check`](super::Endpoint::check) refused the peer that is listening, if it did.
     fn refusal(&self) -> Option<String> {
         None
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
 
-/// What comes back to a [`Requester`].
+/// What [`Requester::poll_answer`] returns.
 #[derive(Debug)]
 pub enum Answer {
     /// A reply and the number of the request it belongs to, which may be an old one.
@@ -26,32 +26,32 @@ pub enum Answer {
 
 /// A requesting end.
 pub trait Requester: Send {
-    /// Ready when the replier is connected. Reconnects by itself. Replies to earlier requests are discarded, so it is
-    /// not called while one is awaited.
+    /// Ready when the replier is connected. Reconnects by itself. Discards replies to earlier requests, so it is not
+    /// called while a reply is awaited.
     fn poll_connected(&mut self, cx: &mut Context<'_>) -> Poll<()>;
 
-    /// Sends a request under a number; its reply carries the number back. As many requests as
-    /// [`Endpoint::in_flight`](super::Endpoint::in_flight) says may be without a reply.
+    /// Sends a request with a number, which its reply carries back. At most
+    /// [`Endpoint::in_flight`](super::Endpoint::in_flight) requests may be without a reply.
     ///
     /// # Errors
     /// The body, if the replier is not connected, or there is no room for another request now.
     fn request(&mut self, cx: &mut Context<'_>, id: u64, body: Bytes) -> Result<(), Bytes>;
 
-    /// Returns true if the replier is connected, as far as is known without asking.
+    /// Returns true if the replier is connected, as far as is known without polling.
     fn is_connected(&self) -> bool;
 
     /// Returns the next reply, or reports that the connection broke.
     fn poll_answer(&mut self, cx: &mut Context<'_>) -> Poll<Answer>;
 
-    /// Waits on the calling thread, without a runtime, until something has arrived, at most `within`; the next poll
-    /// handles it. Returns false if nothing has, or at once if this end cannot wait so: that is the default.
+    /// Blocks the calling thread, without a runtime, until something has arrived or `within` is over; the next poll
+    /// handles what arrived. Returns false if nothing arrived, and at once if this end cannot wait like this, which is
+    /// the default.
     fn wait(&mut self, within: Duration) -> bool {
         let _cannot = within;
         false
     }
 
-    /// Why this end does not connect to the peer that is listening, if its [`Endpoint::check`](super::Endpoint::check)
-    /// refused it.
+    /// Returns why [`Endpoint::check`](super::Endpoint::check) refused the peer that is listening, if it did.
     fn refusal(&self) -> Option<String> {
         None
     }
@@ -75,8 +75,8 @@ pub trait ReplyPath: Send + Sync {
     /// The requester has disconnected, or the replying end was dropped.
     fn reply(&self, envelope: &Bytes, body: Bytes) -> Result<(), RequesterGone>;
 
-    /// Tells the requester, if the transport can, that its request will not be answered, because it could not be
-    /// decoded for example: see [`Answer::Refused`]. By default it is told nothing, and waits until its timeout.
+    /// Tells the requester, if the transport can, that its request will not be answered, for example because it could
+    /// not be decoded: see [`Answer::Refused`]. The default does nothing, so the requester waits until its timeout.
     fn refuse(&self, envelope: &Bytes) {
         let _cannot = envelope;
     }

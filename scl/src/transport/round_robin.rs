@@ -5,13 +5,13 @@ use std::task::Poll;
 pub(super) struct RoundRobin<H> {
     pub(super) connections: Vec<H>,
     in_a_row: usize,
-    /// The connection whose turn it is, and how many items it has delivered in it.
+    /// The connection whose turn it is, and how many items it has delivered in this turn.
     next: usize,
     delivered: usize,
 }
 
 impl<H> RoundRobin<H> {
-    /// `in_a_row`: how many items one connection may deliver while others may have some as well.
+    /// `in_a_row`: how many items one connection may deliver before the next one gets its turn.
     pub(super) fn new(in_a_row: usize) -> Self {
         Self { connections: Vec::new(), in_a_row, next: 0, delivered: 0 }
     }

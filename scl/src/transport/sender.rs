@@ -14,8 +14,7 @@ pub trait Sender: Send {
     /// dropping one.
     fn poll_peer(&mut self, cx: &mut Context<'_>) -> Poll<Peer>;
 
-    /// Why this end does not connect to the peer that is listening, if its [`Endpoint::check`](super::Endpoint::check)
-    /// refused it.
+    /// Returns why [`Endpoint::check`](super::Endpoint::check) refused the peer that is listening, if it did.
     fn refusal(&self) -> Option<String> {
         None
     }
@@ -27,13 +26,13 @@ pub trait Sender: Send {
 
 /// A peer that has connected to a [`Sender`].
 pub struct Peer {
-    /// Who it is.
+    /// What kind of peer it is.
     pub kind: PeerKind,
-    /// The connection to it.
+    /// The connection to the peer.
     pub link: Box<dyn Link>,
 }
 
-/// Who has connected.
+/// The kind of a peer that has connected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PeerKind {
     /// The component at the other end of the connection. A newer one replaces an older one.
@@ -44,8 +43,8 @@ pub enum PeerKind {
 
 /// A live connection from a [`Sender`] to one peer. Dropping it disconnects.
 pub trait Link: Send {
-    /// Handles what the peer has sent, and continues writing. The result is for [`send_all`](Self::send_all), which
-    /// belongs to the same turn even if the queue is empty.
+    /// Handles what the peer has sent, and continues writing. Pass the result to [`send_all`](Self::send_all), which
+    /// must be called in the same turn even if the queue is empty.
     ///
     /// Wakes the task when there is more to do, and when a message that was refused may be sent now.
     ///
@@ -79,29 +78,29 @@ pub trait Link: Send {
         }
     }
 
-    /// Sends a message that is `age` old, because the peer has joined since, and tells the peer so if it understands
-    /// that. The default sends the message alone.
+    /// Sends a message that was published `age` ago, before the peer joined, and tells the peer its age, if the peer
+    /// understands that. The default sends only the message.
     fn send_latched(&mut self, cx: &mut Context<'_>, message: Frame, age: Duration) -> Sent {
         let _the_peer_does_not_learn_it = age;
         self.send(cx, message)
     }
 
-    /// Returns true if the peer wants this message: a plain subscriber may have subscribed to others only.
+    /// Returns true if the peer wants this message: a plain subscriber may have subscribed to other topics only.
     fn wants(&self, message: &[u8]) -> bool {
         let _wants_everything = message;
         true
     }
 
-    /// Which end the peer is, and what it has taken before, if this end announced
-    /// [`Endpoint::latched`](super::Endpoint::latched) and the peer said so. A peer of which nothing is known counts as
+    /// Returns which end the peer is and how much it has taken before, if this end announced
+    /// [`Endpoint::latched`](super::Endpoint::latched) and the peer reported it. A peer that reported nothing counts as
     /// new.
     fn resumed(&self) -> Option<Resumed> {
         None
     }
 
-    /// Lends memory of `length` bytes, to be filled and given to [`send`](Self::send). A link that can send such memory
-    /// without copying it offers it here; `None` if it has none, now or ever, or for messages of this length. Then the
-    /// gate takes memory from the heap.
+    /// Lends memory of `length` bytes, to be filled and passed to [`send`](Self::send), which sends it without a copy.
+    /// Returns `None` if the link has no such memory, now or ever, or none for messages of this length. The gate then
+    /// uses heap memory.
     fn loan(&mut self, length: usize) -> Option<Loan> {
         let _lends_nothing = length;
         None
@@ -115,18 +114,18 @@ pub trait Link: Send {
         0
     }
 
-    /// Number of messages sent that the peer's program has not received yet, as far as the peer has said: those that
-    /// are [unacknowledged](Self::unacknowledged), and those that wait in the peer's gate. It is counted as lost if the
-    /// link is dropped. The default is for a transport that cannot tell the two apart.
+    /// Number of messages sent that the peer's program has not received yet, as far as the peer has reported: those
+    /// that are [unacknowledged](Self::unacknowledged), and those that wait in the peer's gate. They count as lost if
+    /// the link is dropped. The default is for a transport that cannot tell the two apart.
     fn not_received(&self) -> u64 {
         self.unacknowledged()
     }
 
-    /// Reads what the peer has said before it disconnected; called before the link is dropped. Without a runtime.
+    /// Reads, without a runtime, what the peer sent before it disconnected. Called before the link is dropped.
     fn read_last(&mut self) {}
 
-    /// Asks the peer to acknowledge everything sent so far, and to say so once its program has received that. The task
-    /// is woken when the answer arrives.
+    /// Asks the peer to acknowledge everything sent so far, and to report when its program has received it. The task is
+    /// woken when the answer arrives.
     fn request_acknowledgement(&mut self, cx: &mut Context<'_>) {
         let _acknowledges_nothing = cx;
     }
@@ -136,45 +135,48 @@ pub trait Link: Send {
     fn detach(&mut self) {}
 }
 
-/// A receiving end that connects to a latched publisher, perhaps again.
+/// What a receiving end reports about itself when it connects, or reconnects, to a latched publisher.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Resumed {
-    /// A number of the receiving end that no other has: a program that restarts has another one.
+    /// A unique number of the receiving end. A program that restarts gets a new one.
     pub end: u64,
     /// Number of messages that this end has taken over its earlier connections.
     pub taken: u64,
 }
 
 impl Resumed {
-    /// An end that has taken nothing yet, with a number that no other has, in any process. Not cryptographically
-    /// random.
+    /// Creates a new end, which has taken nothing yet, with a number that is unique across processes, but not
+    /// cryptographically random.
     pub fn new_end() -> Self {
         Self { end: RandomState::new().hash_one(std::process::id()), taken: 0 }
     }
 }
 
-/// [`Link::drive`] was called in this turn, so what waits is to be offered with [`Link::send_all`]: a link that gathers
-/// short messages writes those that it has returned as [`Sent::Deferred`] then.
+/// Proof that [`Link::drive`] was called in this turn. The waiting messages must now be offered with
+/// [`Link::send_all`], in which a link that gathers short messages writes those that it has returned as
+/// [`Sent::Deferred`].
 #[derive(Debug, Default)]
 #[must_use = "give it to `send_all` in the same turn, even if the queue is empty"]
 pub struct Driven(());
 
-/// What a [`Link`] did with a message. A message that comes back is the same, or bytes of the same content.
+/// What a [`Link`] did with a message. A message that comes back is unchanged, or has become bytes with the same
+/// content.
 #[derive(Debug)]
 #[must_use = "a message that comes back was not sent"]
 pub enum Sent {
-    /// It is on its way.
+    /// The message is on its way.
     Sent,
     /// The peer cannot take it now. The task is woken when it can.
     Full(Frame),
-    /// It is to be written together with those that follow: offer it with [`Link::send_all`] when the task is woken.
+    /// The message is to be written together with those that follow: offer it with [`Link::send_all`] when the task is
+    /// woken.
     Deferred(Frame),
     /// The peer is gone. The task is woken, and the next [`Link::drive`] fails.
     Gone(Frame),
 }
 
 impl Sent {
-    /// The message, if it was not sent.
+    /// Returns the message if it was not sent.
     pub fn returned(self) -> Option<Frame> {
         match self {
             Self::Sent => None,

@@ -1,10 +1,10 @@
-//! The senders of an end that listens for several, and whose messages wait in its gate.
+//! The senders of a listening end, and how many of their messages wait in its gate.
 
 use super::round_robin::RoundRobin;
 use std::collections::VecDeque;
 use std::task::Poll;
 
-/// The connected senders. Each is known by a number, because it may leave before its messages do.
+/// The connected senders. Each is identified by a number, because it may disconnect while its messages still wait.
 pub(super) struct Senders<E> {
     connected: RoundRobin<Connected<E>>,
     /// Number of senders so far.
@@ -30,7 +30,7 @@ impl<E> Senders<E> {
         self.accepted += 1;
     }
 
-    /// As [`RoundRobin::poll`]. A message that is returned waits from now on.
+    /// Like [`RoundRobin::poll`]. A message that is returned counts as waiting.
     pub(super) fn poll<M>(&mut self, mut poll: impl FnMut(&mut E) -> Poll<Option<M>>) -> Poll<M> {
         self.connected.poll(|sender| {
             let polled = poll(&mut sender.end);
@@ -46,13 +46,13 @@ impl<E> Senders<E> {
         self.connected.connections.iter().map(|sender| &sender.end)
     }
 
-    /// All senders, and how many messages of each wait.
+    /// Iterates over the senders, with the number of messages of each that wait.
     pub(super) fn ends_mut(&mut self) -> impl Iterator<Item = (&mut E, u64)> {
         self.connected.connections.iter_mut().map(|sender| (&mut sender.end, sender.waiting))
     }
 
-    /// Only this number of messages wait, the newest. Calls `gone` with the senders of the others that are still
-    /// connected, and how many they were: one that has left counts its messages as lost.
+    /// Notes that only the newest `waiting` messages still wait. Calls `gone` with the sender and the number of the
+    /// others, if the sender is still connected: one that has left counts its messages as lost.
     pub(super) fn keep_newest(&mut self, waiting: u64, mut gone: impl FnMut(&mut E, u64)) {
         let connected = &mut self.connected.connections;
         self.origins.keep_newest(waiting, |number, count| {
@@ -63,7 +63,7 @@ impl<E> Senders<E> {
         });
     }
 
-    /// The message returned last does not wait.
+    /// Notes that the message returned last does not wait.
     pub(super) fn drop_newest(&mut self) {
         let newest = self.origins.drop_newest();
         if let Some(sender) = self.connected.connections.iter_mut().find(|sender| Some(sender.number) == newest) {
@@ -88,8 +88,8 @@ impl<E> Senders<E> {
     }
 }
 
-/// The senders, by number, of the messages that a listening end has returned and that still wait in its gate. The
-/// oldest are first, with how many of one sender follow each other.
+/// The senders, by number, of the messages that a listening end has returned and that still wait in its gate.
+/// Run-length encoded, the oldest first: a sender, and how many of its messages follow each other.
 #[derive(Default)]
 struct Origins {
     runs: VecDeque<(u64, u64)>,
@@ -97,7 +97,7 @@ struct Origins {
 }
 
 impl Origins {
-    /// A message of this sender was returned.
+    /// Adds a message of this sender, which was just returned.
     fn push(&mut self, sender: u64) {
         match self.runs.back_mut() {
             Some((last, count)) if *last == sender => *count += 1,
@@ -106,7 +106,7 @@ impl Origins {
         self.total += 1;
     }
 
-    /// The message returned last does not wait. Returns its sender.
+    /// Removes the message returned last, which does not wait. Returns its sender.
     fn drop_newest(&mut self) -> Option<u64> {
         let (sender, count) = self.runs.back_mut()?;
         (*count, self.total) = (*count - 1, self.total - 1);
@@ -115,8 +115,7 @@ impl Origins {
         Some(sender)
     }
 
-    /// Only this number of messages wait, the newest. Calls `gone` with the senders of the others and how many they
-    /// were.
+    /// Removes all but the newest `waiting` messages. Calls `gone` with the sender and the number of those removed.
     fn keep_newest(&mut self, waiting: u64, mut gone: impl FnMut(u64, u64)) {
         while self.total > waiting
             && let Some((sender, count)) = self.runs.front_mut()

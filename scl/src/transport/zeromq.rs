@@ -60,7 +60,7 @@ pub struct ZeroMq {
 }
 
 impl ZeroMq {
-    /// A transport whose ends meet in a system's folder.
+    /// Creates a transport whose ends meet in a system's folder.
     pub fn new(dir: SystemDir, kind: TransportKind) -> Self {
         Self { dir: Arc::new(dir), kind }
     }

@@ -61,10 +61,11 @@ impl Component {
     }
 }
 
-/// Far longer than it takes.
+/// Time limit for connecting, far longer than it takes.
 const CONNECTING: Duration = Duration::from_secs(10);
 
-/// Not an error: calls of the test that wait for a peer will tell the same.
+/// Logs a warning if the component is not connected yet. This is not an error: calls of the test that wait for a peer
+/// will report it.
 fn connected(component: &Component, ready: crate::Result<()>) {
     if let Err(error) = ready {
         tracing::warn!("{component:?} is not connected yet: {error}");

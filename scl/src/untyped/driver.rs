@@ -5,8 +5,8 @@ use crate::state::ComponentState;
 use std::sync::Weak;
 use std::time::Duration;
 
-/// Waits for futures of a component's gates from a plain thread, in steps: for bindings to languages that have to look
-/// at something else now and then, for example at signals.
+/// Waits for futures of a component's gates from a plain thread, in steps: for bindings to languages that have to check
+/// something else now and then, for example signals.
 #[derive(Debug, Clone)]
 pub struct Driver {
     /// Weak, so that it does not keep the component open.
@@ -14,8 +14,8 @@ pub struct Driver {
 }
 
 impl Driver {
-    /// Waits until a future is ready, no longer than a given time. `None` if it is still pending then; the next call
-    /// goes on with it.
+    /// Waits until a future is ready, but no longer than `time`. Returns `None` if it is still pending then; the next
+    /// call continues with it.
     ///
     /// ```
     /// use scl::plan::SystemPlan;

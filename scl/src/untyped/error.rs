@@ -7,7 +7,7 @@ use scl_text::suggest::closest_name;
 use std::time::Duration;
 use thiserror::Error;
 
-/// A gate was not taken.
+/// A gate could not be taken out of its component.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum GateError {
@@ -68,7 +68,7 @@ pub enum WaitError {
     Recv(#[from] RecvError),
 }
 
-/// Names of gates, for messages.
+/// Lists names of gates as alternatives, for error messages.
 fn either(gates: &[GateName]) -> String {
     let names: Vec<String> = gates.iter().map(|gate| format!("`{gate}`")).collect();
     if names.is_empty() { "no gate".to_owned() } else { names.join(" or ") }
@@ -95,7 +95,7 @@ fn advice(nearest: &Option<String>, known: &[String]) -> String {
     }
 }
 
-/// The method that takes a gate of this kind.
+/// Returns the name of the method that takes a gate of this kind.
 fn method(kind: GateKind) -> &'static str {
     match kind {
         GateKind::Pub => "publisher",

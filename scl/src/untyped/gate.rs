@@ -26,7 +26,7 @@ pub enum Gate {
     Pull(Pull<Bytes>),
 }
 
-/// The same for a gate of any kind.
+/// Evaluates the same expression for a gate of any kind.
 macro_rules! with_each {
     ($any:ident, $gate:ident => $call:expr) => {
         match $any {
@@ -53,12 +53,12 @@ impl Gate {
         })
     }
 
-    /// The gate as what all kinds have in common.
+    /// Returns the gate as what all kinds have in common.
     pub(super) fn any(&self) -> &dyn AnyGate {
         with_each!(self, gate => gate)
     }
 
-    /// The gate as one that receives, or `None` for `pub`, `push` and `req`.
+    /// Returns the gate as a receiving gate, or `None` for `pub`, `push` and `req`.
     pub fn receiving(&mut self) -> Option<&mut dyn ReceivingGate> {
         match self {
             Gate::Sub(gate) => Some(gate),
@@ -69,15 +69,15 @@ impl Gate {
     }
 
     /// Reports that the program could not decode the message or reply that this gate received last, and does what a
-    /// gate with a codec does then: it is counted ([`GateStats::undecodable`]). `Ok` if the gate skips such messages,
-    /// so that the program receives the next one; they are logged once for each peer. `Ok` also for `pub` and `push`,
-    /// which receive nothing, and for `rep`, see [`reject_request`](Self::reject_request).
+    /// gate with a codec does then: it counts the message ([`GateStats::undecodable`]). Returns `Ok` if the gate skips
+    /// such messages, so that the program receives the next one; they are logged once for each peer. Also returns `Ok`
+    /// for `pub` and `push`, which receive nothing, and for `rep`, see [`reject_request`](Self::reject_request).
     ///
     /// `reason` says why, after "cannot decode this message: "; by convention it starts in lower case and has no full
     /// stop.
     ///
     /// # Errors
-    /// That of a gate with `undecodable: fail` or of a call, which names the possible senders.
+    /// The error of a gate with `undecodable: fail` or of a call; it names the possible senders.
     pub fn reject(&mut self, reason: impl Into<String>) -> Result<(), Error> {
         let source = DecodeError::new(self.spec().codec, reason);
         match self {
@@ -88,7 +88,7 @@ impl Gate {
         }
     }
 
-    /// The same for a request. Its sender is told, so its call fails at once.
+    /// Like [`reject`](Self::reject), for a request. Its sender is told, so that its call fails at once.
     ///
     /// # Errors
     /// Those of [`reject`](Self::reject).
@@ -100,7 +100,7 @@ impl Gate {
         }
     }
 
-    /// What the plan says about the gate.
+    /// Returns what the plan says about the gate.
     pub fn spec(&self) -> &GateSpec {
         self.any().spec()
     }
@@ -110,8 +110,8 @@ impl Gate {
         with_each!(self, gate => gate.is_connected())
     }
 
-    /// How old the message is that a `sub` gate returned last, if its publisher had sent it before this gate was
-    /// connected to it: see [`Sub::latched_age`]. `None` for other kinds.
+    /// Returns the age of the message that a `sub` gate returned last, if its publisher had sent it before this gate
+    /// was connected to it: see [`Sub::latched_age`]. `None` for other kinds.
     pub fn latched_age(&self) -> Option<Duration> {
         match self {
             Gate::Sub(gate) => gate.latched_age(),
@@ -124,7 +124,7 @@ impl Gate {
         with_each!(self, gate => gate.stats())
     }
 
-    /// Returns what became of the messages of each connection of a `pub` or `push` gate. None for other kinds.
+    /// Returns what became of the messages of each connection of a `pub` or `push` gate. Empty for other kinds.
     pub fn peer_stats(&self) -> Vec<PeerStats> {
         match self {
             Gate::Pub(gate) => gate.peer_stats(),

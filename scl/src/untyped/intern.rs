@@ -1,4 +1,4 @@
-//! Plans as constants that are made at run time.
+//! Turning plans into constants at run time.
 //!
 //! Gates, errors and log lines name components and peers by `&'static` references, so that a typed component, whose
 //! specification is a constant, pays nothing for them. The specification of an untyped component is therefore kept
@@ -11,8 +11,8 @@ use scl_plan::{ConnectionPlan, GatePlan, Plan};
 use std::collections::HashMap;
 use std::sync::{LazyLock, Mutex};
 
-/// Maximum memory of all plans of a process, in bytes; a usual plan has some kilobytes. It ends a loop that opens ever
-/// different plans with an error instead of taking all memory.
+/// Maximum memory of all plans of a process, in bytes; a usual plan has some kilobytes. A loop that opens ever new
+/// plans ends with an error instead of using up all memory.
 const LIMIT: usize = 64 << 20;
 
 #[derive(Default)]
@@ -25,7 +25,7 @@ struct Interned {
 
 static INTERNED: LazyLock<Mutex<Interned>> = LazyLock::new(Mutex::default);
 
-/// The specification that `topology!` would have generated for this component.
+/// Returns the specification that `topology!` would have generated for this component.
 ///
 /// # Errors
 /// [`OpenError::Plan`] if the plan contradicts itself, [`OpenError::TooManyPlans`] if there is no room for it.

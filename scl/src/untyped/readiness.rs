@@ -56,7 +56,7 @@ pub struct Readiness {
     _driven: Option<ProcessOwned<Driven>>,
 }
 
-/// Wakes when the task that holds it is gone, with its runtime.
+/// Wakes the event loop when the task that holds it is gone, with its runtime.
 struct WakeOnDrop(Weak<ReadySet>);
 
 impl Drop for WakeOnDrop {
@@ -89,19 +89,19 @@ impl Readiness {
         Ok(Self { set, _stop: stop, _driven: state.drive_always().map(ProcessOwned::new) })
     }
 
-    /// A waker that makes the descriptor readable. All wakers of a `Readiness` are the same, so after one wake-up, all
-    /// futures that are polled with them may be ready.
+    /// Returns a waker that makes the descriptor readable. All wakers of a `Readiness` are the same, so after one
+    /// wake-up, any future that is polled with one of them may be ready.
     pub fn waker(&self) -> Waker {
         Waker::from(Arc::clone(&self.set))
     }
 
-    /// Takes note of wake-ups: the descriptor is not readable any more, unless a gate has something or a stop is
-    /// requested. To be called before futures are polled again.
+    /// Acknowledges wake-ups: the descriptor is no longer readable, unless a gate has a message or a request, or a stop
+    /// is requested. Call it before polling futures again.
     pub fn acknowledge(&self) {
         self.set.set_woken(false);
     }
 
-    /// Takes note of a stop request, for a program that goes on after it.
+    /// Acknowledges a stop request, for a program that continues after it.
     pub fn acknowledge_stop(&self) {
         if stop::was_requested() {
             self.set.acknowledge_stop();

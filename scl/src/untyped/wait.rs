@@ -8,8 +8,8 @@ use std::task::{Context, Poll};
 use std::time::Duration;
 
 impl Component {
-    /// Waits until at least one of several gates has a message or a request, and returns the indices of those that
-    /// have. It takes nothing: `try_recv` of such a gate then returns a message.
+    /// Waits until at least one of several gates has a message or a request, and returns the indices of those that have
+    /// one. It does not take any: `try_recv` of such a gate then returns a message.
     ///
     /// # Errors
     /// [`WaitError::Recv`] if a gate cannot be used any more, also after a stop request.
@@ -62,7 +62,7 @@ impl Component {
     }
 }
 
-/// All are asked, so that each of them wakes the task.
+/// Polls all gates, so that each of them wakes the task.
 fn poll_any(gates: &mut [&mut dyn ReceivingGate], cx: &mut Context<'_>) -> Poll<Result<Vec<usize>, WaitError>> {
     let mut ready = Vec::new();
     for (index, gate) in gates.iter_mut().enumerate() {

@@ -1,4 +1,4 @@
-//! One file, checked: what is shown of it, and its exit code.
+//! The result of checking one file: its diagnostics and its exit code.
 
 use super::CheckArguments;
 use super::deny::deny;
@@ -13,11 +13,11 @@ use std::path::{Path, PathBuf};
 pub(super) struct Checked {
     /// As the user named it.
     pub(super) path: PathBuf,
-    /// What it holds; with `--fix`, after the fixes.
+    /// The loaded file, after the fixes if `--fix` has written any.
     pub(super) loaded: Loaded,
-    /// What is said about it.
+    /// The diagnostics to show.
     pub(super) shown: Vec<Diagnostic>,
-    /// What `--fix` did.
+    /// The result of `--fix`; `None` without it, or if the file could not be read.
     pub(super) outcome: Option<Outcome>,
 }
 
@@ -32,7 +32,8 @@ pub(super) fn check_file(path: &Path, arguments: &CheckArguments) -> Checked {
     Checked { path: path.to_path_buf(), loaded, shown, outcome }
 }
 
-/// What `scl generate` would say of a topology without errors, for the languages that were named.
+/// Returns the name clashes for which `scl generate` would refuse a topology without errors, in the languages given
+/// with `--for`.
 #[cfg(feature = "generate")]
 fn refusals(loaded: &Loaded, arguments: &CheckArguments) -> Vec<Diagnostic> {
     let Some(system) = scl_generate::System::of(loaded) else { return Vec::new() };
@@ -58,7 +59,7 @@ impl Checked {
         self.shown.iter().filter(|it| it.severity == severity).count()
     }
 
-    /// The file, its schemas and what they import. A schema that is missing may appear.
+    /// Returns the paths of the file, its schemas and their imports, including schemas that do not exist yet.
     pub(super) fn depends_on(&self) -> Vec<PathBuf> {
         let folder = self.path.parent().unwrap_or(Path::new(""));
         let schemas = self.loaded.model.schemas.iter().map(|schema| folder.join(&schema.value));

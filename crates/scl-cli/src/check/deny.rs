@@ -4,12 +4,12 @@ use crate::explain::full_code;
 use scl_topology::catalogue::find;
 use scl_topology::diagnostic::{Diagnostic, Severity};
 
-/// What counts as an error.
+/// Which diagnostics count as errors.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Deny {
     /// Every warning; lints stay what they are.
     Warnings,
-    /// What has this code, be it a warning or a lint.
+    /// Warnings and lints with this code.
     Code(String),
 }
 
@@ -27,7 +27,7 @@ pub(super) fn parse_deny(text: &str) -> Result<Deny, String> {
     }
 }
 
-/// Makes an error of a diagnostic that is denied, and says why.
+/// Turns a denied diagnostic into an error, and adds a note that says why.
 pub(super) fn deny(mut diagnostic: Diagnostic, denied: &[Deny]) -> Diagnostic {
     let reason = denied.iter().find_map(|deny| match deny {
         Deny::Warnings if diagnostic.severity == Severity::Warning => Some("warnings"),

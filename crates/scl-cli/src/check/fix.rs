@@ -16,26 +16,25 @@ use replace_file::replace_file;
 use scl_loader::Loaded;
 use std::collections::HashSet;
 
-/// Maximum number of bytes that are checked in all, so that fixes that do not help end after some seconds.
+/// Maximum number of bytes checked in total. It limits the time spent on fixes that do not help to a few seconds.
 const MOST_BYTES: usize = 1 << 26;
 
 /// Maximum number of checks of one file.
 const MOST_CHECKS: usize = 1_000;
 
-/// What became of the fixes of a file.
+/// The result of fixing a file.
 pub(super) struct Outcome {
     /// Number of problems that were fixed, or would be.
     pub(super) applied: usize,
-    /// Whether the fixes are in the file, or in what is printed of standard input.
+    /// Whether the fixes are written to the file, or to standard output for standard input; false with `--dry-run`.
     pub(super) is_written: bool,
-    /// For standard output: the difference, or the fixed text of standard input.
+    /// Text for standard output: the diff with `--dry-run`, or the fixed text of standard input.
     pub(super) out: String,
     /// Why the file could not be written.
     pub(super) error: Option<String>,
 }
 
-/// Fixes a file that was loaded, and leaves the check of what it now holds in `loaded`; `None` if the file could not be
-/// read.
+/// Fixes a loaded file, and updates `loaded` if the text changes. Returns `None` if the file could not be read.
 pub(super) fn fix_file(file: &Source<'_>, loaded: &mut Loaded, dry_run: bool) -> Option<Outcome> {
     let check = |text: &str| file.load_text(text);
     let source = loaded.sources.file(loaded.file?);
@@ -70,7 +69,7 @@ struct Fixed {
     applied: usize,
 }
 
-/// Applies the sure fixes of a loaded text; `check` checks a new one.
+/// Applies the sure fixes of a loaded text. `check` loads and checks a changed text.
 ///
 /// Fixes that overlap are applied one after the other. Each new text is checked, and fixes that do not make the file
 /// better are not applied.
@@ -98,7 +97,8 @@ fn fix(loaded: Loaded, text: String, check: impl Fn(&str) -> Loaded) -> Fixed {
     fixed
 }
 
-/// Whether `count` fixes made a file better; of several, that each of them did, as one could hide behind the others.
+/// Whether `count` fixes made a file better. Several fixes must remove at least as many problems, so that a useless one
+/// cannot hide behind the others.
 fn helps(before: &Loaded, after: &Loaded, count: usize) -> bool {
     let (before, after) = (Damage::of(before), Damage::of(after));
     after < before && (count == 1 || after.problems() + count <= before.problems())

@@ -18,7 +18,7 @@ use scl_topology::diagnostic::Severity;
 use scl_topology::topology::Topology;
 use std::path::{Path, PathBuf};
 
-/// Says what was found: text to standard error, everything else to standard output.
+/// Prints the results. Diagnostics as text go to standard error, everything else to standard output.
 pub(super) fn report(checked: &[Checked], format: Format) {
     for it in checked {
         let error = it.outcome.as_ref().and_then(|outcome| outcome.error.as_ref());

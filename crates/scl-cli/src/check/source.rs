@@ -1,11 +1,11 @@
-//! The files that are checked: topology files, and launch files, which are known by their names.
+//! The files to check: topology files, and launch files, which are recognized by their names.
 
 use super::CheckArguments;
 use crate::load::{load_file, request};
 use scl_loader::{Loaded, load_bytes};
 use std::path::Path;
 
-/// A file that is checked, with `--fix` several times.
+/// A file to check; with `--fix`, it is checked several times.
 pub(super) struct Source<'a> {
     pub(super) path: &'a Path,
     arguments: &'a CheckArguments,
@@ -32,7 +32,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Checks a text in the place of what the file holds.
+    /// Checks a text in place of the file's content.
     pub(super) fn load_text(&self, text: &str) -> Loaded {
         match is_launch_file(self.path) {
             #[cfg(feature = "run")]
@@ -42,7 +42,8 @@ impl<'a> Source<'a> {
     }
 }
 
-/// `launch.yaml`, `launch-sim.yaml`, `flight_launch.yaml` and `sim.launch.yaml`.
+/// Whether a file is a launch file by its name: `launch.yaml`, `launch-sim.yaml`, `flight_launch.yaml` or
+/// `sim.launch.yaml`.
 fn is_launch_file(path: &Path) -> bool {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     stem.starts_with("launch") || stem.ends_with("launch")
@@ -59,8 +60,8 @@ mod launch {
     use std::cell::RefCell;
     use std::path::PathBuf;
 
-    /// The topology of a launch file with its names, if it has no errors. Read once: it may have many schemas, and
-    /// fixes change the launch file only.
+    /// Caches the path of a launch file's topology, and its names if it has no errors. The topology is read only once:
+    /// it may have many schemas, and fixes change only the launch file.
     #[derive(Default)]
     pub(super) struct Topology(RefCell<Option<(PathBuf, Option<SystemNames>)>>);
 
@@ -81,8 +82,8 @@ mod launch {
             Request { kind: "launch", ..crate::load::request(self.path, self.arguments.max_size) }
         }
 
-        /// Checks a launch file that was read, with the names of its topology: the one that it names, or the one beside
-        /// it.
+        /// Checks a launch file against the names in its topology: in the file that it names, else in the
+        /// `topology.yaml` beside it.
         pub(super) fn check_launch_file(&self, mut read: Loaded) -> Loaded {
             let Some(file) = read.file else { return read };
             let folder = self.path.parent().unwrap_or(Path::new(""));

@@ -1,7 +1,7 @@
 //! `--watch`: checks again whenever a file changes.
 //!
-//! The files are looked at ten times a second. That works on every file system and with every way in which editors
-//! write files, and costs a few system calls.
+//! The files are polled ten times a second. That works on every file system and however an editor writes files, and
+//! costs a few system calls.
 
 use super::checked::Checked;
 use super::report::report;
@@ -19,13 +19,13 @@ use std::sync::mpsc::{Receiver, channel};
 use std::thread;
 use std::time::Duration;
 
-/// How often the files are looked at.
+/// How often the files are polled.
 const INTERVAL: Duration = Duration::from_millis(100);
 
-/// The line before a check; editors may search for it, so it stays as it is.
+/// The line before a check. Editors may match it, so it must not change.
 const BEGIN: &str = "scl: checking\n";
 
-/// The line after a check; likewise.
+/// The line after a check, which must not change either.
 const END: &str = "scl: waiting for changes, Ctrl-C ends\n";
 
 /// Checks until a signal asks to stop. Returns the exit code of the last check.
@@ -54,8 +54,8 @@ pub(super) fn watch(arguments: &CheckArguments) -> ExitCode {
     }
 }
 
-/// Checks files whose marks were taken before they were read, so that no change is missed while they are read. Which
-/// schemas there are, only reading tells, so that the first check is done twice if there are some.
+/// Checks files whose marks were taken before they were read, so that no change is missed while they are read. Schemas
+/// are known only after the topology was read, so the first check is repeated if there are any.
 fn check_marked(arguments: &CheckArguments, mut marks: Marks) -> (Vec<Checked>, Marks) {
     add_marks(&mut marks, &arguments.files);
     loop {
@@ -69,8 +69,8 @@ fn check_marked(arguments: &CheckArguments, mut marks: Marks) -> (Vec<Checked>, 
     }
 }
 
-/// Waits until a file differs from its mark, and then until it rests, as editors write files in several steps. Gives
-/// `None` when asked to stop.
+/// Waits until a file differs from its mark, and then until no file changes any more, because editors write files in
+/// several steps. Returns the new marks, or `None` when asked to stop.
 fn wait_for_change(before: Marks, stop: &Receiver<()>) -> Option<Marks> {
     let mut last = before.clone();
     loop {
@@ -85,11 +85,11 @@ fn wait_for_change(before: Marks, stop: &Receiver<()>) -> Option<Marks> {
     }
 }
 
-/// The state of the files, from their metadata.
+/// The state of the files, from their metadata; `None` for a file that does not exist.
 type Marks = BTreeMap<PathBuf, Option<Mark>>;
 
-/// Inode, size, and the time of the last change of the content or the entry, in seconds and nanoseconds. `None` for a
-/// file that is not there. The time of the content alone may be set by anybody, so it is not looked at.
+/// Inode, size, and the time of the last status change (`ctime`) in seconds and nanoseconds. The modification time is
+/// not used, because any program can set it.
 type Mark = (u64, u64, i64, i64);
 
 /// Adds the marks of these files; those that are marked already keep their mark.

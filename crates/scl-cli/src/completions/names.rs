@@ -4,17 +4,17 @@ use clap::{Arg, Command};
 use clap_complete::Shell;
 use std::fmt::Write;
 
-/// An argument in whose place a name is offered.
+/// An argument for which the shell offers names.
 struct Place {
     command: String,
-    /// `--option`, or `None` for the arguments without one.
+    /// `--option`, or `None` for positional arguments.
     option: Option<String>,
     /// `gates`, `components` or both.
     wanted: Vec<&'static str>,
 }
 
-/// Adds the names to a script that `clap_complete` wrote. Shells that are not listed here complete commands and
-/// options.
+/// Adds the completion of names to a script from `clap_complete`. The scripts for other shells are left unchanged: they
+/// complete only commands and options.
 pub(super) fn add_names(shell: Shell, command_line: &Command, script: String) -> String {
     let places = places(command_line);
     if places.is_empty() {
@@ -47,7 +47,7 @@ fn places(command_line: &Command) -> Vec<Place> {
     commands.flat_map(|command| command.get_arguments().filter_map(move |it| place(command, it))).collect()
 }
 
-/// One line of a shell's `case` for each place: the pattern `command:option`, and what is asked for.
+/// Returns one branch of a shell's `case` for each place: the pattern `command:option`, and which names to ask for.
 fn cases(places: &[Place], indent: &str) -> String {
     let mut text = String::new();
     for place in places {
@@ -83,7 +83,8 @@ complete -F _scl_with_names -o bashdefault -o default scl
     )
 }
 
-/// The script ends with code that registers or calls its function; ours takes its place.
+/// Adds our function to the script. The script ends with code that registers or calls its function; this code is
+/// replaced by code that does so with ours.
 fn zsh(places: &[Place], script: &str) -> String {
     let Some((functions, _)) = script.rsplit_once("if [ \"$funcstack[1]\"") else { return script.to_owned() };
     format!(

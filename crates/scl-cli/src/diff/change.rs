@@ -27,11 +27,11 @@ pub(super) enum How {
     Changed(Vec<(&'static str, String, String)>),
 }
 
-/// A part by its name, with what there is to say about it.
+/// A part: its name and its facts.
 type Part = (String, Vec<Fact>);
 
-/// Every difference: the system, then components, gates and connections, each in the order of the new file after what
-/// is gone; connections in the order of their sending gates.
+/// Returns every difference: the system, then components, gates and connections. For each of these, removed parts come
+/// first, then the others in the order of the new file; connections are in the order of their sending gates.
 pub(super) fn find_changes(old: &Side, new: &Side) -> Vec<Change> {
     let system = |side: &Side| vec![(String::new(), vec![("name", side.system.clone())])];
     let mut changes = compare("system", &system(old), &system(new));

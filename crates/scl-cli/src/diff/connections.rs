@@ -10,7 +10,7 @@ pub(super) struct Connection<'p> {
 }
 
 impl Connection<'_> {
-    /// Two gates are connected at most once, so this is a name.
+    /// Returns a unique name: two gates are connected at most once.
     pub(super) fn name(&self) -> String {
         connection_name(self.component, self.gate, self.plan)
     }
@@ -28,7 +28,8 @@ pub(super) fn connections_of(plan: &SystemPlan) -> impl Iterator<Item = Connecti
     sending.flat_map(|(component, gate)| gate.connections.iter().map(move |plan| Connection { component, gate, plan }))
 }
 
-/// `sensor.measurements -> controller.sensor`, from the gate at which messages start.
+/// Returns the name of a connection, from the gate that sends or asks to its peer:
+/// `sensor.measurements -> controller.sensor`.
 pub(super) fn connection_name(component: &str, gate: &GatePlan, connection: &ConnectionPlan) -> String {
     let own = format!("{component}.{}", gate.name);
     let peer = format!("{}.{}", connection.peer_component, connection.peer_gate);

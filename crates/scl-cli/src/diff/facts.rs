@@ -4,7 +4,7 @@ use scl_plan::{ConnectionPlan, GatePlan};
 use scl_topology::grammar::OPTIONS;
 use scl_topology::topology::{Component, Gate};
 
-/// A key of the topology file, or a word for what follows from it, and its value.
+/// A key of the topology file, or a word for something derived from it, and its value.
 pub(super) type Fact = (&'static str, String);
 
 /// The facts about a component, without its gates.
@@ -12,7 +12,7 @@ pub(super) fn component_facts(component: &Component) -> Vec<Fact> {
     vec![("optional", component.optional().to_string()), ("doc", doc(component.doc()))]
 }
 
-/// The facts about a gate, without its connections: those of its plan, and those that no program contains.
+/// The facts about a gate, without its connections: those in its plan, and those that only the topology file has.
 pub(super) fn gate_facts(gate: &Gate, plan: &GatePlan) -> Vec<Fact> {
     let mut facts =
         vec![("kind", plan.kind.word().to_owned()), ("type", plan.payload.to_string()), ("codec", plan.codec.clone())];

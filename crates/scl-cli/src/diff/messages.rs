@@ -9,12 +9,12 @@ use scl_plan::{Schema, SystemPlan};
 use scl_shape::{Difference, Encoding, FileDescriptorSet, What};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// The differences, and whom they concern.
+/// The messages that differ, and the components that exchange them.
 #[derive(Default)]
 pub(super) struct MessageChanges {
     /// One entry per message or enum.
     pub(super) changes: Vec<Change>,
-    /// The components whose messages differ, with what these are.
+    /// The components whose messages differ, each with its differing messages and enums.
     components: BTreeMap<String, BTreeSet<String>>,
     /// The components at both ends of each connection with such messages.
     pub(super) pairs: Vec<(String, String)>,
@@ -84,7 +84,7 @@ impl MessageChanges {
         }
     }
 
-    /// Adds the components to those that must be rebuilt anyway, in the order of the new file.
+    /// Adds the components whose messages differ to `rebuilds`, and returns all of them in the order of the new file.
     pub(super) fn add_rebuilds(&self, rebuilds: Vec<Rebuild>, new: &Side) -> Vec<Rebuild> {
         let mut by_name: HashMap<String, Rebuild> = rebuilds.into_iter().map(|it| (it.component.clone(), it)).collect();
         for (component, messages) in &self.components {

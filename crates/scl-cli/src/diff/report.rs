@@ -6,8 +6,8 @@ use super::rebuild::Rebuild;
 use super::together::Group;
 use serde_json::{Map, Value, json};
 
-/// A line a difference (`+` new, `-` gone, `~` differs), then the components to rebuild, first those that must be
-/// rebuilt together; nothing if nothing differs.
+/// Returns one line per difference (`+` new, `-` gone, `~` differs), then the components to rebuild, those that must be
+/// rebuilt together first; empty if nothing differs.
 pub(super) fn report_text(changes: &[Change], groups: &[Group]) -> String {
     let mut text: String = changes.iter().map(change_line).collect();
     if groups.is_empty() && !changes.is_empty() {
@@ -43,7 +43,7 @@ fn change_line(change: &Change) -> String {
     format!("{sign} {}{name}{rest}\n", change.part)
 }
 
-/// Of a gate its kind and type; other parts say enough by their names.
+/// Returns the kind and type of a gate; empty for other parts, whose names say enough.
 fn summary(facts: &[Fact]) -> String {
     let value = |key| facts.iter().find(|fact| fact.0 == key).map(|fact| fact.1.as_str());
     value("kind").zip(value("type")).map_or_else(String::new, |(kind, payload)| format!(": {kind} {payload}"))

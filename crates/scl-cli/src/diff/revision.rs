@@ -1,4 +1,4 @@
-//! A topology as a git revision has it, with its schemas, in a temporary folder.
+//! A topology and its schemas at a git revision, checked out into a temporary folder.
 
 use scl_terminal::{Problem, escape};
 use std::io::Write;
@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 /// The files of one revision.
 pub(super) struct Revision {
-    /// Deleted with this.
+    /// Deleted when this is dropped.
     _folder: TempDir,
     /// The topology file.
     pub(super) path: PathBuf,
@@ -55,7 +55,8 @@ fn git(folder: &Path, arguments: &[&str]) -> Result<String, String> {
     Ok(String::from_utf8_lossy(&output).lines().next().unwrap_or_default().to_owned())
 }
 
-/// What git prints, or says about its failure. With an index of its own, it leaves that of the repository alone.
+/// Runs git. Returns its standard output, or its standard error if it fails. With `index`, git uses that file as its
+/// index and leaves the repository's alone.
 fn run(folder: &Path, arguments: &[&str], index: Option<&Path>, input: &[u8]) -> Result<Vec<u8>, String> {
     let mut command = Command::new("git");
     command.arg("-C").arg(folder).args(arguments).envs(index.map(|index| ("GIT_INDEX_FILE", index)));

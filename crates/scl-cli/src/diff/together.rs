@@ -6,11 +6,11 @@ use super::rebuild::Rebuild;
 use scl_plan::SystemPlan;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-/// Components to rebuild; those of a group with several are of no use to each other until all are rebuilt.
+/// Components to rebuild. If there are several, some of them cannot connect to each other until all are rebuilt.
 pub(super) type Group = Vec<Rebuild>;
 
-/// Groups of several first, each in the order of the new file. `pairs` cannot talk to each other although their
-/// connections are as they were.
+/// Groups the components to rebuild: groups of several first, each in the order of the new file. `pairs` are components
+/// whose old and new messages are incompatible although their connection is unchanged.
 pub(super) fn group(old: &Side, new: &Side, rebuilds: Vec<Rebuild>, pairs: &[(String, String)]) -> Vec<Group> {
     let mut leaders = Leaders::default();
     if old.system != new.system {
@@ -37,7 +37,7 @@ pub(super) fn group(old: &Side, new: &Side, rebuilds: Vec<Rebuild>, pairs: &[(St
     groups
 }
 
-/// The components at both ends of each connection that is new, gone, or found under another name.
+/// Returns the components at both ends of each connection that is new, is gone, or has another endpoint.
 fn parted(old: &SystemPlan, new: &SystemPlan) -> BTreeSet<(String, String)> {
     let found = |plan| -> BTreeSet<(String, String, (String, String))> {
         connections_of(plan).map(|it| (it.name(), it.plan.endpoint.clone(), it.components())).collect()

@@ -31,8 +31,8 @@ impl<'a> Output<'a> {
         Self { format, fields, several, exchanges, types, columns, table, left_out }
     }
 
-    /// Takes note of all gates; called before the first message of each. Once the header of CSV is printed, its columns
-    /// stay.
+    /// Adapts the output to all known gates; must be called before the first message of each. Once the CSV header is
+    /// printed, the columns no longer change.
     pub(super) fn learn(&mut self, gates: &[Watched]) {
         self.types = gates.iter().flat_map(Watched::types).count();
         if self.table.is_none() {
@@ -99,7 +99,7 @@ impl<'a> Output<'a> {
         rows
     }
 
-    /// The cells before those of the fields: those of time, sequence, gate, kind and call that are shown.
+    /// Returns the cells before those of the fields: time and sequence, and gate, kind and call if they are shown.
     fn own_cells<'t>(&self, [time, sequence, gate, kind, call]: [&'t str; 5]) -> impl Iterator<Item = &'t str> {
         let exchange = self.exchanges.then_some([kind, call]).into_iter().flatten();
         [time, sequence].into_iter().chain(self.several.then_some(gate)).chain(exchange)

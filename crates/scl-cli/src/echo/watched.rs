@@ -7,17 +7,18 @@ use scl_terminal::print_err;
 use scl_value::{Condition, FieldPath, MessageType, Mismatch, Value};
 use std::time::{Duration, Instant};
 
-/// Losses within this time are noted together: at a thousand messages a second, a note each would be the next loss.
+/// Losses within this time are noted together: at a thousand messages a second, writing a note for each would cause the
+/// next loss.
 const BETWEEN_NOTES: Duration = Duration::from_secs(1);
 
 /// A gate that is observed at its own tap.
 pub(super) struct Watched {
     gate: ObservedGate,
     pub(super) name: String,
-    /// Messages or requests.
+    /// The type of the messages or requests.
     message: MessageType,
     reply: MessageType,
-    /// The number that the next message has if none is lost; `None` right after connecting.
+    /// The sequence number of the next message if none is lost; `None` right after connecting.
     next: Option<u64>,
     was_connected: bool,
     /// Number of messages that were not seen.
@@ -52,7 +53,7 @@ impl Watched {
         self.check(|messages| condition.check(messages))
     }
 
-    /// One of the types must pass.
+    /// Returns the first error if `check` fails for all of the gate's types.
     fn check(&self, check: impl Fn(&MessageType) -> Result<(), Mismatch>) -> Result<(), Mismatch> {
         check(&self.message).or_else(|error| match self.exchanges() {
             true => check(&self.reply).map_err(|_| error),
@@ -60,7 +61,8 @@ impl Watched {
         })
     }
 
-    /// The component runs, perhaps again, and then perhaps built anew.
+    /// Handles a new connection. After a reconnect, the types are read again, because the component may have been
+    /// rebuilt.
     pub(super) fn connected(&mut self, system: &System) {
         if self.was_connected {
             if let Ok(gate) = system.gate(&self.name) {
@@ -77,7 +79,7 @@ impl Watched {
         print_err(&format!("note: `{}` has disconnected; waiting until it runs again\n", self.name));
     }
 
-    /// Notes messages that are missing before this one.
+    /// Counts the messages that were lost before this one, and notes them unless the last note is too recent.
     pub(super) fn count(&mut self, seen: &Observation) {
         let lost = self.next.map_or(0, |next| seen.sequence.saturating_sub(next));
         self.next = Some(seen.sequence.saturating_add(1));
@@ -88,7 +90,7 @@ impl Watched {
         }
     }
 
-    /// Tells the losses that were not told yet.
+    /// Prints a note about the losses that have not been noted yet.
     pub(super) fn note_lost(&mut self) {
         if self.unnoted > 0 {
             print_err(&format!("note: lost {} messages of `{}`: read too slowly\n", self.unnoted, self.name));
@@ -114,7 +116,7 @@ impl Watched {
     }
 }
 
-/// How the messages or requests, and the replies of a gate are read.
+/// Returns the types of a gate's messages or requests, and of its replies.
 fn types_of(gate: &ObservedGate) -> (MessageType, MessageType) {
     let read = |name: Option<&str>| {
         let messages = MessageType::new(name, &gate.codec, gate.schema.as_deref());

@@ -1,4 +1,4 @@
-//! A topology as Graphviz text: a table a component, a port a gate, and an edge a connection.
+//! A topology as Graphviz text: one table per component, one port per gate, and one edge per connection.
 
 use super::edge::edge_of;
 use scl_topology::topology::{Component, Connection, GateId, Topology};

@@ -1,11 +1,11 @@
-//! What both drawings say at a connection.
+//! What both formats show for a connection.
 
 use scl_topology::topology::{Connection, GateKind, Payload, Topology};
 
 /// A connection as it is drawn: from the end that sends (or asks) to the end that receives (or answers).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Edge {
-    /// What is carried, for example `rover.Measurement`; empty for bytes.
+    /// The types of the messages, for example `rover.Measurement`; empty for bytes.
     pub(crate) types: String,
     /// Whether an answer comes back.
     pub(crate) answered: bool,

@@ -1,4 +1,4 @@
-//! A topology as Mermaid text: a box a component, in it its gates, and an arrow a connection.
+//! A topology as Mermaid text: one box per component with its gates inside, and one arrow per connection.
 
 use super::edge::edge_of;
 use scl_topology::topology::{Component, ComponentId, Connection, GateId, Topology};
@@ -34,7 +34,7 @@ fn draw_connection(topology: &Topology, connection: &Connection) -> String {
     }
 }
 
-/// Names in the drawing are numbered: a component may be called `end` or `class`, which are words of Mermaid.
+/// Returns a numbered name for the drawing: a component may be called `end` or `class`, which are keywords of Mermaid.
 fn component_name(topology: &Topology, id: ComponentId) -> String {
     let number = topology.components().position(|(it, _)| it == id).unwrap_or_default();
     format!("c{number}")
@@ -46,7 +46,8 @@ fn node_name(topology: &Topology, id: GateId) -> String {
     format!("{}g{number}", component_name(topology, component))
 }
 
-/// Inside a quoted label only the quote and what starts an entity mean something; `<` and `>` would become HTML.
+/// Escapes a text for a quoted label. Only the quote and `#`, which starts an entity, are special there; `<` and `>`
+/// would become HTML.
 fn escape(text: &str) -> String {
     text.replace('#', "#35;").replace('"', "#quot;").replace('<', "#lt;").replace('>', "#gt;")
 }

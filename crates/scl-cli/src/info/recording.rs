@@ -13,7 +13,7 @@ pub(super) fn is_recording(name: &str) -> bool {
     name.contains('/') || name.ends_with(".mcap")
 }
 
-/// Prints what is in a recording, for which all of it is read.
+/// Prints what is in a recording. Reads all of it.
 ///
 /// # Errors
 /// A file cannot be read or is damaged.
@@ -102,7 +102,7 @@ fn notes(recording: &Recording, survey: &Survey) -> impl Iterator<Item = String>
     recording.notes().into_iter().chain(survey.notes())
 }
 
-/// What was lost is of the whole gate, requests and replies together.
+/// Describes a topic. `lost` covers the whole gate, requests and replies together.
 fn gate_to_json(topic: &Topic, surveyed: &SurveyedTopic, totals: Option<&GateTotals>) -> Value {
     let metadata = &surveyed.channel.metadata;
     json!({

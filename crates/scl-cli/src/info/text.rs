@@ -9,7 +9,7 @@ use scl_terminal::{Table, age_text, bytes_text, three_digits};
 use std::time::SystemTime;
 
 impl Reading {
-    /// A gate with this number, or the whole component.
+    /// Describes the gate with this index, or the whole component.
     pub(super) fn text(&self, gate: Option<usize>) -> String {
         match gate.and_then(|gate| Some((gate, self.component.gates().get(gate)?))) {
             Some((gate, plan)) => self.gate_text(gate, plan),
@@ -122,8 +122,8 @@ impl Reading {
     }
 }
 
-/// What the ends of a gate listen on, unless that is only the default: `shm`, or
-/// `ipc to logger.frames; shm to viewer.frames`.
+/// Returns the transports on which a gate listens, for example `shm`, or `ipc to logger.frames; shm to viewer.frames`;
+/// `None` if it does not listen, or only on the default, `ipc`.
 fn transports(component: &Component, gate: &str) -> Option<String> {
     match &component.transports(gate)[..] {
         [] | [("ipc", _)] => None,

@@ -22,7 +22,7 @@ pub(super) enum Messages {
 }
 
 impl Messages {
-    /// Those of an argument, which is a message or `-`.
+    /// Creates the messages of an argument, which is a message or `-` for standard input.
     pub(super) fn new(argument: &str, messages: MessageType, repeat: bool) -> Result<Self, Problem> {
         if argument == INPUT {
             return Ok(Self::Input { read: read_input(), messages, count: 0 });
@@ -31,7 +31,7 @@ impl Messages {
         Ok(Self::Fixed { message, repeat, taken: false })
     }
 
-    /// Whether they end by themselves.
+    /// Whether the messages come from standard input, and so end by themselves.
     pub(super) fn are_from_input(&self) -> bool {
         matches!(self, Self::Input { .. })
     }
@@ -59,7 +59,7 @@ impl Messages {
     }
 }
 
-/// Reads standard input in a thread, because a pipe may be silent for any time.
+/// Reads standard input on a thread, because reading from a pipe may block for any length of time.
 fn read_input() -> Receiver<io::Result<Result<Value, ReadError>>> {
     let (sender, receiver) = channel(AHEAD);
     thread::spawn(move || {

@@ -25,7 +25,8 @@ impl Sender {
         }
     }
 
-    /// Waits until all required peers are connected, and for the others that run, so that no message is lost.
+    /// Waits until all required peers, and the optional ones that run, are connected, so that no message is lost. Fails
+    /// only if a required peer is not connected in `time`.
     pub(super) async fn wait_for_peers(
         &mut self,
         component: &Component,

@@ -24,7 +24,7 @@ pub(super) fn gate_schema(names: &Names) -> Value {
     })
 }
 
-/// `{sub: rover.Measurement, queue: 1}`.
+/// Returns the schema of the long form of a gate: `{sub: rover.Measurement, queue: 1}`.
 fn long_schema(kind: GateKind, names: &Names) -> Value {
     let summary = KindRow::of(kind).summary;
     let payload = match kind.exchanges() {

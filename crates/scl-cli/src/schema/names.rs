@@ -12,7 +12,7 @@ const END: &str = "^[A-Za-z_](-?[A-Za-z0-9_])*-?\\.[A-Za-z_](-?[A-Za-z0-9_])*-?$
 /// A word of a dotted type.
 const WORD: &str = "([A-Za-z][A-Za-z0-9_]*|_[A-Za-z0-9_]+)";
 
-/// What editors offer; nothing for a schema that belongs to no file.
+/// The names that editors offer; empty for a schema that belongs to no file.
 #[derive(Debug, Default)]
 pub(super) struct Names {
     /// `component.gate`, each with its kind and type.
@@ -73,7 +73,7 @@ fn offered_types(known: &[String], pattern: &str, description: &str) -> Value {
     offered(json!({ "type": "string", "enum": known }), known.is_empty(), &any, description)
 }
 
-/// A value of this shape; known ones are offered, but others are as good.
+/// Returns the schema of a value of the shape `any`. Editors offer the known values, but others are just as valid.
 fn offered(known: Value, none: bool, any: &Value, description: &str) -> Value {
     let mut schema = if none { any.clone() } else { json!({ "anyOf": [known, any] }) };
     schema["description"] = json!(description);

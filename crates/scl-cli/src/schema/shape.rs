@@ -4,12 +4,12 @@ use scl_text::{duration, size};
 use scl_topology::grammar::{Codec, CodecRow, Shape};
 use serde_json::{Value, json};
 
-/// A path of at least two words.
+/// Pattern of a Rust path with at least one `::`.
 const RUST_PATH: &str = "^(::[A-Za-z_][A-Za-z0-9_]*|[A-Za-z_][A-Za-z0-9_]*::[A-Za-z_][A-Za-z0-9_]*)\
                          (::[A-Za-z_][A-Za-z0-9_]*)*$";
 
-/// What a value looks like, as far as a schema can say it. `True` and `0x10`, which the checker refuses, are `true` and
-/// 16 to a reader of YAML.
+/// Returns the schema of a value. It cannot express everything: `True` and `0x10`, which the checker refuses, are
+/// `true` and 16 to a YAML parser.
 pub(super) fn shape_schema(shape: Shape) -> Value {
     match shape {
         // YAML may read an unquoted text as a number or a boolean.

@@ -13,7 +13,7 @@ use ratatui::widgets::{Cell, Paragraph, Row, Table, TableState};
 use scl_observe::{Activity, GateRow};
 use scl_terminal::{bytes_text, escape, shorten};
 
-/// Columns that are left out of narrow terminals, from the first on, until the names have enough room.
+/// Columns that are left out on narrow terminals, in this order, until the names have enough room.
 const DISPENSABLE: [&str; 8] = ["RECEIVED", "SENT", "LOST", "KIND", "WAIT", "SINCE", "PID", "MEM"];
 
 /// The room that names need before columns are left out.
@@ -161,7 +161,8 @@ struct TextTable<'t> {
 }
 
 impl TextTable<'_> {
-    /// The table for a terminal of this width, with as many columns as fit. `style` is that of a cell.
+    /// Returns the table for a terminal of this width, with as many columns as fit. `style` returns the style of a cell
+    /// from its row number and heading.
     fn fit(&self, width: u16, style: impl Fn(usize, &str) -> Style) -> Table<'static> {
         let widths: Vec<usize> = (0..self.columns.len()).map(|column| self.width(column)).collect();
         let mut shown: Vec<usize> = (0..self.columns.len()).collect();

@@ -1,4 +1,4 @@
-//! The loop of the live display: looks at the system, keys, signals.
+//! The loop of the live display: handles snapshots of the system, keys and signals.
 
 use super::Order;
 use super::draw::draw;
@@ -65,7 +65,8 @@ async fn show(mut watches: Vec<Watch>, period: Duration, order: Order, mut stop:
     }
 }
 
-/// One snapshot of all systems; several put their names before those of their components.
+/// Takes one snapshot of all systems. If there are several, the components' names are prefixed with those of their
+/// systems.
 fn look(watches: &mut [Watch]) -> Snapshot {
     let mut snapshots: Vec<Snapshot> = watches.iter_mut().map(Watch::look).collect();
     if snapshots.len() == 1 {
@@ -82,7 +83,7 @@ fn look(watches: &mut [Watch]) -> Snapshot {
     Snapshot { system: names.join(", "), ..all }
 }
 
-/// Reads keys and changes of the terminal's size on a thread of its own, which ends with the program.
+/// Reads keys and changes of the terminal's size on a separate thread, which ends with the program.
 fn read_events() -> UnboundedReceiver<Event> {
     let (sender, receiver) = unbounded_channel();
     thread::spawn(move || {
@@ -98,7 +99,7 @@ fn read_events() -> UnboundedReceiver<Event> {
     receiver
 }
 
-/// <https://no-color.org>
+/// Returns false if `NO_COLOR` is set and not empty (<https://no-color.org>).
 fn has_colours() -> bool {
     std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }

@@ -11,7 +11,7 @@ pub(super) const COMPONENT_COLUMNS: [&str; 6] = ["COMPONENT", "STATE", "PID", "C
 pub(super) const GATE_COLUMNS: [&str; 9] =
     ["GATE", "KIND", "RATE", "SENT", "RECEIVED", "WAIT", "DROP", "LOST", "PEERS"];
 
-/// What stands for an unknown value.
+/// Placeholder for an unknown value.
 const UNKNOWN: &str = "-";
 
 /// Both tables begin with this many columns of words; numbers follow.
@@ -54,7 +54,7 @@ fn count_text(count: u64) -> String {
     }
 }
 
-/// Puts the rows into an order. Rows that are equal in it stay by name.
+/// Sorts the rows. Rows that compare equal keep their order.
 pub(super) fn sort(snapshot: &mut Snapshot, order: Order) {
     let Snapshot { components, gates, .. } = snapshot;
     // Sort by integers, because floats have no total order; thousandths are precise enough.

@@ -1,4 +1,4 @@
-//! The terminal while it is taken over: it is given back on every way out.
+//! Takes over the terminal, and restores it on every exit path.
 #![allow(clippy::disallowed_methods, reason = "the library that draws writes to the terminal")]
 
 use ratatui::backend::CrosstermBackend;
@@ -40,7 +40,7 @@ impl Screen {
         self.terminal.draw(draw).map(drop)
     }
 
-    /// Gives the terminal back while `pause` runs, and draws everything anew afterwards.
+    /// Restores the terminal while `pause` runs, then takes it over again; the next frame is drawn in full.
     pub(super) fn leave_during(&mut self, pause: impl FnOnce()) -> io::Result<()> {
         restore();
         pause();
@@ -53,8 +53,8 @@ impl Screen {
         Ok(Self { terminal: Self::terminal(size)?, size })
     }
 
-    /// Of a fixed size, because ratatui asks the terminal for its cursor when it follows the size by itself, and would
-    /// wait for the answer that the thread of the keys reads.
+    /// Creates a terminal of a fixed size. If ratatui followed the size by itself, it would ask the terminal for the
+    /// cursor position, and wait for an answer that the thread for keys reads.
     fn terminal((width, height): (u16, u16)) -> io::Result<Terminal<CrosstermBackend<Stdout>>> {
         let viewport = Viewport::Fixed(Rect::new(0, 0, width, height));
         Terminal::with_options(CrosstermBackend::new(stdout()), TerminalOptions { viewport })

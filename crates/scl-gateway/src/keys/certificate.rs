@@ -1,4 +1,4 @@
-//! A certificate as read from a file: what the checks need of it.
+//! A certificate read from a file, with the fields that the checks need.
 
 use rustls_pki_types::CertificateDer;
 use rustls_pki_types::pem::PemObject;
@@ -14,7 +14,7 @@ pub(super) struct Certificate {
     pub(super) der: CertificateDer<'static>,
     /// The common name of the subject; empty if it has none.
     pub(super) name: String,
-    /// The addresses that it is for, as text.
+    /// The addresses that it is valid for, DNS names and IP addresses, as text.
     pub(super) addresses: Vec<String>,
     pub(super) not_before: SystemTime,
     pub(super) not_after: SystemTime,
@@ -49,7 +49,7 @@ fn address(name: &GeneralName<'_>) -> Option<String> {
     }
 }
 
-/// Times before 1970 count as 1970.
+/// Converts a Unix time; times before 1970 become 1970.
 fn time(seconds: i64) -> SystemTime {
     SystemTime::UNIX_EPOCH + Duration::from_secs(u64::try_from(seconds).unwrap_or_default())
 }

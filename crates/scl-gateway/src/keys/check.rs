@@ -29,10 +29,10 @@ pub enum KeyProblem {
     /// A file does not contain what its name says.
     #[error("`{}` is not a {expected} in PEM", path.display())]
     Malformed { path: PathBuf, expected: &'static str },
-    /// Others than its user can read the private key.
+    /// Users other than its owner may access the private key.
     #[error("the private key `{}` can be read by others, its mode is {mode:04o}", path.display())]
     Exposed { path: PathBuf, mode: u32 },
-    /// The key is not that of the certificate.
+    /// The private key does not belong to the certificate.
     #[error("the private key `{}` does not belong to the certificate beside it", path.display())]
     OtherKey { path: PathBuf },
     /// The certificate has expired.
@@ -44,13 +44,13 @@ pub enum KeyProblem {
     /// Another authority signed the certificate.
     #[error("the certificate of host `{host}` was not signed by the authority `{}`", authority.display())]
     Foreign { host: String, authority: PathBuf },
-    /// The certificate cannot be used, for a reason of the library.
+    /// The library rejects the certificate for another reason.
     #[error("the certificate of host `{host}` cannot be used: {reason}")]
     Unusable { host: String, reason: webpki::Error },
-    /// The certificate is that of another host.
+    /// The certificate is for another host.
     #[error("the certificate in `{}` is for host `{found}`, not for `{host}`", path.display())]
     OtherHost { host: String, found: String, path: PathBuf },
-    /// The certificate is for other addresses than that in the launch file.
+    /// The certificate is not for the address in the launch file.
     #[error("the certificate of host `{host}` is for the address {}, not for `{address}`", quoted(found))]
     OtherAddress { host: String, address: String, found: Vec<String> },
 }
@@ -59,7 +59,7 @@ pub enum KeyProblem {
 ///
 /// # Errors
 ///
-/// Everything that is wrong.
+/// Returns all problems.
 pub fn check(files: &HostFiles, host: &Host, now: SystemTime) -> Result<SystemTime, Vec<KeyProblem>> {
     let name = host.name.clone();
     if let Some(folder) = files.key.parent().filter(|folder| !folder.is_dir()) {
@@ -116,7 +116,8 @@ fn check_times(certificate: &Certificate, host: &str, now: SystemTime) -> Option
     (now < from).then_some(KeyProblem::NotYetValid { host, from, now })
 }
 
-/// The other hosts know this one by the common name, and look for its address among the alternative names.
+/// Checks the names in the certificate: other hosts identify this one by the common name, and expect its address among
+/// the alternative names.
 fn check_names(certificate: &Certificate, host: &Host, files: &HostFiles) -> Vec<KeyProblem> {
     if certificate.name != host.name {
         let (found, path) = (certificate.name.clone(), files.certificate.clone());
@@ -130,7 +131,7 @@ fn check_names(certificate: &Certificate, host: &Host, files: &HostFiles) -> Vec
     vec![KeyProblem::OtherAddress { host: host.name.clone(), address: host.address.clone(), found }]
 }
 
-/// Asks the library that judges in handshakes, for a time at which the certificate is valid.
+/// Verifies the certificate with the library that also verifies it in handshakes, at a time when it has not expired.
 fn check_signature(
     certificate: &Certificate,
     authority: &Certificate,

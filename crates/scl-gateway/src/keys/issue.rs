@@ -16,10 +16,10 @@ use std::time::{Duration, SystemTime};
 /// Clocks of hosts may differ, so certificates are valid from some time before now.
 const EARLIER: Duration = Duration::from_secs(24 * 3600);
 
-/// The authority serves as long as a system does; hosts get new certificates from it.
+/// Minimum validity of the authority's certificate: the lifetime of a system, whose hosts get new certificates from it.
 const AUTHORITY_DAYS: u32 = 30 * 365;
 
-/// What to make.
+/// What [`issue`] is to make.
 #[derive(Debug)]
 pub struct Wanted<'a> {
     /// The name of the system.
@@ -28,24 +28,24 @@ pub struct Wanted<'a> {
     pub hosts: Vec<&'a Host>,
     /// How long their certificates are valid.
     pub days: u32,
-    /// Whether certificates that are there are replaced. Those of the other hosts stay valid.
+    /// Whether existing certificates of these hosts are replaced. Certificates of other hosts stay valid.
     pub replace_hosts: bool,
-    /// Whether an authority that is there is replaced. No earlier certificate is valid then.
+    /// Whether an existing authority is replaced, which makes all earlier certificates invalid.
     pub replace_authority: bool,
     /// The time from which the days count.
     pub now: SystemTime,
 }
 
-/// What has become of the authority or a host.
+/// What [`issue`] did for the authority or for a host.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Issued {
     /// The host; `None` for the authority.
     pub host: Option<String>,
     /// Its folder.
     pub folder: PathBuf,
-    /// Whether it was made now; otherwise it was there.
+    /// Whether the certificate was made now; otherwise it existed already.
     pub is_new: bool,
-    /// When it expires; `None` if that cannot be read.
+    /// When the certificate expires; `None` if it cannot be read.
     pub expires: Option<SystemTime>,
 }
 
@@ -56,25 +56,25 @@ pub enum KeysError {
     /// A file or folder cannot be written or read.
     #[error("cannot write `{}`", path.display())]
     Write { path: PathBuf, source: io::Error },
-    /// Only the certificate of the authority is here.
+    /// The key of the authority is missing; only its certificate exists.
     #[error("the key of the authority is not here: `{}`", path.display())]
     NoAuthorityKey { path: PathBuf },
-    /// A certificate would not be valid for a moment.
+    /// The authority has expired, so a new certificate would never be valid.
     #[error("the authority in `{}` expired on {}", folder.display(), scl_terminal::timestamp(*at))]
     AuthorityExpired { folder: PathBuf, at: SystemTime },
     /// The files of the authority are damaged.
     #[error("cannot use the authority in `{}`: {reason}", folder.display())]
     Authority { folder: PathBuf, reason: String },
-    /// The library refused.
+    /// The library failed to make a certificate.
     #[error("cannot make a certificate for `{host}`")]
     Certificate { host: String, source: rcgen::Error },
 }
 
-/// Makes what is wanted and not there.
+/// Makes the authority and the certificates of the hosts. Existing ones are kept unless they are to be replaced.
 ///
 /// # Errors
 ///
-/// See [`KeysError`]. What was made before stays.
+/// See [`KeysError`]. Certificates that were made before the error stay.
 pub fn issue(certificates: &Path, wanted: &Wanted<'_>) -> Result<Vec<Issued>, KeysError> {
     let write = |path: &Path| {
         let path = path.to_owned();
@@ -190,15 +190,15 @@ fn days(days: u32) -> Duration {
     Duration::from_secs(u64::from(days) * 24 * 3600)
 }
 
-/// Creates a folder with mode 0700, and those above it that are missing.
+/// Creates a folder and its missing parents with mode 0700.
 fn create_folder(folder: &Path) -> io::Result<()> {
     DirBuilder::new().recursive(true).mode(0o700).create(folder)
 }
 
-/// Writes a folder of files with mode 0600, in place of one that is there.
+/// Writes a folder of files with mode 0600, replacing an existing folder.
 ///
-/// It is written under another name and then renamed: a full disk leaves no half of a key, and what is to be replaced
-/// stays until then.
+/// The folder is written under another name and then renamed: a full disk leaves no truncated key, and the old folder
+/// stays until the new one is complete.
 fn replace_folder(folder: &Path, files: &[(&str, &str)]) -> io::Result<()> {
     // This temporary folder is removed on return, together with the replaced one inside it.
     let beside = tempfile::Builder::new().prefix(".").tempdir_in(folder.parent().unwrap_or(folder))?;

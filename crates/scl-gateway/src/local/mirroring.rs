@@ -1,4 +1,4 @@
-//! One component of another host: shown in the runtime folder of this host while it runs there.
+//! Mirrors one component of another host in the runtime folder of this host while it runs there.
 
 use crate::slot::Slot;
 use bytes::Bytes;
@@ -8,21 +8,22 @@ use scl::runtime_dir::SystemDir;
 use std::time::Duration;
 use tokio::sync::mpsc::UnboundedReceiver;
 
-/// How soon to try again while the component runs on this host as well, or the runtime folder cannot be used.
+/// Delay between attempts to mirror a component that also runs on this host, or while the runtime folder cannot be
+/// used.
 const RETRY: Duration = Duration::from_secs(1);
 
-/// What another host says about a component.
+/// An event about a component of another host.
 #[derive(Debug)]
 pub(crate) enum Remote {
-    /// It runs there, and says this of itself.
+    /// The component has started on `host`; `content` is its profile.
     Started { host: String, content: Bytes },
-    /// It has stopped, or its host is not connected any more.
+    /// The component has stopped, or its host is no longer connected.
     Stopped { host: String },
     /// Files of components of other hosts were removed from the runtime folder.
     Removed,
 }
 
-/// Shows the runs of a component, one after the other.
+/// Mirrors the runs of a component, one after the other.
 pub(crate) async fn mirror(
     dir: SystemDir,
     component: String,
@@ -74,7 +75,7 @@ fn restore(component: &str, slot: &Slot<Mirror>) {
     }
 }
 
-/// Shows the component if that is possible now. A failure is logged when it is another than before.
+/// Tries to mirror the component. A failure is logged if it differs from the last one.
 fn show(
     dir: &SystemDir,
     component: &str,

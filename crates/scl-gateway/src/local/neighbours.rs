@@ -1,4 +1,4 @@
-//! What the other hosts and this one tell each other of what they run, and the log of hosts that come and go.
+//! Exchanges with the other hosts which components run where, and logs hosts that connect and disconnect.
 
 use super::mirroring::Remote;
 use crate::slot::Slot;
@@ -9,7 +9,7 @@ use std::future::poll_fn;
 use std::sync::Arc;
 use tokio::sync::mpsc::{UnboundedReceiver, UnboundedSender};
 
-/// Follows the other hosts until the gateway ends.
+/// Handles events from the other hosts until the gateway ends.
 pub(super) async fn follow(wire: Arc<Wire>, remotes: HashMap<String, UnboundedSender<Remote>>) {
     let tell = |component: &str, remote| {
         if let Some(remotes) = remotes.get(component) {
@@ -28,8 +28,8 @@ pub(super) async fn follow(wire: Arc<Wire>, remotes: HashMap<String, UnboundedSe
     }
 }
 
-/// Announces the runs of a component, one after the other. As long as a route still carries what a run has sent, it
-/// holds the announcement, so the component counts as running for other hosts.
+/// Announces the runs of a component, one after the other. A route that still carries messages of a run holds its
+/// announcement, so until then the component counts as running for other hosts.
 pub(super) async fn announce(wire: Arc<Wire>, mut changes: UnboundedReceiver<Change>, mut run: Slot<Announced>) {
     while let Some(change) = changes.recv().await {
         match change {

@@ -13,8 +13,8 @@ use tokio::task::JoinSet;
 
 type Views<T> = HashMap<String, View<T>>;
 
-/// Starts the routes that begin or end at this host, and returns their tasks, keys and counts. A route of a component
-/// that is on no host cannot exist, and is left out.
+/// Starts the routes that begin or end at this host, and returns their tasks, keys and counts. A route whose component
+/// is not on the host that the route names is not started; an error is logged.
 pub(super) fn start(
     transport: ZeroMq,
     wire: &Wire,
@@ -49,7 +49,8 @@ pub(super) fn start(
     (pumps, counted)
 }
 
-/// `Some(None)` for an end at which any component may connect.
+/// Returns the view of the component at an end: `Some(None)` if any component may connect there, `None` if the
+/// component is unknown.
 fn optional<T>(end: &RouteEnd, views: &Views<T>) -> Option<Option<View<T>>> {
     match &end.component {
         Some(component) => views.get(component).cloned().map(Some),

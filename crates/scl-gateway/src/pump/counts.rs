@@ -1,4 +1,4 @@
-//! What became of the messages of a route, at this host.
+//! Counts what became of the messages of a route at this host.
 
 use std::fmt;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -6,10 +6,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Counts of one route since the gateway started.
 #[derive(Debug, Default)]
 pub struct Counts {
-    /// Messages that the far component has taken, where they leave; messages that the component here has taken, where
-    /// they arrive; replies.
+    /// Messages taken by the far component if they leave this host, or by the component here if they arrive; for
+    /// requests, the replies.
     carried: AtomicU64,
-    /// Messages taken from a component here, of which it is unknown whether the far component has taken them.
+    /// Messages from a component here that the far component may or may not have taken; for requests, those without a
+    /// reply.
     given_up: AtomicU64,
     /// Messages in this gateway: taken from one side, not acknowledged by the other.
     held: AtomicU64,

@@ -1,4 +1,4 @@
-//! What all pumps share: who they stand in for, opening ends again after a failure, and logging why not.
+//! Helpers of all pumps: windows, timers, the names of ends, and opening ends with retries and logged failures.
 
 use crate::route::Route;
 use scl::bridge::MirrorError;
@@ -9,18 +9,18 @@ use std::task::{Context, Poll};
 use std::time::Duration;
 use tokio::time::{Sleep, sleep};
 
-/// How soon a local end that could not be opened is opened again.
+/// Delay before a local end that could not be opened is tried again.
 const RETRY: Duration = Duration::from_secs(1);
 
-/// Most that a component here may have on its way into the gateway: with what the far component's queue holds, no more
-/// than one window is lost when the gateway is killed.
+/// Maximum number of messages that a component here may have in flight into the gateway: with what the far component's
+/// queue holds, no more than one window is lost when the gateway is killed.
 const MESSAGES: u64 = crate::wire::WINDOW_MESSAGES as u64;
 
 /// How many messages a pump carries before other tasks get their turn.
 pub(super) const BATCH: usize = 64;
 
-/// Most requests of a route that wait for their replies. When there are more, the oldest are given up: their requesters
-/// have long since stopped waiting.
+/// Maximum number of unanswered requests of a route. Beyond that, the oldest are given up: their requesters have long
+/// since stopped waiting.
 pub(super) const MOST_OPEN: usize = 4096;
 
 /// How much a sending component may have unacknowledged on this route.
@@ -41,7 +41,7 @@ impl Timer {
         self.0 = None;
     }
 
-    /// Returns true if it was started and its time has come; otherwise the task is woken then.
+    /// Returns true if the timer was started and has expired. Wakes the task when a running timer expires.
     pub(super) fn is_over(&mut self, cx: &mut Context<'_>) -> bool {
         self.0.as_mut().is_some_and(|sleep| sleep.as_mut().poll(cx).is_ready())
     }
@@ -60,7 +60,7 @@ pub(super) enum LocalError {
     Transport(#[from] TransportError),
 }
 
-/// Keeps from opening an end at each wake-up after that has failed.
+/// Limits how often an end that could not be opened is tried again.
 #[derive(Debug, Default)]
 pub(super) struct Attempts {
     pause: Timer,
@@ -68,7 +68,7 @@ pub(super) struct Attempts {
 }
 
 impl Attempts {
-    /// Opens an end, unless the last attempt has just failed. A failure is logged when it is another than before.
+    /// Opens an end, unless the last attempt has just failed. A failure is logged if it differs from the last one.
     pub(super) fn open<E>(
         &mut self,
         cx: &mut Context<'_>,
@@ -107,7 +107,7 @@ pub(super) fn end_name(end: &crate::route::RouteEnd) -> String {
     }
 }
 
-/// The names of the component and gate at an end that has them; empty ones belong to no component.
+/// Returns the names of the component and gate at an end; empty if any component may connect there.
 pub(super) fn names(end: &crate::route::RouteEnd) -> (&str, &str) {
     (end.component.as_deref().unwrap_or_default(), end.gate.as_deref().unwrap_or_default())
 }

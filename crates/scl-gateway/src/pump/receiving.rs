@@ -11,23 +11,23 @@ use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::{Duration, Instant};
 
-/// For how long the component here may take what has arrived, after the far one has ended.
+/// How long the component here may still take received messages after the far one has ended.
 const DRAIN_LIMIT: Duration = Duration::from_secs(1);
 
-/// For how long a message may stay unacknowledged although nothing follows it. Short enough for figures, and for little
-/// to be given up if this gateway is killed; long enough to cost nothing.
+/// How long a message that nothing follows may wait until the component is asked to acknowledge it. Short enough to
+/// keep the figures current and to give up little if this gateway is killed; long enough to cost nothing.
 const IDLE_LIMIT: Duration = Duration::from_millis(200);
 
 /// Carries the messages of a route from the wire to the receiving component of this host.
 #[derive(Default)]
 pub(crate) struct Receiving {
-    /// Whether the far side sees this one: since the component has connected. What is not acknowledged then is known to
-    /// be missing, so it stays so while only the link between the hosts is lost.
+    /// Whether the far side sees this side as open: since the component has connected. Messages that are unacknowledged
+    /// in that time are known to be missing, so this side stays open while only the link between the hosts is lost.
     open: bool,
     local: Option<Local>,
-    /// Messages that the component has not taken from this gateway.
+    /// Received messages that were not yet handed to the component's link.
     queue: VecDeque<Frame>,
-    /// Which messages since this side was opened had been sent before that, and when.
+    /// The latched messages: their numbers since this side was opened, and when they were sent.
     latched: VecDeque<(u64, Instant)>,
     /// Messages given to links since this side was opened, and those among them that the component has taken.
     handed: u64,
@@ -40,11 +40,11 @@ struct Local {
     link: Option<Box<dyn Link>>,
     sender: Box<dyn Sender>,
     mirror: Option<Held<Mirror>>,
-    /// Since the mirror was withdrawn.
+    /// Started when the mirror is withdrawn. The end is closed when it expires.
     limit: Timer,
-    /// Number and length of the messages handed since the component was asked to acknowledge.
+    /// Number and total length of the messages handed over since the component was last asked to acknowledge.
     unasked: (u64, u64),
-    /// Since the first of them.
+    /// Started at the first of these messages. The component is asked to acknowledge when it expires.
     idle: Timer,
 }
 
@@ -75,7 +75,7 @@ impl Carry for Pump<WireReceiver, Receiving> {
         if self.stopping && self.state.pending() == 0 { Poll::Ready(()) } else { Poll::Pending }
     }
 
-    /// If it is not connected, it will not take what it was to get.
+    /// Ends the epoch if the component is not connected, because it will not take its messages any more.
     fn component_changed(&mut self) {
         if self.state.local.as_ref().is_none_or(|local| local.link.is_none()) {
             self.end_epoch();
@@ -84,7 +84,8 @@ impl Carry for Pump<WireReceiver, Receiving> {
 }
 
 impl Pump<WireReceiver, Receiving> {
-    /// Closes the local end when the far side is not there and the component has taken everything.
+    /// Closes the local end when the far side is gone and the component has taken everything, or when its time limit is
+    /// over.
     fn close_if_done(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
         let pending = state.pending();
@@ -133,7 +134,7 @@ impl Pump<WireReceiver, Receiving> {
         state.local = opened.map(local);
     }
 
-    /// Accepts the component, and notices that it is gone.
+    /// Accepts connections of the component, and detects when they are lost.
     fn connect(&mut self, cx: &mut Context<'_>) -> Option<Driven> {
         loop {
             while let Some(Poll::Ready(peer)) = self.state.local.as_mut().map(|local| local.sender.poll_peer(cx)) {
@@ -170,7 +171,8 @@ impl Pump<WireReceiver, Receiving> {
         }
     }
 
-    /// What the component has not taken is given up by the far side, which knows how much that is.
+    /// Closes this side of the wire. The far side gives up the messages that the component has not taken; it knows how
+    /// many they are.
     fn end_epoch(&mut self) {
         let state = &mut self.state;
         if !std::mem::replace(&mut state.open, false) {
@@ -210,8 +212,8 @@ impl Pump<WireReceiver, Receiving> {
         link.send_all(cx, driven, queue, &mut |length| count(handed, length));
     }
 
-    /// Asks the component to acknowledge when half of the window is on its way, at a flush, and before the end is
-    /// closed.
+    /// Asks the component to acknowledge when half of the window is in flight, when a message has waited too long, at a
+    /// flush, and before the end is closed.
     fn ask(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
         let window = window(&self.route);
@@ -247,7 +249,7 @@ impl Pump<WireReceiver, Receiving> {
 }
 
 impl Receiving {
-    /// Number of messages that the component has not taken, as far as is known.
+    /// Returns the number of messages that the component is not known to have taken.
     fn pending(&self) -> u64 {
         self.queue.len() as u64 + self.handed - self.confirmed
     }

@@ -65,7 +65,7 @@ impl Pump<WireReplier, Replying> {
         }
     }
 
-    /// The component is gone: no request gets a reply any more.
+    /// Gives up all unanswered requests, because the component is gone.
     fn close(&mut self) {
         let state = &mut self.state;
         self.counts.add_given_up(state.unanswered.len() as u64);

@@ -15,7 +15,7 @@ use std::task::{Context, Poll};
 #[derive(Default)]
 pub(crate) struct Requesting {
     local: Option<Local>,
-    /// The ways back of the requests without a reply, by the number under which they travel.
+    /// Envelopes and reply paths of the unanswered requests, by the id under which they are sent over the wire.
     open: BTreeMap<u64, (Bytes, Arc<dyn ReplyPath>)>,
     requests: u64,
 }

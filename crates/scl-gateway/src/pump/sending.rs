@@ -10,30 +10,31 @@ use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
 
-/// How long a sending component may take to stop sending before the local end is closed all the same. Only one that
-/// hangs, or an old release, takes so long; what it sends meanwhile counts as lost there.
+/// How long a sending component may take to stop sending before the local end is closed anyway. Only a component that
+/// hangs, or an old release, takes that long; what it sends in that time counts as lost there.
 const FINISH_LIMIT: Duration = Duration::from_secs(1);
-/// For how long a publisher that has ended is shown to the far host because its last messages are on their way.
+/// How long a publisher that has ended still counts as running for the far host because its last messages are in
+/// flight.
 const DRAIN_LIMIT: Duration = Duration::from_secs(2);
 
 /// Carries the messages of a route from components of this host to the wire.
 #[derive(Default)]
 pub(crate) struct Sending {
-    /// The publisher's run that the far host knows, and for how long still after it has ended: as long as this exists,
-    /// the publisher counts as running for other hosts.
+    /// The publisher's run that the far host knows, and the timer that limits how long it is held after the publisher
+    /// has ended. As long as the run is held, the publisher counts as running for other hosts.
     run: Option<Held<Announced>>,
     draining: Timer,
     local: Option<Local>,
-    /// Messages taken from components here, those taken by the far component or given up, and those acknowledged to
-    /// components here.
+    /// Number of messages taken from components here, of those taken by the far component or given up, and of those
+    /// acknowledged to components here.
     sent: u64,
     settled: u64,
     told: u64,
     /// The last message that the far side was asked to acknowledge.
     asked: u64,
-    /// Identifies the far component to a latched publisher; replaced when that has to receive the last message.
+    /// Identifies the far component to a latched publisher; replaced when the far component needs the last message.
     resumed: Option<Resumed>,
-    /// Whether the far component has started and got no message since.
+    /// Whether the far component has started and received no message since.
     wants_last: bool,
 }
 
@@ -42,7 +43,7 @@ struct Local {
     receiver: Box<dyn Receiver>,
     mirror: Held<Mirror>,
     finishing: bool,
-    /// Whether another end is to take its place, to which a latched publisher sends its last message.
+    /// Whether this end is to be replaced by a new one, to which a latched publisher sends its last message.
     is_outdated: bool,
     limit: Timer,
 }
@@ -83,15 +84,15 @@ impl Pump<WireSender, Sending> {
         }
     }
 
-    /// The account of this route and that of its end of the wire agree.
+    /// Asserts, in debug builds, that the account of this route agrees with that of its end of the wire.
     fn check_account(&self) {
         let Sending { sent, settled, told, .. } = self.state;
         debug_assert_eq!(sent, settled + self.wire.unacknowledged(), "each message is settled once");
         debug_assert!(settled <= told && told <= sent, "{settled} settled, {told} acknowledged, {sent} sent");
     }
 
-    /// A latched publisher sends its last message to the far component, which has just started, unless that is on its
-    /// way.
+    /// Makes a latched publisher send its last message to the far component, which has just started, unless messages
+    /// are still in flight.
     fn rejoin(&mut self) {
         if self.wire.unacknowledged() > 0 {
             return;
@@ -102,7 +103,7 @@ impl Pump<WireSender, Sending> {
         }
     }
 
-    /// The far component has taken everything up to a number, or that was given up.
+    /// Settles all messages up to a number, which the far component has taken or which were given up.
     fn settle(&mut self, number: u64) {
         let state = &mut self.state;
         state.settled = state.settled.max(number).min(state.sent);
@@ -114,7 +115,7 @@ impl Pump<WireSender, Sending> {
         }
     }
 
-    /// Shows the far host that the publisher runs.
+    /// Opens this side of the wire once the publisher runs, and starts the time limit when it has ended.
     fn follow_publisher(&mut self) {
         // Any component may push, so there is no publisher to wait for.
         if self.component.is_none() {
@@ -172,8 +173,8 @@ impl Pump<WireSender, Sending> {
         }
     }
 
-    /// Takes what fits into the window. While the local end finishes, everything: no more than one window is on its
-    /// way.
+    /// Carries messages as far as the window allows. While the local end is finishing, carries all of them: no more
+    /// than one window is in flight.
     fn carry(&mut self, cx: &mut Context<'_>) {
         let Some(local) = &mut self.state.local else { return };
         let mut taken = 0;
@@ -201,8 +202,8 @@ impl Pump<WireSender, Sending> {
         }
     }
 
-    /// Closes the local end when nothing is on its way into it. From then on its messages are in this gateway's
-    /// custody.
+    /// Closes the finishing local end when nothing is in flight into it, or when its time limit is over. From then on
+    /// its messages are in this gateway's custody.
     fn close_if_finished(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
         let Some(local) = state.local.as_mut().filter(|local| local.finishing) else { return };
@@ -230,7 +231,8 @@ impl Pump<WireSender, Sending> {
         }
     }
 
-    /// Tells the far host that the publisher has ended, once everything that it sent has arrived.
+    /// Withdraws the publisher's run from the far host once all its messages have been acknowledged, or when the time
+    /// limit is over.
     fn end_run_if_drained(&mut self, cx: &mut Context<'_>) {
         let state = &mut self.state;
         let has_ended = state.run.is_some() && running(&self.component).is_none();

@@ -1,7 +1,7 @@
-//! Who may do what, made from the routes: everything else is denied.
+//! Access control: what each host may do, derived from the routes. Everything else is denied.
 //!
-//! A host is known by the common name of its certificate. The same table serves both directions: what a host may do
-//! here is checked when it arrives, and what another may not receive does not leave this host. Both are needed: a host
+//! A host is identified by the common name of its certificate. The same table serves both directions: what arrives from
+//! a host is checked here, and what a host may not receive does not leave this host. Both are needed, because a host
 //! that has just connected is sent everything until its declarations are known.
 
 use std::collections::BTreeMap;
@@ -43,7 +43,7 @@ pub(super) fn access_control(options: &WireOptions) -> Value {
     })
 }
 
-/// What `from` may do at `to`: kind of message, keys.
+/// Returns what `from` may do at `to`: for each kind of message, the keys.
 fn permissions(options: &WireOptions, from: &str, to: &str) -> BTreeMap<&'static str, Vec<String>> {
     let system = &options.system;
     let mut permissions = Permissions::default();
@@ -78,7 +78,7 @@ impl Permissions {
         self.0.entry(message).or_default().push(key);
     }
 
-    /// May send on one key, and listen on another.
+    /// Allows sending on one key and subscribing to another.
     fn stream_keys(&mut self, sends: String, listens: String) {
         self.add("put", sends);
         self.add("declare_subscriber", listens);

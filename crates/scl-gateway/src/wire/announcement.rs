@@ -1,7 +1,7 @@
-//! Announcements: components that run, with their plans and schemas.
+//! Announcements of running components, with their plans and schemas.
 //!
-//! A token tells that there is one; its content is asked for in parts, so that no message is larger than what the
-//! network library sends without dropping.
+//! A token shows that an announcement exists. Its content is queried in parts, so that no message is larger than what
+//! the network library sends without dropping it.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use super::neighbour::Neighbour;
 pub(super) const PART: usize = 30 * 1024;
 /// Largest announcement that is fetched.
 const LARGEST: u64 = 64 << 20;
-/// Pause after a part that did not arrive.
+/// Delay before a part that did not arrive is queried again.
 const RETRY: Duration = Duration::from_millis(200);
 
 /// A component is announced while this exists.
@@ -48,7 +48,7 @@ impl Announcements {
         Announcements { neighbours: Arc::clone(neighbours), known: HashMap::new() }
     }
 
-    /// Begins to load. The part at offset 0 has to be asked for.
+    /// Starts loading an announcement. The caller must query the part at offset 0.
     pub(super) fn appeared(&mut self, key: &str) {
         self.known.insert(key.to_owned(), Loading::default());
     }
@@ -61,7 +61,7 @@ impl Announcements {
         }
     }
 
-    /// Handles a part. Returns the offset of the next one to ask for.
+    /// Handles a part, or `None` for a part that did not arrive. Returns the offset of the next part to query, if any.
     pub(super) fn part(&mut self, key: &str, part: Option<Part>) -> Option<usize> {
         let loading = self.known.get_mut(key).filter(|it| !it.is_complete)?;
         let Loading { content, retry_at, .. } = loading;
@@ -87,7 +87,7 @@ impl Announcements {
         None
     }
 
-    /// The parts to ask for once more.
+    /// Returns the parts that are due to be queried again.
     pub(super) fn due(&mut self, now: Instant) -> Vec<(String, usize)> {
         let due = |(key, it): (&String, &mut Loading)| {
             it.retry_at.take_if(|at| *at <= now)?;
@@ -101,8 +101,8 @@ impl Announcements {
     }
 }
 
-/// The answer to a query for a part of an announcement. Tells the thread what became of it, also if it is dropped
-/// without a reply.
+/// The answer to a query for a part of an announcement. Reports the part to the thread, or that none arrived if it is
+/// dropped without a reply.
 pub(super) struct Answer {
     commands: Commands,
     key: String,

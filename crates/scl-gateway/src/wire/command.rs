@@ -1,4 +1,4 @@
-//! What the handles and the callbacks of the network library ask of the thread that makes all calls of that library.
+//! Commands from the handles and the network library's callbacks to the thread that makes all calls of that library.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -11,7 +11,7 @@ use zenoh::query::Query;
 use super::header::{Ack, Header};
 use super::mailbox::{Mailbox, ReceivingMail, SendingMail};
 
-/// One end of a stream, a token or an announcement, within this process.
+/// Identifies an end of a stream, a token or an announcement within this process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct EndId(u64);
 
@@ -54,13 +54,13 @@ impl Drop for Declared {
 }
 
 pub(super) enum Command {
-    /// Begins to send to a host; what it answers goes into `mail`.
+    /// Begins to send to a host, whose acknowledgements go into `mail`.
     AddSending { id: EndId, host: String, key: String, mail: Arc<Mailbox<SendingMail>> },
-    /// Begins to receive from a host; what arrives goes into `mail`.
+    /// Begins to receive from a host, whose messages go into `mail`.
     AddReceiving { id: EndId, host: String, key: String, mail: Arc<Mailbox<ReceivingMail>> },
     /// Ends an end, a token or an announcement.
     Remove { id: EndId },
-    /// Queues a message or, if empty, a probe behind what this end has queued.
+    /// Queues a message, or a probe with an empty `message`, behind what this end has queued.
     Emit { id: EndId, header: Header, message: Bytes },
     /// Forgets what this end has queued.
     Clear { id: EndId },
@@ -80,11 +80,11 @@ pub(super) enum Command {
     Part { key: String, part: Option<Part> },
     /// The gateway of a host appeared, was replaced or disappeared.
     Host { host: String, is_present: bool },
-    /// A neighbour wants to know when this arrived.
+    /// A mark arrived from a neighbour, which waits for the echo.
     Mark { host: String, number: u64 },
-    /// A neighbour tells that this mark arrived.
+    /// A neighbour has echoed this mark: it arrived there.
     Echo { host: String, number: u64 },
-    /// Ends the thread, which then tells `done`.
+    /// Ends the thread, which then notifies `done`.
     Close { done: Option<oneshot::Sender<()>> },
 }
 

@@ -1,7 +1,7 @@
 //! The configuration of the network library.
 //!
-//! Every key is written out, also where the default would do, because defaults and even keys change between its
-//! versions; unknown keys are errors, and a test reads all of them back.
+//! Every key is written out, even where the default would do, because defaults and even keys change between versions of
+//! the library; unknown keys are errors, and a test reads all of them back.
 
 use std::net::{IpAddr, TcpListener};
 
@@ -11,18 +11,19 @@ use super::access;
 use super::error::WireError;
 use super::options::{Peer, WireOptions};
 
-/// A link without any sign of life for this long is closed. A loaded machine must not get there, and a dead link should
-/// be noticed soon.
+/// A link on which nothing arrives for this long is closed. A loaded machine must not reach this limit, and a dead link
+/// should be detected soon.
 pub(super) const LEASE_MS: u32 = 2000;
-/// Signs of life per lease.
+/// Keep-alive messages per lease.
 const KEEP_ALIVE: u64 = 5;
 /// Longest pause between two attempts to connect: everything resumes within 1 s after the link is back.
 const RETRY_MS: u64 = 250;
-/// Longest attempt. A lost SYN is repeated after 1 s and then after 3 s, so a new attempt after 2 s is sooner.
+/// Timeout of an attempt. A lost SYN is retransmitted after 1 s and then after 3 s, so a new attempt after 2 s is
+/// sooner.
 const OPEN_TIMEOUT_MS: u64 = 2000;
 
-/// Longest TLS handshake of a host that connects, which takes one round trip of the network. Strangers hold one for so
-/// long.
+/// Timeout of the TLS handshake of a host that connects, which takes one network round trip. A stranger can keep a
+/// handshake open for this long.
 const HANDSHAKE_MS: u64 = 1000;
 
 /// Checks the options, and returns the configuration as JSON.
@@ -90,13 +91,14 @@ pub(super) fn config(options: &WireOptions) -> Result<Value, WireError> {
     }))
 }
 
-/// Where this host connects to a peer. `None` if it waits for it: exactly one of two hosts connects.
+/// Returns the endpoint at which this host connects to a peer; `None` if the peer connects: exactly one of two hosts
+/// does.
 pub(super) fn endpoint(options: &WireOptions, peer: &Peer) -> Option<String> {
     let address = peer.address.as_ref().filter(|_| options.listen.is_none() || options.host < peer.host)?;
     Some(format!("{}/{address}", protocol(options)))
 }
 
-/// Where this host listens, with what only the endpoint can say.
+/// Returns the endpoint on which this host listens, with the settings that only an endpoint can have.
 fn listen_endpoint(options: &WireOptions, address: &str) -> String {
     let protocol = protocol(options);
     match options.tls.is_some() {
@@ -126,7 +128,7 @@ fn check_address(address: &str, any: bool) -> Result<(), WireError> {
     }
 }
 
-/// Tries to listen, because the network library's own error is hard to read.
+/// Checks that this host can listen on an address, because the network library's own error is hard to read.
 fn check_free(address: &str) -> Result<(), WireError> {
     let failed = |error: std::io::Error| WireError::Listen { address: address.to_owned(), reason: error.to_string() };
     TcpListener::bind(address).map(drop).map_err(failed)

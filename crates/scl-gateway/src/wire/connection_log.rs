@@ -1,5 +1,5 @@
-//! Why other hosts cannot be reached. The network library only logs it, at every attempt; this keeps the newest reason
-//! for each address, and the gateway logs it when it is new.
+//! Records why other hosts cannot be reached. The network library only logs the reason, at every attempt; this module
+//! keeps the newest reason for each endpoint, and the gateway logs it when it is new.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -13,18 +13,19 @@ use tracing_subscriber::layer::Context;
 
 /// The newest reason by endpoint. Global, as the log is.
 static REASONS: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
-/// Endpoints are configured, so there are few; but the texts are another library's.
+/// Maximum number of reasons. The configured endpoints are few, but the texts come from another library.
 const MOST: usize = 1000;
 
 /// Where the network library logs attempts to connect, at level `debug`.
 const TARGET: &str = "zenoh::net::runtime::orchestrator";
 
-/// Catches what the network library logs about failed connections; to be installed with the log of the program.
+/// A layer that catches what the network library logs about failed connections. Install it together with the program's
+/// log.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ConnectionLog;
 
 impl ConnectionLog {
-    /// The events that it needs, which the log itself may leave out.
+    /// Returns the filter for the events that this layer needs; the program's log may leave them out.
     pub fn filter() -> Targets {
         Targets::new().with_target(TARGET, LevelFilter::DEBUG)
     }
@@ -46,7 +47,7 @@ impl<S: Subscriber> Layer<S> for ConnectionLog {
     }
 }
 
-/// Why the last attempt to connect to an endpoint failed.
+/// Takes the reason why the last attempt to connect to an endpoint failed, if it was not taken before.
 pub(super) fn take(endpoint: &str) -> Option<String> {
     reasons().remove(endpoint)
 }
@@ -65,7 +66,8 @@ impl Visit for Text {
     }
 }
 
-/// The endpoint and the reason, without the places in the library's source and without the pause that follows.
+/// Extracts the endpoint and the reason from a log text, without locations in the library's source and without the
+/// delay before the next attempt.
 fn parse(text: &str) -> Option<(&str, String)> {
     let text = text.rsplit_once(". Retry in ").map_or(text, |(text, _)| text);
     let (endpoint, mut rest) = text.strip_prefix("Unable to connect to configured peer ")?.split_once("! ")?;

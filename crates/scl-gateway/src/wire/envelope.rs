@@ -2,17 +2,17 @@
 
 use bytes::{BufMut, Bytes, BytesMut};
 
-/// What is before the body.
+/// Length of what precedes the body.
 pub(super) const LENGTH: usize = 9;
 
-/// What an envelope is.
+/// What an envelope contains.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Outcome {
     /// A request, or the reply to one.
     Message,
-    /// Instead of a reply: there will be none.
+    /// No reply will follow.
     Gone,
-    /// The same, because the replier has refused the request.
+    /// No reply will follow, because the replier has refused the request.
     Refused,
 }
 

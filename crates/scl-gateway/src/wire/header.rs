@@ -1,26 +1,26 @@
-//! What travels beside the bytes of a message, and the acknowledgements that come back.
+//! The headers that are sent with the bytes of a message, and the acknowledgements that come back.
 
 use std::time::{Duration, Instant};
 
 use bytes::Buf;
 
-/// In the first byte: an age follows.
+/// Flag in the first byte: an age follows.
 const LATCHED: u8 = 0x80;
 
 /// Attachment of everything that goes from a sending end to a receiving end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Header {
     pub(super) kind: Kind,
-    /// Random number of the sending end; another one begins its messages with 1 again.
+    /// Random number of the sending end. Each stream numbers its messages from 1.
     pub(super) stream: u64,
-    /// Random number of the receiving end that this is for.
+    /// Random number of the receiving end that this is addressed to.
     pub(super) epoch: u64,
-    /// How often the sending end has started over. Lets it tell news from old losses.
+    /// How often the sending end has started over. Lets it distinguish new losses from old ones.
     pub(super) attempt: u32,
     /// Number of the message; for [`Kind::Probe`] of the last message sent before.
     pub(super) sequence: u64,
-    /// When the message was sent, if that was before its receiver had joined. It travels as an age, because hosts have
-    /// different clocks; the time on the network is not part of it.
+    /// When the message was sent, if that was before its receiver had joined. It is transmitted as an age, because
+    /// hosts have different clocks; the age does not include the time on the network.
     pub(super) latched: Option<Instant>,
 }
 
@@ -30,7 +30,8 @@ pub(super) enum Kind {
     Whole,
     /// A part of a message of `total` bytes.
     Chunk { offset: u64, total: u64 },
-    /// Asks for an acknowledgement of what has arrived; with `flush` also for what it takes to empty the queue.
+    /// Asks for an acknowledgement of what has arrived; with `flush`, the receiving component is also asked to
+    /// acknowledge its messages.
     Probe { flush: bool },
 }
 
@@ -78,18 +79,19 @@ impl Header {
     }
 }
 
-/// What a receiving end says about a stream. The counts are cumulative.
+/// An acknowledgement of a stream by its receiving end. The counts are cumulative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Ack {
     pub(super) stream: u64,
     pub(super) epoch: u64,
     /// The attempt of the newest header.
     pub(super) attempt: u32,
-    /// Messages that the gateway has.
+    /// Messages that the gateway has received.
     pub(super) received: u64,
-    /// Messages that the component has.
+    /// Messages that the component has taken.
     pub(super) taken: u64,
-    /// All messages up to this one were sent before what this answers, so those after `received` are lost.
+    /// Number of the last message sent before the header that this acknowledgement answers: messages after `received`
+    /// up to this one are lost.
     pub(super) seen: u64,
 }
 

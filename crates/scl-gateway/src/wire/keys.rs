@@ -1,6 +1,7 @@
 //! Names on the network.
 //!
-//! A chunk that begins with `@` is matched by no wildcard, so what belongs to a route does not get in each other's way.
+//! No wildcard matches a chunk that begins with `@`, so the keys that belong to one route do not interfere with each
+//! other.
 
 /// Which end of a route.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -23,12 +24,12 @@ pub(super) fn end_token(key: &str, side: Side, instance: &str, id: u64) -> Strin
     format!("{key}/{}/{instance}/{id:x}", side.word())
 }
 
-/// Where the replies of a route of requests travel.
+/// Key on which the replies of a route of requests are sent.
 pub(super) fn replies(key: &str) -> String {
     format!("{key}/@replies")
 }
 
-/// Where a stream's acknowledgements travel.
+/// Key on which a stream's acknowledgements are sent.
 pub(super) fn acknowledgements(key: &str) -> String {
     format!("{key}/@ack")
 }
@@ -43,7 +44,7 @@ pub(super) fn host_token(system: &str, host: &str, instance: &str) -> String {
     format!("scl/{system}/@host/{host}/{instance}")
 }
 
-/// Liveliness token of a component that runs, and the key at which its announcement is asked for.
+/// Liveliness token of a running component, and the key at which its announcement is queried.
 pub(super) fn component(system: &str, component: &str, host: &str, instance: &str, id: u64) -> String {
     format!("scl/{system}/@component/{component}/{host}/{instance}/{id:x}")
 }
@@ -53,7 +54,7 @@ pub(super) fn refused(system: &str, host: &str, instance: &str, by: &str) -> Str
     format!("scl/{system}/@refused/{host}/{instance}/{by}")
 }
 
-/// Marks that travel between two hosts, and their echoes.
+/// Key on which one host sends marks to another. The other one echoes them on the key of `echo`.
 pub(super) fn mark(system: &str, from: &str, to: &str) -> String {
     format!("scl/{system}/@mark/{from}/{to}")
 }
@@ -62,7 +63,7 @@ pub(super) fn echo(system: &str, from: &str, to: &str) -> String {
     format!("scl/{system}/@echo/{from}/{to}")
 }
 
-/// What is subscribed to learn of all tokens: routes, gateways of any system, components, refusals.
+/// Keys to subscribe to for all tokens: routes, gateways of any system, components, refusals.
 pub(super) fn tokens(system: &str, host: &str) -> [String; 4] {
     [
         format!("scl/{system}/**"),

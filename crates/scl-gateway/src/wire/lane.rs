@@ -1,8 +1,8 @@
 //! Traffic to one host: a fair queue of what its routes send, and a window of bytes in flight.
 //!
-//! The network library drops what its own queues do not hold, and says nothing. So no more is given to it than they
-//! hold: marks travel behind the bytes, the other gateway echoes them, and then the bytes before them have left. Large
-//! messages travel in pieces, the routes take turns, and on a slow link the window shrinks, so that small messages of
+//! The network library silently drops what does not fit into its own queues, so a lane gives it no more than they hold:
+//! marks are sent behind the bytes, and when the other gateway echoes a mark, the bytes before it have left. Large
+//! messages are sent in pieces, the routes take turns, and on a slow link the window shrinks, so that small messages of
 //! other routes do not wait long.
 
 use std::collections::{HashMap, VecDeque};
@@ -15,14 +15,14 @@ use super::header::{Header, Kind};
 
 /// Two pieces with everything around them fit into a batch of the network library (64 KiB).
 const PIECE: usize = 30 * 1024;
-/// The queue of the network library has room for 16 batches; half of that is always there, however badly they are
+/// The queue of the network library has room for 16 batches; half of it is always usable, however badly the batches are
 /// filled.
 pub(super) const LARGEST_WINDOW: usize = 384 * 1024;
 const SMALLEST_WINDOW: usize = 64 * 1024;
 const BETWEEN_MARKS: usize = 32 * 1024;
 /// What a message costs besides its payload.
 const OVERHEAD: usize = 100;
-/// The window shrinks if bytes wait longer than this on their way, beyond the link's own delay.
+/// The window shrinks if the round trip of a mark takes this much longer than the link's own delay.
 const LONGEST_WAIT: Duration = Duration::from_millis(100);
 const REPEAT_MARK: Duration = Duration::from_secs(1);
 
@@ -47,7 +47,7 @@ struct Mark {
     sent: Instant,
 }
 
-/// What to put on its way.
+/// What to send next.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Emission {
     Piece { id: EndId, header: Header, payload: Bytes },
@@ -59,7 +59,7 @@ impl Lane {
         Lane { window: LARGEST_WINDOW, pause: REPEAT_MARK, ..Lane::default() }
     }
 
-    /// The host is there, or is not. What was on its way is forgotten.
+    /// Opens the lane when the host connects, or closes it when the host disconnects. Forgets what was in flight.
     pub(super) fn set_open(&mut self, is_open: bool) {
         self.is_open = is_open;
         self.window = LARGEST_WINDOW;
@@ -117,7 +117,7 @@ impl Lane {
         Some(Emission::Piece { id, header, payload })
     }
 
-    /// Everything up to a mark has arrived.
+    /// Handles the echo of a mark: everything up to it has arrived.
     pub(super) fn echo(&mut self, number: u64, now: Instant) {
         while let Some(mark) = self.marks.pop_front_if(|mark| mark.number <= number) {
             if mark.number == number {
@@ -133,7 +133,7 @@ impl Lane {
         self.repeat_at
     }
 
-    /// A mark may be lost: the newest is sent again, less and less often.
+    /// Returns the newest mark, which may be lost, to be sent again: at increasing intervals.
     pub(super) fn repeat(&mut self, now: Instant) -> Option<Emission> {
         self.repeat_at.filter(|at| *at <= now)?;
         self.pause = (self.pause * 2).min(8 * REPEAT_MARK);

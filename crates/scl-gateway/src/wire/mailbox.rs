@@ -8,7 +8,7 @@ use bytes::Bytes;
 
 use super::header::{Ack, Header};
 
-/// What callbacks tell a sending end.
+/// What callbacks report to a sending end.
 #[derive(Debug)]
 pub(super) enum SendingMail {
     /// The receiving end that is open now.
@@ -16,7 +16,7 @@ pub(super) enum SendingMail {
     Ack(Ack),
 }
 
-/// What callbacks tell a receiving end.
+/// What callbacks report to a receiving end.
 #[derive(Debug)]
 pub(super) enum ReceivingMail {
     /// The sending end that is open now.
@@ -24,7 +24,8 @@ pub(super) enum ReceivingMail {
     Arrived(Header, Bytes),
 }
 
-/// A queue whose reader is woken. Its size is bounded by weight; what is beyond is dropped, as a network may.
+/// A queue that wakes its reader. Its size is bounded by weight; an item that does not fit is dropped, as a network may
+/// do.
 #[derive(Debug)]
 pub(super) struct Mailbox<T> {
     inner: Mutex<Inner<T>>,
@@ -43,7 +44,7 @@ impl<T> Mailbox<T> {
         Mailbox { inner: Mutex::new(Inner { queue: VecDeque::new(), weight: 0, waker: None }), capacity }
     }
 
-    /// Adds an item. What weighs nothing always fits. Returns false if it was dropped.
+    /// Adds an item. An item of weight 0 always fits. Returns false if the item was dropped.
     pub(super) fn push(&self, weight: u64, item: T) -> bool {
         let mut inner = self.lock();
         if weight > 0 && inner.weight + weight > self.capacity {

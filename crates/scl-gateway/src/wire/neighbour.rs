@@ -1,4 +1,4 @@
-//! What the gateways of other hosts say, apart from messages.
+//! Events from the gateways of other hosts, other than messages.
 
 use bytes::Bytes;
 
@@ -14,10 +14,10 @@ pub enum Neighbour {
     Connected { host: String },
     /// The gateway of `host` is not connected any more.
     Disconnected { host: String },
-    /// A route has no match for 1 s although the other side has this connection under another contract. `text` is a
-    /// whole sentence for the log. At most once per route and contract.
+    /// A route has had no match for 1 s, although the other side has this connection under another contract. `text` is
+    /// a whole sentence for the log. Reported at most once per route and contract.
     Mismatch { key: String, text: String },
-    /// A configuration conflict: a second gateway of a host, a host that claims another's component, another system's
-    /// gateway. It is ignored; `text` is a whole sentence for the log.
+    /// A configuration conflict: a second gateway of a host, a host that claims another host's component, or a gateway
+    /// of another system. The offending gateway or component is ignored; `text` is a whole sentence for the log.
     Refused { text: String },
 }

@@ -20,9 +20,9 @@ pub struct WireOptions {
     pub tls: Option<HostFiles>,
     /// Accept any address without TLS. Everybody on the network can then listen and send.
     pub insecure: bool,
-    /// All routes of this host. The access list is made from them: a host may send, announce and answer only what the
-    /// routes say, known by the common name of its certificate, which is the host's name. Without TLS no host is
-    /// authenticated, so every host on a loopback connection may do what any host may.
+    /// All routes of this host. The access list is derived from them: a host, identified by the common name of its
+    /// certificate, which is the host's name, may send, announce and answer only what the routes allow. Without TLS no
+    /// host is authenticated, so every host on a loopback connection may do what any host may.
     pub routes: Vec<Route>,
     /// The host of each component of the system. A host that announces another's component is refused.
     pub components: BTreeMap<String, String>,

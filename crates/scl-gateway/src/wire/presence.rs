@@ -1,4 +1,4 @@
-//! Which gateways, ends of routes and components are there, from the liveliness tokens of the other hosts.
+//! Tracks which gateways, ends of routes and components are present, from the liveliness tokens of the other hosts.
 //!
 //! A gateway of another host:
 //!
@@ -137,7 +137,7 @@ impl Presence {
         Watching { presence: self.clone(), id }
     }
 
-    /// A token appeared or disappeared.
+    /// Handles a token that appeared or disappeared.
     pub(super) fn change(&self, token: &str, is_there: bool) {
         let mut state = self.lock();
         match Token::parse(token) {
@@ -163,7 +163,7 @@ impl Presence {
         }
     }
 
-    /// Reports what has been wrong for a while.
+    /// Reports conflicts and mismatches that have lasted for a while.
     pub(super) fn tick(&self) {
         let mut state = self.lock();
         state.report_conflicts();
@@ -221,7 +221,8 @@ impl State {
         self.update_components();
     }
 
-    /// The open end that a watch is about: the newest of the accepted gateway.
+    /// Updates the open end of each watch concerned: the newest end that the accepted gateway has declared. Delivers it
+    /// if it changed.
     fn update_watches(&mut self, concerns: impl Fn(&Watch, EndId) -> bool) {
         for (id, watch) in &mut self.watches {
             if !concerns(watch, *id) {
@@ -259,7 +260,7 @@ impl State {
         self.update_components();
     }
 
-    /// Fetches the announcements of accepted gateways only.
+    /// Fetches the announcements of accepted gateways, and forgets those of others.
     fn update_components(&mut self) {
         for (token, component) in &mut self.components {
             let accepted = self.gateways.get(&component.host).and_then(|gateways| gateways.first());
@@ -317,7 +318,7 @@ impl State {
         }
     }
 
-    /// Reports a refusal, each once.
+    /// Reports a refusal, each text only once.
     fn refuse(&mut self, text: String) {
         if self.foreign.insert(text.clone()) {
             self.neighbours.push(0, Neighbour::Refused { text });

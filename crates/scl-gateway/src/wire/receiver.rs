@@ -28,8 +28,9 @@ impl WireReceiver {
         WireReceiver { _watching: watching, end, token: EndToken::new(link, &route.key, Side::Receiver) }
     }
 
-    /// Opens or closes this side. Closed at first. Each opening is a new epoch: the sender gives up what the last one
-    /// did not acknowledge, messages are numbered from 1 again, and what was not polled is discarded.
+    /// Opens or closes this side, which is closed at first. Each opening starts a new epoch: the sender gives up the
+    /// messages that were not acknowledged in the previous one, messages are numbered from 1 again, and messages that
+    /// were not polled are discarded.
     pub fn set_open(&mut self, open: bool) {
         match (open, self.token.set_open(open)) {
             (true, Some(epoch)) => self.end.open(epoch),
@@ -38,7 +39,7 @@ impl WireReceiver {
         }
     }
 
-    /// The next event.
+    /// Polls for the next event.
     pub fn poll_event(&mut self, cx: &mut Context<'_>) -> Poll<ReceiverEvent> {
         self.end.poll(cx)
     }

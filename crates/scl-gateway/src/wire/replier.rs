@@ -63,7 +63,7 @@ impl WireReplier {
         }
     }
 
-    /// Opens or closes this side. Closed at first. Closing gives up all open requests.
+    /// Opens or closes this side, which is closed at first. Closing gives up all open requests.
     pub fn set_open(&mut self, open: bool) {
         match (open, self.token.set_open(open)) {
             (true, Some(epoch)) => {
@@ -79,7 +79,7 @@ impl WireReplier {
         }
     }
 
-    /// The next event.
+    /// Polls for the next event.
     pub fn poll_event(&mut self, cx: &mut Context<'_>) -> Poll<ReplierEvent> {
         loop {
             while let Poll::Ready(event) = self.replies.poll(cx) {
@@ -110,7 +110,7 @@ impl WireReplier {
         self.answer(id, Outcome::Gone, Bytes::new());
     }
 
-    /// The same for a request that the replying component has refused: the requester gets `Refused`.
+    /// Ends request `id`, which the replying component has refused, without a reply: the requester gets `Refused`.
     pub fn refuse(&mut self, id: u64) {
         self.answer(id, Outcome::Refused, Bytes::new());
     }

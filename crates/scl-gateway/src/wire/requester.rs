@@ -20,7 +20,7 @@ pub struct WireRequester {
     _watching: Watching,
     requests: SendingEnd,
     replies: ReceivingEnd,
-    /// Its number tells the replier for whom its replies are.
+    /// Its number identifies to the replier the receiving end of the replies.
     _token: EndToken,
     /// The caller's ids by ours, which are never used twice.
     open: HashMap<u64, u64>,
@@ -73,7 +73,7 @@ impl WireRequester {
         }
     }
 
-    /// The next event.
+    /// Polls for the next event.
     pub fn poll_event(&mut self, cx: &mut Context<'_>) -> Poll<RequesterEvent> {
         loop {
             if let Some(event) = self.events.pop_front() {
@@ -129,7 +129,7 @@ impl WireRequester {
         });
     }
 
-    /// Ends all requests: no other replier may handle them once their callers know that they failed.
+    /// Ends all requests with `Gone`: no other replier may handle them once their callers know that they failed.
     fn all_gone(&mut self) {
         if self.requests.unacknowledged() > 0 {
             self.requests.abandon();

@@ -35,12 +35,14 @@ impl WireSender {
         WireSender { _watching: watching, end, token, latches: route.latched }
     }
 
-    /// Shows or withdraws this side's presence. Closed at first. Closing keeps what is unacknowledged.
+    /// Opens or closes this side: shows or withdraws its presence. Closed at first. Closing keeps unacknowledged
+    /// messages.
     pub fn set_open(&mut self, open: bool) {
         self.token.set_open(open);
     }
 
-    /// The next event. Must be polled while messages are on their way: it also sends what got lost again.
+    /// Polls for the next event. Must be polled while messages are in flight, because it also sends lost messages
+    /// again.
     pub fn poll_event(&mut self, cx: &mut Context<'_>) -> Poll<SenderEvent> {
         loop {
             match ready!(self.end.poll(cx)) {
@@ -51,18 +53,18 @@ impl WireSender {
     }
 
     /// Returns true if the other side is matched and a message of this length fits into the window. It becomes true
-    /// only with an event.
+    /// only after an event.
     pub fn may_send(&self, length: usize) -> bool {
         self.end.may_send(length)
     }
 
-    /// Sends a message. The caller asks [`may_send`](Self::may_send) before; a message sent without credit or match is
-    /// kept and sent when there is.
+    /// Sends a message. Call [`may_send`](Self::may_send) first: a message sent without credit or without a match is
+    /// kept, and sent as soon as there are both.
     pub fn send(&mut self, message: Bytes) {
         self.end.send(message, None);
     }
 
-    /// The same for a message that was sent then, before the receiver had joined.
+    /// Sends a message that its component sent at `sent`, before the receiver had joined.
     pub fn send_latched(&mut self, message: Bytes, sent: Instant) {
         self.end.send(message, Some(sent));
     }
@@ -72,7 +74,7 @@ impl WireSender {
         self.end.request_flush();
     }
 
-    /// How often messages had to be sent again because they got lost, other than with the link.
+    /// How often messages had to be sent again because they were lost, other than through the loss of the link.
     pub fn losses(&self) -> u64 {
         self.end.losses()
     }

@@ -28,11 +28,11 @@ use super::neighbour::Neighbour;
 use super::options::WireOptions;
 use super::user_timeout;
 
-/// How often what has been wrong for a while is looked for.
+/// Interval between checks for hosts that are missing and for conflicts that last.
 const TICK: Duration = Duration::from_millis(500);
 /// Time without a connection until the reason is logged: hosts do not start at the same moment.
 const MISSING_AFTER: Duration = Duration::from_secs(3);
-/// Time for a part of an announcement.
+/// Timeout of a query for a part of an announcement.
 const PART_TIMEOUT: Duration = Duration::from_secs(3);
 /// What a message in a queue weighs besides its payload.
 const WEIGHT: u64 = 128;
@@ -47,7 +47,7 @@ pub(super) struct Setup {
     pub(super) neighbours: Arc<Mailbox<Neighbour>>,
 }
 
-/// Runs until [`Command::Close`]. `ready` tells how the start went.
+/// Runs until [`Command::Close`]. Sends the result of the start to `ready`.
 pub(super) fn run(setup: Setup, ready: oneshot::Sender<std::result::Result<(), WireError>>) {
     let host = setup.link.options.host.clone();
     let failed = |error: zenoh::Error| WireError::Start { host, reason: error.to_string() };
@@ -74,7 +74,7 @@ struct Thread {
     _subscribers: Vec<Subscriber<()>>,
 }
 
-/// An end of a stream: what it sends on, what it listens to.
+/// An end of a stream, with the publisher that it sends with and the subscriber that it receives with.
 struct End {
     host: String,
     publisher: Publisher<'static>,
@@ -130,7 +130,7 @@ impl Thread {
         Ok((thread, setup.received))
     }
 
-    /// Carries out commands. Returns who waits for the end.
+    /// Executes commands until [`Command::Close`]. Returns its `done`, to be notified after the end.
     fn serve(&mut self, received: &Receiver<Command>) -> Option<oneshot::Sender<()>> {
         let mut next_tick = Instant::now() + TICK;
         loop {
@@ -224,7 +224,7 @@ impl Thread {
         Ok(())
     }
 
-    /// Where the messages of an end go.
+    /// Returns the lane to the host of an end.
     fn lane(&mut self, id: EndId) -> Option<&mut Lane> {
         self.hosts.get_mut(&self.ends.get(&id)?.host).map(|host| &mut host.lane)
     }
@@ -360,7 +360,7 @@ impl Thread {
         lanes.chain(self.announcements.deadline()).min()
     }
 
-    /// Sends what the lanes allow, and again what is due again.
+    /// Sends what the lanes allow, and repeats marks and queries that are due again.
     fn send_due(&mut self, now: Instant) {
         for host in self.hosts.values_mut() {
             let repeated = host.lane.repeat(now);

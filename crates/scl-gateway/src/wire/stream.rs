@@ -1,10 +1,10 @@
 //! A stream of messages from one gateway to another: in order, each at most once, with credit, over a network library
 //! that drops messages silently.
 //!
-//! The sending end keeps a message until the receiving component has taken it, and never more of them than the window.
-//! Losses show as a gap in the numbers, or when a probe, which travels behind the messages, is answered; then the
-//! sending end starts over after what has arrived. `outgoing` and `incoming` decide, without I/O; the ends carry it
-//! out.
+//! The sending end keeps a message until the receiving component has taken it, and never keeps more messages than the
+//! window. Losses show as a gap in the numbers, or in the answer to a probe, which is sent behind the messages; then
+//! the sending end starts over after the last message that has arrived. `outgoing` and `incoming` make the decisions,
+//! without I/O; the ends carry them out.
 
 mod incoming;
 mod outgoing;

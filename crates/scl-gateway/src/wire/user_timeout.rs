@@ -1,13 +1,14 @@
-//! Ends TCP connections on which nothing gets through.
+//! Closes TCP connections on which nothing gets through.
 //!
-//! After its lease the network library closes a link, and for that writes what is left. With a full send buffer, this
-//! waits for the kernel, which repeats after ever longer pauses: after half a minute without network, a new link was
-//! joined to the old session, and ended with it 25 s later. With `TCP_USER_TIMEOUT` the kernel gives up when the lease
-//! ends.
+//! When its lease ends, the network library closes a link, and first writes what is left. With a full send buffer, this
+//! waits for the kernel, which retransmits at ever longer intervals: after half a minute without a network, a new link
+//! was added to the old session, and ended with it 25 s later. With `TCP_USER_TIMEOUT` the kernel gives up when the
+//! lease ends.
 //!
-//! The library has no option for it and keeps its sockets for itself, so they are found among the descriptors of the
-//! process. Only sockets are looked at more closely: that takes a second descriptor, and closing one of a file would
-//! release the locks that this process has on the file, among them those of the components that the gateway shows.
+//! The library has no option for this and does not expose its sockets, so they are found among the descriptors of the
+//! process. Only sockets are examined further: that takes a duplicate of the descriptor, and closing a duplicate of a
+//! file's descriptor would release the locks that this process holds on the file, among them those of the components
+//! that the gateway mirrors.
 
 use rustix::net::{AddressFamily, SocketType, sockopt};
 use rustix::process::{self, PidfdFlags, PidfdGetfdFlags};
@@ -18,8 +19,8 @@ use std::os::unix::ffi::OsStrExt;
 
 use super::config::LEASE_MS;
 
-/// Sets the time limit of all TCP sockets of this process. Without it everything works, but may resume late after a
-/// cut.
+/// Sets the timeout of all TCP sockets of this process. Without it everything works, but may resume late after an
+/// outage.
 pub(super) fn set() {
     if let Err(error) = try_set() {
         tracing::debug!("cannot limit how long TCP repeats what gets no answer: {error}");

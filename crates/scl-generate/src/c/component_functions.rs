@@ -52,7 +52,7 @@ fn test_body(component: &Component) -> String {
     )
 }
 
-/// Lines that store the handles of the gates in these structs, if they were opened.
+/// Lines that store the handles of the gates in these structs if the component was opened.
 fn find_gates(component: &Component, structs: &[&str]) -> String {
     if component.gates.is_empty() {
         return String::new();
@@ -66,7 +66,8 @@ fn find_gates(component: &Component, structs: &[&str]) -> String {
     format!("if (status == SCL_OK) {{\n{}}}\n", find.collect::<String>())
 }
 
-/// The handles end with the component; cleared, they cannot be used by mistake.
+/// The body of the function that closes the component. The handles become invalid with it; clearing them prevents their
+/// accidental use.
 fn close_body() -> String {
     let refuse = refuse_null("self");
     format!(

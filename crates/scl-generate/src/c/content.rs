@@ -1,4 +1,4 @@
-//! What the functions of a gate take and give: structs of protobuf-c, or bytes.
+//! The content that the functions of a gate pass: structs of protobuf-c, or bytes.
 
 use super::protobuf_c;
 use crate::system::{Gate, MessageUse};
@@ -11,7 +11,7 @@ pub(super) enum Content {
     Struct {
         /// `Rover__Measurement`.
         name: String,
-        /// What the names of its functions begin with: `rover__measurement`.
+        /// The prefix of its functions: `rover__measurement`.
         prefix: String,
     },
     /// Bytes that the program encodes and decodes.
@@ -38,7 +38,7 @@ impl Content {
     }
 }
 
-/// What a gate carries and how, as a comment says it: `rover.Command -> rover.Status in protobuf`.
+/// Describes in a comment what a gate carries and how: `rover.Command -> rover.Status in protobuf`.
 pub(super) fn described(gate: &Gate) -> String {
     let (payload, codec) = (&gate.plan.payload, &gate.plan.codec);
     if *payload == Payload::Bytes {

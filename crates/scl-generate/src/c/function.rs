@@ -1,4 +1,4 @@
-//! A function: its prototype stands in the header, its body in the source.
+//! A function: its prototype goes into the header, its body into the source.
 
 use crate::writer::Writer;
 
@@ -8,24 +8,24 @@ const LINE: usize = 120;
 /// A function of the generated interface.
 #[derive(Debug, Clone)]
 pub(super) struct Function {
-    /// Lines of a comment; none for what the gate's comment tells.
+    /// The text of its comment; empty if the gate's comment is enough.
     pub(super) doc: &'static str,
     /// `scl_status` or `void`.
     pub(super) result: &'static str,
     pub(super) name: String,
-    /// As in C, with commas between them.
+    /// The parameters as in C, separated by commas.
     pub(super) parameters: String,
     /// Lines of C.
     pub(super) body: String,
 }
 
 impl Function {
-    /// A function that returns a status; `owner` is what its name begins with.
+    /// Creates a function that returns a status; `owner` is the prefix of its name.
     pub(super) fn new(owner: &str, call: &str, doc: &'static str, parameters: String, body: String) -> Self {
         Self { doc, result: "scl_status", name: format!("{owner}_{call}"), parameters, body }
     }
 
-    /// The comment and the prototype.
+    /// Writes the comment and the prototype.
     pub(super) fn declare(&self, out: &mut Writer) {
         if !self.doc.is_empty() {
             out.line(format!("/* {} */", self.doc));
@@ -33,14 +33,15 @@ impl Function {
         out.line(format!("{};", self.signature()));
     }
 
-    /// The whole function.
+    /// Writes the whole function.
     pub(super) fn define(&self, out: &mut Writer) {
         out.blank();
         out.line(self.signature());
         out.block("{", "}", |out| out.line(&self.body));
     }
 
-    /// A macro in front of the function that checks the types of its pointers, of which compilers may say nothing.
+    /// Writes a macro that hides the function and checks the types of its pointers, about which compilers may say
+    /// nothing.
     pub(super) fn check(&self, out: &mut Writer) {
         let (names, checks): (Vec<&str>, Vec<String>) = self.parameters.split(", ").map(checked).unzip();
         out.line(format!("#define {}({}) \\", self.name, names.join(", ")));
@@ -62,7 +63,7 @@ impl Function {
     }
 }
 
-/// The name of a parameter, and what its macro passes on.
+/// Returns the name of a parameter, and the argument that the macro passes on for it.
 fn checked(parameter: &str) -> (&str, String) {
     let start = parameter.rfind(['*', ' ']).map_or(0, |end| end + 1);
     let (declared, name) = parameter.split_at(start);

@@ -18,7 +18,7 @@ pub(super) fn request_struct(prefix: &str, gate: &Gate) -> Option<String> {
     (gate.plan.kind == GateKind::Rep).then(|| format!("{prefix}_{}_request", gate.snake_name))
 }
 
-/// The members of that struct.
+/// The members of the struct of a request.
 pub(super) fn request_members(gate: &Gate) -> String {
     let [request, _] = Content::both(gate);
     let content = match request {
@@ -143,7 +143,7 @@ impl Maker<'_> {
         Function { result: "void", ..self.function("free", doc, self.request_parameter(), body) }
     }
 
-    /// Frees a message that was received; bytes are freed with `scl_message_free`.
+    /// The function that frees a received message; `None` for bytes, which are freed with `scl_message_free`.
     fn free(&self, content: &Content) -> Option<Function> {
         let Content::Struct { name, .. } = content else { return None };
         let doc = "Frees a message that was received; NULL is allowed.";
@@ -163,13 +163,13 @@ impl Maker<'_> {
         format!("{}_{}_request *request", self.prefix, self.gate.snake_name)
     }
 
-    /// The gate's handle. It is NULL, which the library refuses, if the component is NULL or closed.
+    /// The C expression for the gate's handle: NULL, which the library refuses, if the component is NULL or closed.
     fn handle(&self) -> String {
         format!("self == NULL ? NULL : self->gates.{}", member(self.gate))
     }
 }
 
-/// The parameters of what a function sends, and what the library, or a helper for messages, gets of them.
+/// The parameters for what a function sends, and the arguments for the library, or for a helper for messages.
 fn sent(content: &Content, name: &str) -> [String; 2] {
     match content {
         Content::Struct { name: message, prefix } => {
@@ -191,12 +191,14 @@ pub(super) fn refuse_null(parameter: &str) -> String {
     format!("if ({parameter} == NULL) {{\n    return scl_fail(SCL_ARGUMENT, \"`{parameter}` is NULL\");\n}}")
 }
 
-/// Frees a struct; NULL is allowed. Only messages that are not nested have a function of their own for that.
+/// The C statement that frees a struct; NULL is allowed. It works for any message: nested ones have no function of
+/// their own for that.
 fn free_unpacked(message: &str) -> String {
     format!("protobuf_c_message_free_unpacked((ProtobufCMessage *){message}, NULL);")
 }
 
-/// Frees what a request's struct refers to besides its handle, so that it can neither leak nor be used again.
+/// The C statements that free the message of a request's struct and clear the struct, so that nothing leaks or is used
+/// again.
 fn clear_request(request: &Content) -> String {
     let clear = "    memset(request, 0, sizeof *request);";
     match request {

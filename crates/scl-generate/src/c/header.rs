@@ -20,7 +20,7 @@ const CONVENTIONS: &str = "\
  * Use each gate from one thread at a time.
  */";
 
-/// Without these, C compilers call a program with a misspelt gate or another message correct.
+/// Without these pragmas, C compilers accept a program with a misspelt gate or a wrong message type.
 const STRICTNESS: &str = "\
 #if defined(__GNUC__) && !defined(__cplusplus)
 /* A misspelt gate and a wrong message type are errors, whatever the options of the compiler. */
@@ -111,7 +111,7 @@ fn write_checks(system: &System, out: &mut Writer) {
     out.line("#endif\n");
 }
 
-/// A comment of a headline and the text of `doc:`.
+/// Writes a comment with a headline and the text of `doc:`.
 fn write_comment(headline: &str, doc: Option<&str>, out: &mut Writer) {
     let headline = comment::c_lines(headline).concat();
     let Some(doc) = doc else {

@@ -6,7 +6,7 @@ use super::{messages, wait};
 use crate::system::System;
 use scl_plan::GateKind::{self, Pub, Pull, Push, Rep, Req, Sub};
 
-/// The helpers that this system needs; compilers warn of unused ones.
+/// The helpers that this system needs; compilers warn about unused ones.
 pub(super) fn needed(system: &System) -> Vec<&'static str> {
     let any = |wanted: &dyn Fn(GateKind, bool, bool) -> bool| {
         system.gates().any(|gate| {
@@ -145,7 +145,7 @@ static ProtobufCMessage *unpack_message(const ProtobufCMessageDescriptor *type, 
     return protobuf_c_message_unpack(type, NULL, size, data);
 }";
 
-/// protobuf-c has no limit of its own, so some kilobytes of nested messages would end the program.
+/// Limits the nesting depth: protobuf-c has no limit, so a few kilobytes of nested messages would overflow the stack.
 const UNPACK_LIMITED: &str = "\
 /* Reads a number of protobuf and moves past it. */
 static int read_varint(const uint8_t **data, const uint8_t *end, uint64_t *number)

@@ -1,6 +1,6 @@
 //! Texts as string literals of C.
 
-/// The literal of a text. A question mark could begin a trigraph.
+/// The literal of a text. Question marks are escaped, because they could begin a trigraph.
 pub(super) fn literal(text: &str) -> String {
     let mut literal = String::from("\"");
     for letter in text.chars() {

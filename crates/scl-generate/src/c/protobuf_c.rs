@@ -8,7 +8,7 @@ pub(super) fn type_name(dotted: &str) -> String {
     parts(dotted, camel)
 }
 
-/// What its functions begin with: `rover.GpsFix` becomes `rover__gps_fix`.
+/// The prefix of its functions: `rover.GpsFix` becomes `rover__gps_fix`.
 pub(super) fn function_prefix(dotted: &str) -> String {
     parts(dotted, lower)
 }
@@ -18,7 +18,7 @@ pub(super) fn init_macro(dotted: &str) -> String {
     format!("{}__INIT", function_prefix(dotted).to_ascii_uppercase())
 }
 
-/// All names of a message that a header of `protoc-c` declares.
+/// All names that a header of `protoc-c` declares for a message.
 pub(super) fn declared(dotted: &str) -> Vec<String> {
     let prefix = function_prefix(dotted);
     let functions = ["init", "get_packed_size", "pack", "pack_to_buffer", "unpack", "free_unpacked", "descriptor"];

@@ -1,4 +1,4 @@
-//! Which messages can contain themselves, so that a frame decides how deep they are nested.
+//! Finds messages that can contain themselves, so that a received frame determines how deep they are nested.
 
 use prost_types::FileDescriptorSet;
 use scl_loader::walk::{full_name, messages};
@@ -20,7 +20,8 @@ pub(super) fn is_any_recursive<'a>(files: &FileDescriptorSet, names: impl Iterat
     names.any(|name| reaches_itself(&name, &contained, &mut done))
 }
 
-/// Walks without recursion, because schemas come from outside, too.
+/// Returns true if a message, or one that it contains at any depth, can contain itself. Works without recursion,
+/// because schemas may come from outside.
 fn reaches_itself<'a>(start: &str, contained: &'a HashMap<String, Vec<&'a str>>, done: &mut HashSet<&'a str>) -> bool {
     let fields = |name: &str| contained.get(name).map(Vec::as_slice).unwrap_or_default().iter();
     let mut path: Vec<(&str, std::slice::Iter<'_, &str>)> = match contained.get_key_value(start) {

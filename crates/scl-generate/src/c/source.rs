@@ -25,17 +25,19 @@ pub(super) fn text(system: &System) -> String {
     out.finish()
 }
 
-/// The name that the source defines, in which the macros would stand in front of the functions' own definitions.
+/// The macro that the source defines to switch off the checking macros, which would hide the functions' own
+/// definitions.
 pub(super) fn own_macro(system: &System) -> String {
     format!("{}_SCL_SOURCE", system.snake_name().to_ascii_uppercase())
 }
 
-/// The comment that every generated file begins with.
+/// Writes the comment that every generated file begins with.
 pub(super) fn first_line(system: &System, out: &mut Writer) {
     out.line(format!("/* {} */", comment::c_lines(&system.header()).concat()));
 }
 
-/// The plan as one text. A compiler need not accept one of more than 4095 characters, but those that warn of it do.
+/// Writes the plan as one string literal. A compiler need not accept one of more than 4095 characters, but those that
+/// warn about it do.
 fn write_plan(system: &System, out: &mut Writer) {
     out.line("/* The plan of the system, as `scl plan` prints it. */");
     out.line("#if defined(__GNUC__)\n#pragma GCC diagnostic push");

@@ -5,22 +5,22 @@ use super::gate::{member, refuse_null};
 use crate::system::{Component, Gate};
 use scl_plan::GateKind;
 
-/// Each gate is a bit of a `uint64_t`.
+/// Maximum number of gates to wait for: each gate is a bit of a `uint64_t`.
 const MOST_GATES: usize = 64;
 
-/// The gates that something arrives at; none if there are more than one number can tell.
+/// The gates that can receive; none if there are more than [`MOST_GATES`].
 pub(super) fn gates(component: &Component) -> Vec<&Gate> {
     let receives = |gate: &&Gate| matches!(gate.plan.kind, GateKind::Sub | GateKind::Pull | GateKind::Rep);
     let gates: Vec<&Gate> = component.gates.iter().filter(receives).collect();
     if gates.len() <= MOST_GATES { gates } else { Vec::new() }
 }
 
-/// The bit of a gate: `ROVER_CONTROLLER_SENSOR`.
+/// The name of the constant for a gate's bit: `ROVER_CONTROLLER_SENSOR`.
 pub(super) fn constant(prefix: &str, gate: &Gate) -> String {
     format!("{prefix}_{}", gate.snake_name).to_ascii_uppercase()
 }
 
-/// `rover_controller_wait`, if anything arrives at the component.
+/// `rover_controller_wait`, if the component has gates to wait for.
 pub(super) fn function(prefix: &str, component: &Component) -> Option<Function> {
     let gates = gates(component);
     if gates.is_empty() {

@@ -42,8 +42,8 @@ impl Messages {
     }
 }
 
-/// The names that the headers of the schemas declare where they could meet those of the system's header: beside its
-/// components, and beside its namespace.
+/// The names that the headers of the schemas declare where they could clash with those of the system's header: in the
+/// namespace of its components, and in the global namespace.
 pub(super) fn declarations(system: &System, namespace: &str, inside: &str) -> Vec<Declaration> {
     let outside = "the global C++ namespace";
     let origin_of_system = Origin::generated(format!("namespace `{namespace}`"));
@@ -100,7 +100,8 @@ fn package(file: &FileDescriptorProto) -> impl Iterator<Item = &str> {
     file.package().split('.').filter(|part| !part.is_empty())
 }
 
-/// A nested message is a class beside the outer one, named by both.
+/// The class of a message. The class of a nested message is declared beside the outer one, and its name contains both
+/// names.
 fn class_name(path: &[&str]) -> String {
     protoc_identifier(&path.join("_"))
 }
@@ -119,13 +120,13 @@ const ESCAPED_BY_SOME: [&str; 10] = [
     "requires",
 ];
 
-/// A name as protoc writes it. It knows no macros but `NULL`.
+/// A name as protoc writes it: keywords are escaped, and of all macros only `NULL`.
 fn protoc_identifier(name: &str) -> String {
     let is_escaped = name == "NULL" || is_cpp(name) && !ESCAPED_BY_SOME.contains(&name);
     if is_escaped { format!("{name}_") } else { name.to_owned() }
 }
 
-/// SCL1103: messages of gates whose C++ name depends on the version of protoc, or is none because protoc does not
+/// SCL1103: messages of gates whose C++ name depends on the version of protoc, or is invalid because protoc does not
 /// escape packages.
 pub(crate) fn unwritable(system: &System) -> Vec<Diagnostic> {
     let mut told = HashSet::new();

@@ -1,6 +1,6 @@
 //! The plan as a C++ string literal.
 
-/// A raw string literal with a text, whatever is in it.
+/// A raw string literal for any text.
 pub(super) fn literal(text: &str) -> String {
     let mut delimiter = "plan".to_owned();
     while text.contains(&format!("){delimiter}\"")) {

@@ -48,7 +48,7 @@ fn annotation(gate: &Gate, names: &Names, imports: &Imports) -> Doc {
     Doc::concat([Doc::text(class), Doc::group("[", types.into_iter().map(Doc::Text).collect(), "]")])
 }
 
-/// Sent from any buffer, received as `bytes`.
+/// The type arguments of a gate for bytes: sent from any buffer, received as `bytes`.
 fn bytes(kind: GateKind, names: &Names, imports: &Imports) -> Vec<String> {
     let sent = || "_scl.Buffer".to_owned();
     let received = || names.builtin("bytes", imports);
@@ -70,7 +70,8 @@ fn message(gate: &Gate, used: &MessageUse, names: &Names, imports: &Imports) -> 
     }
 }
 
-/// Why Python cannot read the messages of a gate. The package says the same when such a component is opened.
+/// Why Python cannot read the messages of a gate; `None` if it can. The package says the same when such a component is
+/// opened.
 fn unsupported(gate: &Gate) -> Option<String> {
     let codec = gate.plan.codec.as_str();
     let in_schemas = gate.types.first()?.in_schemas;

@@ -25,14 +25,14 @@ pub(super) fn write(text: &str, out: &mut Writer) {
     }
 }
 
-/// As docstrings are displayed, and as ruff formats them.
+/// Removes the indentation that all lines share, as docstrings are displayed, and as ruff formats them.
 fn remove_common_indentation(lines: &mut [String]) {
     let indentation = |line: &String| line.len() - line.trim_start_matches(' ').len();
     let common = lines.iter().filter(|line| !line.is_empty()).map(indentation).min().unwrap_or(0);
     lines.iter_mut().filter(|line| !line.is_empty()).for_each(|line| drop(line.drain(..common)));
 }
 
-/// Text for the inside of a docstring.
+/// Escapes a text for the inside of a docstring.
 pub(super) fn escape(text: &str) -> String {
     text.replace('\\', "\\\\").replace("\"\"\"", "'''")
 }

@@ -1,7 +1,7 @@
-//! Line breaks as `ruff format` puts them: a bracket that does not fit into its line is opened, and then its content is
-//! either one line or one line per element.
+//! Line breaks as `ruff format` sets them: if a bracket does not fit on its line, its content is moved to lines of its
+//! own, either all on one line or one line per element.
 
-/// The length of a line.
+/// Maximum length of a line.
 const WIDTH: usize = 88;
 
 /// A piece of code.
@@ -30,7 +30,7 @@ impl Doc {
         Self::Group { open, elements, close }
     }
 
-    /// In one line.
+    /// Formats the code on one line.
     pub(super) fn flat(&self) -> String {
         match self {
             Doc::Text(text) => text.clone(),
@@ -51,23 +51,23 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// In levels of four spaces.
+    /// Creates a layout for code at a depth, in levels of four spaces.
     pub(super) fn at(depth: usize) -> Self {
         Self { depth }
     }
 
-    /// The lines, indented relative to the depth: the first line is not.
+    /// Formats a piece of code. Its lines are indented relative to the depth; the first line is not indented.
     pub(super) fn print(self, doc: &Doc) -> String {
         self.print_before(doc, 0)
     }
 
-    /// An import, whose name gets brackets and a comma if the line is too long.
+    /// Formats an import, whose name gets brackets and a comma if the line is too long.
     pub(super) fn import(self, from: &str, name: &str) -> String {
         let line = format!("{from}{name}");
         if self.fits(&line, 0) { line } else { format!("{from}(\n    {name},\n)") }
     }
 
-    /// With room for `after` characters behind it.
+    /// Formats a piece of code with room for `after` characters behind it.
     fn print_before(self, doc: &Doc, after: usize) -> String {
         let flat = doc.flat();
         if self.fits(&flat, after) {
@@ -92,7 +92,7 @@ impl Layout {
     }
 }
 
-/// The first group: what is before it, its elements, its brackets, and what is behind it.
+/// Splits a piece of code at its first group: what is before it, its elements, its brackets, and what is behind it.
 fn split(doc: &Doc) -> Option<(String, Vec<Doc>, [&'static str; 2], String)> {
     match doc {
         Doc::Text(_) => None,

@@ -33,7 +33,7 @@ struct Scope<'a> {
 }
 
 impl Scope<'_> {
-    /// A declaration inside, which is in this list at this index.
+    /// The scope of a declaration inside this one, at `index` in the list with the field number `list`.
     fn inner(&self, name: &str, list: i32, index: usize) -> Self {
         let full_name = match self.depth {
             0 => self.file.full_name(name),
@@ -166,7 +166,7 @@ fn with(path: &Path, field: i32, index: usize) -> Path {
     path
 }
 
-/// An empty line, except at the start of a block.
+/// Writes an empty line, except at the start of a block.
 fn separate(is_first: &mut bool, out: &mut Writer) {
     if !std::mem::take(is_first) {
         out.blank();

@@ -10,8 +10,8 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 /// Names that the module has besides components and messages.
 pub(super) const OWN: &[&str] = &["TYPE_CHECKING", "annotations", "_PLAN", "_scl", "_Enum"];
 
-/// What every component has: gates of these names get a trailing underscore. The package has the same rule, and a test
-/// compares the two.
+/// Attributes that every component has: gates of these names get a trailing underscore. The package has the same rule,
+/// and a test compares the two.
 pub(super) const OF_COMPONENTS: &[&str] =
     &["close", "fileno", "gates", "name", "ready", "ready_async", "system", "wait"];
 
@@ -21,7 +21,7 @@ const OF_MESSAGES: &str = "ByteSize Clear ClearExtension ClearField CopyFrom DES
                            ListFields MergeFrom MergeFromString ParseFromString RegisterExtension \
                            SerializePartialToString SerializeToString SetInParent UnknownFields WhichOneof";
 
-/// What every module of Python has without an import.
+/// Names that every Python module has without an import.
 const PYTHON_BUILTINS: &str = "ArithmeticError AssertionError AttributeError BaseException BaseExceptionGroup \
                                BlockingIOError BrokenPipeError BufferError BytesWarning ChildProcessError \
                                ConnectionAbortedError ConnectionError ConnectionRefusedError ConnectionResetError \
@@ -79,17 +79,17 @@ pub(super) fn is_value_attribute(value: &str) -> bool {
 
 /// The names of messages and enums.
 pub(super) struct Names {
-    /// By full name with a dot at its start, of messages and enums at any depth.
+    /// Messages and enums at any depth, by full name with a leading dot.
     types: HashMap<String, TypeName>,
-    /// Names in the module, with their full names without a dot at the start.
+    /// Names of top-level messages and enums in the module, with their full names without a leading dot.
     pub(super) messages: BTreeMap<String, String>,
     pub(super) enums: BTreeMap<String, String>,
-    /// Attributes of classes, which hide names of the module inside of the class.
+    /// Attributes of classes, which hide names of the module inside the class.
     attributes: BTreeSet<String>,
 }
 
 struct TypeName {
-    /// `Everything.Inner`, or of well-known types `timestamp_pb2.Timestamp`.
+    /// `Everything.Inner`, or for well-known types `timestamp_pb2.Timestamp`.
     path: String,
     is_well_known: bool,
 }
@@ -172,13 +172,13 @@ impl Names {
         shown + &found.path[head.len()..]
     }
 
-    /// Whether an annotation in a class would mean something else: an attribute of the class, or what Python has
-    /// itself, which mypy takes for a name that the module declares further down.
+    /// Whether an annotation with this name in a class would mean something else: an attribute of the class, or a
+    /// builtin of Python, which mypy takes for a name that the module declares further down.
     fn is_hidden(&self, name: &str) -> bool {
         self.attributes.contains(name) || has_word(PYTHON_BUILTINS, name)
     }
 
-    /// Hidden names of the module, and the name by which annotations reach them.
+    /// The aliases by which annotations reach hidden names of the module, with these names.
     pub(super) fn aliases(&self) -> impl Iterator<Item = (String, &str)> {
         let hidden = self.top_level().map(|(name, _)| name).filter(|name| self.is_hidden(name));
         hidden.map(|name| (alias(name), name))

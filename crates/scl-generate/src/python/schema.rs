@@ -61,7 +61,7 @@ impl<'s> SchemaFile<'s> {
         self.file.syntax() != "proto3"
     }
 
-    /// The name with the package, and a dot at its start as references have it.
+    /// The name with the package and a leading dot, as in references.
     pub(super) fn full_name(&self, name: &str) -> String {
         format!(".{}", walk::full_name(self.file, &[name]))
     }

@@ -1,4 +1,5 @@
-//! The words for a schema that does not compile, at its own line, with the line of the topology file as second place.
+//! Diagnostics for schemas that do not compile: at a line of the schema, with the line of the topology file as a second
+//! place.
 
 use super::disk::SchemaFile;
 use super::mistake::Mistake;
@@ -10,8 +11,8 @@ use scl_topology::source::Spanned;
 use std::path::Path;
 
 impl Texts<'_> {
-    /// What is wrong with an entry: the mistakes in its files, or else the compiler's error. `told` are the mistakes
-    /// that were reported with an earlier entry.
+    /// Returns the diagnostics of an entry: the mistakes in its files, or else the compiler's error. Mistakes in `told`
+    /// were reported with an earlier entry and are left out; new ones are added to it.
     pub(super) fn what_is_wrong(
         &mut self,
         error: &protox::Error,
@@ -64,7 +65,7 @@ impl Texts<'_> {
 
 const BECAUSE: &str = "compiled because of this line";
 
-/// The compiler quotes names with apostrophes, SCL with backticks.
+/// Replaces the apostrophes in which the compiler quotes names by backticks, unless their number is odd.
 fn in_backticks(text: &str) -> String {
     if text.matches('\'').count().is_multiple_of(2) { text.replace('\'', "`") } else { text.to_owned() }
 }

@@ -1,4 +1,4 @@
-//! Schema files become descriptors, each wrong one a problem.
+//! Compiles schema files into descriptors, and reports every wrong one.
 
 use super::disk::{Disk, SharedSeen};
 use super::entry::{Named, elsewhere, misplaced, refuse, roots_exist};
@@ -39,7 +39,7 @@ pub(crate) fn compile(request: &Request, model: &Model, sources: &mut Sources, p
     Compiled { messages, schemas: Some(schemas).filter(|_| names_fit), outlines, files_read: seen.into_paths() }
 }
 
-/// Goes on after a wrong entry, so that each is reported; `None` if there is one.
+/// Compiles all entries, also after a wrong one, so that each is reported. Returns `None` if any is wrong.
 fn compile_entries(
     request: &Request,
     model: &Model,

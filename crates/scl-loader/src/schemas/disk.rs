@@ -1,4 +1,4 @@
-//! The schema files on disk, as the schema compiler asks for them, with the limits of every file that SCL reads.
+//! Reads schema files from disk for the schema compiler, with the limits that apply to every file that SCL reads.
 
 use super::edition;
 use super::folders::Folders;
@@ -17,13 +17,13 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 pub(super) struct SchemaFile {
     /// The name by which the compiler knows it.
     pub(super) name: String,
-    /// Where it lies.
+    /// Its path on disk.
     pub(super) path: PathBuf,
-    /// What is in it.
+    /// Its content, without a byte order mark.
     pub(super) text: String,
 }
 
-/// What was read so far and what is wrong with it, shared with the resolver that the compiler owns.
+/// The files that were read so far and the mistakes in them, shared with the resolver that the compiler owns.
 #[derive(Debug, Default)]
 pub(super) struct Seen {
     pub(super) files: Vec<SchemaFile>,
@@ -42,7 +42,7 @@ impl Seen {
     }
 }
 
-/// A cell for [`Seen`]. A panic elsewhere leaves it whole, so a poisoned lock may be used.
+/// A cell for [`Seen`]. Poisoning of the lock is ignored, because a panic leaves the value consistent.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SharedSeen(Arc<Mutex<Seen>>);
 
@@ -114,7 +114,7 @@ impl Disk {
     }
 }
 
-/// Why a schema gives no text, in a few words.
+/// Says in a few words why a schema cannot be read.
 pub(super) fn why(path: &Path, cause: Unreadable) -> String {
     let shown = path.display();
     match cause {

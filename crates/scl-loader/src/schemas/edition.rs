@@ -4,7 +4,7 @@ use super::lexemes::Lexemes;
 use super::mistake::Mistake;
 use std::path::Path;
 
-/// The edition of a file, or its first feature.
+/// Reports the edition of a file, or its first feature.
 pub(super) fn find(text: &str, file: &Path) -> Option<Mistake> {
     let lexemes: Vec<(usize, &str)> = Lexemes::of(text).take(3).collect();
     if let [(start, "edition"), (_, "="), (value, edition)] = lexemes.as_slice() {

@@ -73,7 +73,7 @@ pub(super) fn roots_exist(model: &Model, folders: &Folders, problems: &mut Diagn
     wrong.is_empty()
 }
 
-/// What is wrong with the place of an entry among the roots.
+/// Reports an entry that is in none of the roots, or that has the same path in its root as another file.
 pub(super) fn misplaced(schema: &Spanned<String>, folders: &Folders) -> Option<Diagnostic> {
     let entry = &schema.value;
     let Some(name) = folders.name_of_entry(entry) else {
@@ -92,7 +92,7 @@ pub(super) fn misplaced(schema: &Spanned<String>, folders: &Folders) -> Option<D
     }
 }
 
-/// What is wrong with an entry that names no readable file, in SCL's own words: the compiler calls it "not included".
+/// Reports an entry that names no readable file, in SCL's own words: the compiler calls it "not included".
 pub(super) fn refuse(schema: &Spanned<String>, folders: &Folders, max_size: u64) -> Option<Diagnostic> {
     let name = &schema.value;
     let path = folders.path(Path::new(name));

@@ -9,7 +9,7 @@ use std::path::{Component, Path, PathBuf};
 #[derive(Debug, Clone, Default)]
 pub(super) struct Folders {
     topology: PathBuf,
-    /// As the topology file names them; empty is its own folder.
+    /// The folders as the topology file names them; an empty path is its own folder.
     all: Vec<PathBuf>,
     /// Whether the topology file declares them.
     pub(super) are_roots: bool,
@@ -25,7 +25,7 @@ pub(super) enum Found {
     Missing,
     /// One file, or several with the same content.
     One(Vec<PathBuf>),
-    /// Two files with different content, perhaps of more.
+    /// Two files with different content; there may be more.
     Two(PathBuf, PathBuf),
 }
 
@@ -52,7 +52,7 @@ impl Folders {
         self.all.iter().map(|folder| as_root(folder)).collect()
     }
 
-    /// The way out that adds a folder to `schema_roots`.
+    /// Returns the help that suggests adding a folder to `schema_roots`.
     pub(super) fn with_root(&self, folder: &Path) -> String {
         let known = self.all.iter().filter(|_| self.are_roots).map(|known| as_root(known));
         let roots: Vec<String> = known.chain([as_root(folder)]).collect();
@@ -86,7 +86,8 @@ impl Folders {
         if found.is_empty() { Found::Missing } else { Found::One(found) }
     }
 
-    /// The path of an entry of `schemas`, and the paths where other files of this name may be.
+    /// Returns the path of the entry of `schemas` with this name, if there is one, then the paths where other files of
+    /// this name may be.
     pub(super) fn paths(&self, name: &str) -> Vec<PathBuf> {
         let entry = self.entries.iter().rev().find(|(known, _)| known.as_deref() == Some(name));
         entry.map(|(_, path)| path.clone()).into_iter().chain(self.candidates(name)).collect()

@@ -44,7 +44,7 @@ pub(super) fn look_up(text: &str, path: &Path, folders: &Folders) -> Imported {
     imported
 }
 
-/// Whether it is one of protobuf's own files, which every implementation has built in.
+/// Whether this is one of protobuf's own files, which are built into every implementation.
 pub(super) fn is_built_in(name: &str) -> bool {
     name.starts_with("google/protobuf/") && GoogleFileResolver::new().open_file(name).is_ok()
 }
@@ -75,7 +75,7 @@ impl Importer<'_> {
         Mistake { file, at: import.at.clone(), message, label, help, note: Some(note.to_owned()) }
     }
 
-    /// `import "../a.proto";`.
+    /// Reports a path that protobuf does not allow: `import "../a.proto";`.
     fn unportable(&self, import: &Import<'_>) -> Mistake {
         let message =
             format!("the import `{}` in `{}` is not a path below an import folder", import.name, self.shown());

@@ -11,7 +11,7 @@ pub(super) fn words(text: &str) -> impl Iterator<Item = &str> {
     Lexemes::of(text).map(|(_, lexeme)| lexeme).filter(|lexeme| !is_string(lexeme))
 }
 
-/// Whether a lexeme is a string, whose quotes belong to it.
+/// Whether a lexeme is a string. Its quotes are part of the lexeme.
 pub(super) fn is_string(lexeme: &str) -> bool {
     lexeme.starts_with(['"', '\''])
 }
@@ -51,7 +51,7 @@ impl<'t> Iterator for Lexemes<'t> {
     }
 }
 
-/// The length of the string at the start of `text`. One that is never closed ends with its line.
+/// Returns the length of the string at the start of `text`. An unterminated string ends with its line.
 fn string_length(text: &str, quote: char) -> usize {
     let mut is_escaped = false;
     for (at, letter) in text.char_indices().skip(1) {

@@ -3,10 +3,10 @@
 
 use super::lexemes::words;
 
-/// Declarations in one message, enum or file. Far more than in any schema that is known.
+/// Maximum number of declarations in one message, enum or file; far more than any known schema has.
 const MOST_IN_ONE: usize = 2_500;
 
-/// Declarations in one file, those inside of messages and enums included.
+/// Maximum number of declarations in one file, including those inside messages and enums.
 const MOST: usize = 20_000;
 
 /// Why a schema is too large, in a few words.

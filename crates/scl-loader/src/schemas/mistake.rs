@@ -1,4 +1,4 @@
-//! A mistake in a schema file that the schema compiler does not find, or not explain.
+//! A mistake in a schema file that the schema compiler does not find or does not explain.
 
 use std::ops::Range;
 

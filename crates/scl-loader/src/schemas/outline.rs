@@ -1,6 +1,6 @@
 //! The names that a schema file declares, as far as they can be seen without compiling it.
 //!
-//! While a schema is broken, programs that use its messages must not be told that these do not exist.
+//! While a schema is broken, programs that use its messages must not get errors saying that these do not exist.
 
 use super::lexemes;
 
@@ -9,7 +9,7 @@ use super::lexemes;
 pub struct Outline {
     /// For example `rover.v1`; empty if there is none.
     pub package: String,
-    /// The names of messages and enums, those inside of messages after the names of these: `["Pose", "Axis"]`.
+    /// The messages and enums; a nested one is preceded by the names of the messages around it: `["Pose", "Axis"]`.
     pub types: Vec<Vec<String>>,
 }
 

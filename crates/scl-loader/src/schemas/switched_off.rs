@@ -1,4 +1,4 @@
-//! Without the feature `protobuf`, `schemas:` is refused by name.
+//! Refuses `schemas:` in builds without the feature `protobuf`.
 
 use super::Compiled;
 use crate::request::Request;

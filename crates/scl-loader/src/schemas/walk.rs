@@ -39,12 +39,12 @@ pub fn full_name(file: &FileDescriptorProto, path: &[&str]) -> String {
     dotted(file.package(), &path.join("."))
 }
 
-/// A name inside of another one, or at the top if that is empty.
+/// Joins an outer name and a name with a dot; returns the name alone if the outer one is empty.
 pub(super) fn dotted(outer: &str, name: &str) -> String {
     if outer.is_empty() { name.to_owned() } else { format!("{outer}.{name}") }
 }
 
-/// The entry of a field that is a map: a message nested in that of the field.
+/// Returns the entry type of a map field, which is nested in the field's message; `None` for other fields.
 pub fn map_entry<'m>(message: &'m DescriptorProto, field: &FieldDescriptorProto) -> Option<&'m DescriptorProto> {
     let name = field.type_name().rsplit('.').next()?;
     message.nested_type.iter().find(|nested| is_map_entry(nested) && nested.name() == name)

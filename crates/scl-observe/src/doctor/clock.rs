@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 const CHECK: &str = "clock";
 const SOURCE: &str = "clock source";
 
-/// Reading these takes a call of the kernel, and some of them a microsecond or more.
+/// Clock sources that take a system call to read, and some of them a microsecond or more.
 const SLOW: [&str; 4] = ["hpet", "acpi_pm", "jiffies", "pit"];
 
 pub(super) fn check(_examined: &Examined<'_>) -> Vec<Finding> {
@@ -19,7 +19,7 @@ pub(super) fn check(_examined: &Examined<'_>) -> Vec<Finding> {
         .collect()
 }
 
-/// `None` if there is nobody to ask.
+/// Whether the clock is synchronised; `None` if no service knows.
 fn is_synchronised() -> Option<bool> {
     if Path::new("/run/systemd/timesync/synchronized").exists() {
         return Some(true);

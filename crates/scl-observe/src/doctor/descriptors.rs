@@ -8,14 +8,14 @@ use std::fs;
 
 const CHECK: &str = "file descriptors";
 
-/// A component has a handful of descriptors, and some for each connection.
+/// Limits below this are reported: a component has a handful of descriptors, and some for each connection.
 const USUAL: u64 = 1024;
 
 /// Descriptors of a component without gates: standard streams, timers, files in the runtime folder and its watch.
 const COMPONENT: u64 = 15;
-/// Of a listening end: its socket, the file of its name, and one in reserve.
+/// Descriptors of a listening end: its socket, the file of its name, and one in reserve.
 const LISTENER: u64 = 3;
-/// Of a connection.
+/// Descriptors of a connection.
 const CONNECTION: u64 = 1;
 
 pub(super) fn check(examined: &Examined<'_>) -> Vec<Finding> {
@@ -51,14 +51,14 @@ fn open_in(pid: u32) -> Option<u64> {
     Some(fs::read_dir(format!("/proc/{pid}/fd")).ok()?.count() as u64)
 }
 
-/// How many a process may open; `None` if that is not known or not limited.
+/// How many descriptors a process may open; `None` if that is not known or not limited.
 fn limit_of(pid: u32) -> Option<u64> {
     let limits = fs::read_to_string(format!("/proc/{pid}/limits")).ok()?;
     let limit = limits.lines().find_map(|line| line.strip_prefix("Max open files"))?;
     limit.split_whitespace().next()?.parse().ok()
 }
 
-/// How many a component needs for its gates when all its peers are connected; its program may open more.
+/// How many descriptors a component needs for its gates when all its peers are connected; its program may open more.
 fn needed_by(plan: &Plan) -> u64 {
     let gates = plan.gates.iter().map(|gate| {
         let connections = gate.connections.len() as u64;

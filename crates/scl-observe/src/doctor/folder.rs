@@ -16,11 +16,11 @@ const DISK: &str = "disk";
 /// The longest path of a Unix socket in bytes.
 const SOCKET_PATH: usize = 107;
 
-/// The room for the name of a system and that of a socket below which usual names may not fit: the checker shortens
-/// names so that they fit into the longest default folder, `/run/user/4294967295/scl`.
+/// Number of bytes for the names of system and socket below which usual names may not fit: the checker shortens names
+/// so that they fit into the longest default folder, `/run/user/4294967295/scl`.
 const USUAL_NAMES: usize = SOCKET_PATH - "/run/user/4294967295/scl/".len();
 
-/// Less free memory or disk than this is about to become a problem.
+/// Less free memory or disk space than this, in bytes, is reported.
 const SCARCE: u64 = 16 << 20;
 
 pub(super) fn check(examined: &Examined<'_>) -> Vec<Finding> {
@@ -38,7 +38,7 @@ pub(super) fn check(examined: &Examined<'_>) -> Vec<Finding> {
     }
 }
 
-/// Owner and mode were checked when the folder was found.
+/// Reports a folder as usable; its owner and mode were checked when it was found.
 fn usable(path: &Path) -> Finding {
     let mode = fs::metadata(path).map_or(0, |found| found.mode() & 0o7777);
     Finding::ok(CHECK, format!("`{}`, mode {mode:04o}", escape(&path.to_string_lossy())))

@@ -13,14 +13,14 @@ pub(super) fn check(_examined: &Examined<'_>) -> Vec<Finding> {
     vec![judge_priority(getrlimit(Resource::Rtprio), Kernel::read()), judge_memory(getrlimit(Resource::Memlock))]
 }
 
-/// What decides beside the limit.
+/// What decides about real-time priority besides the limit.
 #[derive(Debug, Clone, Copy)]
 struct Kernel {
     /// Whether this process has `CAP_SYS_NICE`, to which the limit does not apply.
     may_exceed: bool,
     /// `kernel.sched_rt_runtime_us`: microseconds of each period for real-time programs, -1 for all; 0 forbids them.
     runtime: Option<i64>,
-    /// The same of this process's control group, where the kernel divides the time between groups.
+    /// The same for this process's control group, if the kernel divides real-time among groups.
     group_runtime: Option<i64>,
 }
 
@@ -41,8 +41,8 @@ impl Kernel {
 /// As in `capabilities(7)`.
 const CAP_SYS_NICE: u32 = 23;
 
-/// The control group of the first version for processor time, by the text of /proc/<pid>/cgroup. The second version
-/// does not divide real-time.
+/// Finds the path of the cgroup (v1, controller `cpu`) in the text of `/proc/<pid>/cgroup`. cgroup v2 does not divide
+/// real-time.
 fn processor_group(groups: &str) -> Option<&str> {
     groups.lines().find_map(|line| {
         let (_, rest) = line.split_once(':')?;
@@ -51,7 +51,7 @@ fn processor_group(groups: &str) -> Option<&str> {
     })
 }
 
-/// Judges as `sched_setscheduler(2)` does.
+/// Judges whether real-time priorities are allowed, by the rules of `sched_setscheduler(2)`.
 fn judge_priority(limit: Rlimit, kernel: Kernel) -> Finding {
     if kernel.runtime == Some(0) {
         return Finding::warning(PRIORITY, "the kernel gives real-time programs no time, so `SCL_SCHED` has no effect")

@@ -1,4 +1,4 @@
-//! Reading JSON values whose errors say what was expected where.
+//! Reads JSON values. Errors say what was expected, and where.
 
 use crate::error::PlanError;
 use scl_text::list::quoted_list;
@@ -6,7 +6,7 @@ use scl_text::suggest::closest_name;
 use serde_json::{Map, Value};
 use std::fmt::Display;
 
-/// The most characters of a wrong value that an error repeats.
+/// Maximum number of characters of a wrong value that an error quotes.
 const SHOWN: usize = 40;
 
 /// A value, and its path in the document.
@@ -68,7 +68,7 @@ impl<'v> At<'v> {
         number.ok_or_else(|| self.wrong(&format!("a whole number from 0 to {max}")))
     }
 
-    /// One of some words.
+    /// The item of `all` that has this value as its word.
     pub(super) fn word<T: Copy>(&self, all: &[T], word: fn(T) -> &'static str) -> Result<T, PlanError> {
         let found = self.value.as_str().and_then(|text| all.iter().find(|&&one| word(one) == text));
         let words = all.iter().map(|&one| word(one));

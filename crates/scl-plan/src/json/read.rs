@@ -52,7 +52,7 @@ impl Plan {
     }
 }
 
-/// Looked at before anything else, because another version may have other fields.
+/// Checks the version, before anything else is read, because another version may have other fields.
 fn check_version(document: &At<'_>) -> Result<(), PlanError> {
     let fields = document.fields()?;
     match fields.get("version").map(|version| (version, version.as_u64())) {

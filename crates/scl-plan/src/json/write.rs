@@ -23,7 +23,7 @@ impl Plan {
     }
 }
 
-/// The whole text; its fields stand in the order in which they are read best.
+/// The whole document, with its fields in the order in which they are easiest to read.
 #[derive(serde::Serialize)]
 struct Document<'p> {
     version: u64,
@@ -69,7 +69,7 @@ impl Serialize for GateOptions {
     }
 }
 
-/// The words of the topology file.
+/// Serializes values as their words in the topology file.
 macro_rules! serialize_as_word {
     ($($kind:ty),+) => {$(
         impl Serialize for $kind {

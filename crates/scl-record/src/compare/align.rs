@@ -1,7 +1,7 @@
 //! Pairs the messages of one topic, and finds those that only one recording has.
 //!
-//! Equal messages are paired in order. Where they differ, the place is searched from which on the recordings agree
-//! again: first where the gate's own numbers say that messages are missing, then by their content.
+//! Equal messages are paired in order. Where the messages differ, the search looks for the next position from which
+//! both recordings agree again: first where the gate's own numbers say that messages are missing, then by content.
 
 use super::CompareOptions;
 use super::report::{Difference, DifferenceKind, GateComparison};
@@ -11,12 +11,12 @@ use crate::format::Topic;
 use std::collections::VecDeque;
 use std::time::Duration;
 
-/// How far the recordings are searched for the place from which on they agree again, in messages and in bytes of each.
+/// How far ahead each recording is searched for a position from which both agree again, in messages and in bytes.
 const WINDOW: usize = 16 << 10;
 const WINDOW_BYTES: usize = 32 << 20;
 
-/// Up to [`NEAR`] messages after the recordings begin to differ, as many as [`BOTH`] may be missing on both sides at
-/// once. Trying that at any distance would take too long.
+/// Up to [`NEAR`] messages after the recordings begin to differ, the search also tries gaps on both sides at once, the
+/// shorter one of fewer than [`BOTH`] messages. Trying that at any distance would take too long.
 const NEAR: usize = 256;
 const BOTH: usize = 16;
 
@@ -25,22 +25,23 @@ pub(super) struct Alignment {
     gate: GateComparison,
     shown: usize,
     times_within: Option<Duration>,
-    /// Times of the first messages of both sides.
+    /// Send times of the first pair of messages.
     starts: Option<[u64; 2]>,
-    /// How much the second recording's numbers were ahead at the last equal pair.
+    /// How far the second recording's numbers were ahead of the first one's at the last equal pair.
     ahead: Option<u32>,
-    /// What is missing up to now, so that the next message extends it: its kind, and whether it is among the kept ones.
+    /// The run of missing or additional messages that the next one of the same kind extends: its kind, and whether its
+    /// difference was kept.
     gap: Option<(DifferenceKind, bool)>,
 }
 
 /// What to do with the first messages of both queues.
 enum Step {
     Equal,
-    /// The recordings agree again behind these numbers of messages.
+    /// The recordings agree again after these numbers of messages.
     Resume([usize; 2]),
-    /// They do not agree again within the window, so this many messages of both have to be paired as they are.
+    /// The recordings do not agree again within the window; this many messages of both are paired as they are.
     Unlike(usize),
-    /// Only this side has messages left.
+    /// Only one side has messages left: the first (`Missing`) or the second (`Additional`).
     Rest(DifferenceKind),
     /// More messages are needed to decide.
     Wait,
@@ -53,7 +54,7 @@ impl Alignment {
         Self { gate, shown, times_within, starts: None, ahead: None, gap: None }
     }
 
-    /// Compares what has been read.
+    /// Pairs and compares the messages read so far, until more are needed to decide.
     pub(super) fn advance(&mut self, sides: &mut [Side; 2], topic: usize, rules: &mut Rules<'_>) {
         loop {
             match self.next_step(sides, topic, rules) {
@@ -123,7 +124,8 @@ impl Alignment {
         Step::Unlike((lengths[0].min(lengths[1]) / 2).max(1))
     }
 
-    /// How many messages one side lacks according to the numbers that gates give to messages.
+    /// Returns how many messages to skip on each side, according to the numbers that gates give to messages; `None` if
+    /// these show no gap.
     fn numbered_gap(&self, queues: [&VecDeque<Waiting>; 2]) -> Option<[usize; 2]> {
         let [one, other] = queues.map(VecDeque::front);
         let (one, other) = (one?, other?);
@@ -176,7 +178,7 @@ impl Alignment {
         }
     }
 
-    /// Keeps a difference that will be shown; returns false if there are enough.
+    /// Keeps a difference for the report; returns false if enough are kept already.
     fn keep(
         &mut self,
         sides: &[Side; 2],
@@ -195,7 +197,7 @@ impl Alignment {
         is_kept
     }
 
-    /// Times count from the first messages of the gate.
+    /// Compares the send times of a pair, each counted from the first pair of the topic.
     fn time_difference(&self, starts: [u64; 2], one: &Waiting, other: &Waiting) -> Option<FieldDifference> {
         let within = self.times_within?;
         let times = [one.sent_ns.saturating_sub(starts[0]), other.sent_ns.saturating_sub(starts[1])];

@@ -10,14 +10,14 @@ use std::time::Duration;
 pub struct CompareReport {
     /// By topic, in alphabetical order.
     pub gates: Vec<GateComparison>,
-    /// What was left out.
+    /// Notes on both recordings: topics that were left out, steps of the clock, gaps.
     pub notes: Vec<String>,
 }
 
 /// The comparison of one topic.
 #[derive(Debug, Clone)]
 pub struct GateComparison {
-    /// `controller.actuator`; of a `rep` gate, `controller.commands request`.
+    /// Name of the topic: `controller.actuator`, or for a `rep` gate `controller.commands request`.
     pub name: String,
     /// Messages that have a counterpart.
     pub paired: u64,
@@ -35,14 +35,13 @@ pub struct GateComparison {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Difference {
     pub kind: DifferenceKind,
-    /// Number of the message among those of its topic, from 0, in the first recording (an additional one: in the
-    /// second).
+    /// Index of the message in its topic, from 0, in the first recording; for an additional message, in the second.
     pub index: u64,
     /// Number of messages in a row that are missing or additional; otherwise 1.
     pub count: u64,
     /// Time since the beginning of that recording.
     pub time: Duration,
-    /// The same for the last of them.
+    /// Time of the last of the `count` messages.
     pub until: Duration,
     /// The first field that differs; `.` for the whole message, empty unless `kind` is `Different`.
     pub field: String,
@@ -64,7 +63,7 @@ impl CompareReport {
         self.gates.iter().all(GateComparison::is_equal)
     }
 
-    /// One line per topic, and one per difference.
+    /// Returns the report as text: one line per topic, and one per difference.
     pub fn to_text(&self) -> String {
         let mut text = String::new();
         for gate in &self.gates {
@@ -89,7 +88,7 @@ impl CompareReport {
         text
     }
 
-    /// One JSON object.
+    /// Returns the report as one JSON object.
     pub fn to_json(&self) -> Value {
         let gates: Vec<_> = self.gates.iter().map(GateComparison::to_json).collect();
         json!({"equal": self.is_equal(), "gates": gates})
@@ -101,7 +100,7 @@ impl GateComparison {
         Self { name: topic.name(), paired: 0, different: 0, missing: 0, additional: 0, differences: Vec::new() }
     }
 
-    /// Number of messages of both recordings, those of a pair counted once.
+    /// Number of messages in both recordings; a pair counts once.
     pub fn messages(&self) -> u64 {
         self.paired + self.missing + self.additional
     }

@@ -32,12 +32,12 @@ pub(super) struct Waiting {
     pub(super) payload: Bytes,
     /// Index in [`Side::types`].
     pub(super) channel: usize,
-    /// Number of the message among those of its topic.
+    /// Index of the message in its topic, from 0.
     pub(super) index: u64,
     pub(super) sent_ns: u64,
     /// See [`crate::format::sequence`].
     pub(super) sequence: u32,
-    /// Decoded when it is first compared: to find messages that only one recording has, each is compared with many.
+    /// The decoded message, cached at the first comparison: the search for gaps compares each message with many others.
     value: OnceCell<Option<Value>>,
 }
 
@@ -54,7 +54,7 @@ impl Waiting {
 pub(super) struct Side {
     messages: Messages,
     pub(super) topics: Vec<TopicQueue>,
-    /// By channel, the index of its topic if that is compared, and how its messages are read.
+    /// By channel, the index of its topic, `None` if that is not compared, and the type of its messages.
     by_channel: Vec<Option<usize>>,
     pub(super) types: Vec<MessageType>,
     pub(super) is_at_end: bool,
@@ -66,9 +66,9 @@ pub(super) struct Side {
 pub(super) struct TopicQueue {
     topic: Topic,
     pub(super) waiting: VecDeque<Waiting>,
-    /// Bytes of those that wait.
+    /// Total payload size of the waiting messages.
     pub(super) bytes: usize,
-    /// Number of messages that were read, and that were not read yet.
+    /// Numbers of messages read so far and still to be read.
     read: u64,
     pub(super) left: u64,
 }

@@ -5,13 +5,13 @@ use super::side::{Side, Waiting};
 use scl_terminal::{Problem, escape};
 use scl_value::{FieldPath, MessageType, Opaque, Value, key_text, to_json};
 
-/// How much of a value is shown.
+/// Maximum number of characters shown of a value.
 const SHOWN: usize = 60;
 
-/// Which fields are compared, and how exactly.
+/// The rules of a comparison: which fields are compared, and with which tolerances.
 pub(super) struct Rules<'o> {
     options: &'o CompareOptions,
-    /// Of each named field, whether any message had it.
+    /// For each named field, whether any compared message had it.
     found: Vec<bool>,
 }
 
@@ -117,7 +117,7 @@ fn bytes_difference(messages: [&Waiting; 2]) -> Option<FieldDifference> {
     Some(FieldDifference { field: FieldPath::default(), values })
 }
 
-/// Whether whole numbers of this size are still apart as floating point numbers.
+/// Whether `f64` represents every whole number of this size exactly.
 fn is_exact(number: f64) -> bool {
     number.abs() < (1_u64 << 53) as f64
 }

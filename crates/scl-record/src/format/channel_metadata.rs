@@ -1,4 +1,4 @@
-//! What a channel says about its gate, as MCAP's metadata of the channel.
+//! The description of a channel's gate, stored as metadata of the MCAP channel.
 
 use scl_plan::GateKind;
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ pub struct ChannelMetadata {
 }
 
 impl ChannelMetadata {
-    /// The map in the file.
+    /// Returns the metadata as the map in the file.
     pub fn to_map(&self) -> BTreeMap<String, String> {
         let mut map = BTreeMap::from([
             (KIND.to_owned(), self.kind.word().to_owned()),
@@ -33,7 +33,7 @@ impl ChannelMetadata {
         map
     }
 
-    /// The keys that a map lacks, for messages: `` `kind`, `codec` ``.
+    /// Names what a map lacks, for messages: `` `kind`, `codec` ``, or `` known `kind` ``.
     pub fn missing(map: &BTreeMap<String, String>) -> String {
         let missing: Vec<_> =
             [KIND, CODEC, CONTRACT, PEERS].into_iter().filter(|key| !map.contains_key(*key)).collect();

@@ -2,11 +2,11 @@
 
 use std::borrow::Cow;
 
-/// Message encoding and schema of a channel. The schema always is a record of its own, never MCAP's id 0 for "none":
-/// several readers reject that for encodings that need a schema, and it would lose the type's name.
+/// Message encoding and schema of a channel. The schema is always a separate record, never MCAP's id 0 for "none":
+/// several readers reject that for encodings that need a schema, and the name of the type would be lost.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Encoding<'a> {
-    /// MCAP's message encoding: the codec's word, or the path of a codec of the user's own. For bytes `raw`.
+    /// MCAP's message encoding: the codec's word (`protobuf`), or the path of a user-defined codec; `raw` for bytes.
     pub message: Cow<'a, str>,
     /// Name of the schema: the type as in the topology file, or `bytes`.
     pub schema_name: &'a str,

@@ -1,6 +1,6 @@
 //! Topics: `/sensor/measurements`, `/controller/commands/request`, `/controller/commands/reply`.
 //!
-//! Slashes, because a dot starts a path of fields in Foxglove.
+//! Slashes separate the names, because a dot starts a path of fields in Foxglove.
 
 use scl_plan::Payload;
 use std::fmt;
@@ -37,7 +37,7 @@ pub struct Topic {
 }
 
 impl Topic {
-    /// Reads a topic; `None` if it is not one of SCL.
+    /// Parses a topic; `None` if it does not have the form of SCL's topics.
     pub fn parse(text: &str) -> Option<Self> {
         let mut names = text.strip_prefix('/')?.split('/');
         let (component, gate) = (names.next()?, names.next()?);

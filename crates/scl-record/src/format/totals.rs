@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 pub struct Totals {
     /// Key `system`: the system's name.
     pub system: String,
-    /// By gate (`sensor.measurements`). Keys `<gate>.recorded`, `<gate>.lost` and, unless it is 0,
+    /// Totals by gate (`sensor.measurements`). Keys `<gate>.recorded`, `<gate>.lost` and, unless it is 0,
     /// `<gate>.latched`.
     pub gates: BTreeMap<String, GateTotals>,
 }
@@ -19,7 +19,7 @@ pub struct GateTotals {
     pub recorded: u64,
     /// Messages that the gate sent while this file was written, but that are not in it.
     pub lost: u64,
-    /// Those recorded that had been sent before the recording observed the gate: the last message of a gate with
+    /// Recorded messages that were sent before the recorder observed the gate: the last message of a gate with
     /// `latched: true`.
     pub latched: u64,
 }
@@ -28,7 +28,7 @@ impl Totals {
     /// Name of the metadata record.
     pub const NAME: &'static str = "scl";
 
-    /// The map in the file.
+    /// Returns the totals as the map in the file.
     pub fn to_map(&self) -> BTreeMap<String, String> {
         let mut map = BTreeMap::from([(SYSTEM.to_owned(), self.system.clone())]);
         for (gate, totals) in &self.gates {

@@ -19,32 +19,32 @@ use tokio::signal::unix::Signal;
 use tokio::sync::oneshot;
 use tokio::time::{Instant, MissedTickBehavior, interval, sleep, timeout};
 
-/// How often the figures on a terminal change.
+/// Interval at which the figures on a terminal are updated.
 const SHOW: Duration = Duration::from_millis(500);
 
-/// At the end: how long nothing may arrive until nothing more is expected, and how long to look in any case.
+/// At the end of recording: after how long without a message no more are expected, and how long to wait in any case.
 const ARRIVAL: Duration = Duration::from_millis(50);
 const LAST_LOOK: Duration = Duration::from_millis(500);
 
-/// Collects messages until told to stop.
+/// Collects messages from the taps until recording ends.
 pub(crate) struct Collector<'a> {
     pub(crate) system: &'a System,
     pub(crate) taps: Taps,
     /// The queue to the storage.
     pub(crate) queue: QueueSender<Command>,
-    /// Only with a ring.
+    /// Listens for requests to write the ring; `None` without a ring.
     pub(crate) trigger: Option<TriggerListener>,
     pub(crate) notes: Notes,
     pub(crate) losses: Vec<Losses>,
     pub(crate) plans: Plans,
-    /// Gates that were running at the beginning, and those of them that are not connected yet.
+    /// Number of gates that were running at the beginning, and of those that are not connected yet.
     pub(crate) initial: usize,
     pub(crate) unconnected: usize,
 }
 
 impl Collector<'_> {
-    /// Collects until a signal of `stop`, until `run_for` has passed, or until the storage stops. The queue ends with
-    /// that.
+    /// Collects until a signal of `stop`, until `run_for` has passed, or until the storage stops; then closes the
+    /// queue.
     pub(crate) async fn run(
         mut self,
         (mut stop, mut save): (StopSignals, Signal),
@@ -87,7 +87,7 @@ impl Collector<'_> {
         self.notes.clear();
     }
 
-    /// Takes what was sent before now and is on its way.
+    /// Collects messages that were sent before now and are still in flight.
     async fn take_arrived(&mut self) {
         let (now, deadline) = (now_ns(), Instant::now() + LAST_LOOK);
         while Instant::now() < deadline
@@ -185,7 +185,7 @@ async fn accept(trigger: &Option<TriggerListener>) -> std::io::Result<tokio::net
     }
 }
 
-/// What has become of a request to write the ring.
+/// Waits for the result of a request to write the ring: the path of the file, or the error.
 async fn result_of(saved: oneshot::Receiver<Result<Option<WrittenFile>, Problem>>) -> Result<PathBuf, String> {
     match saved.await {
         Ok(Ok(written)) => {

@@ -1,4 +1,4 @@
-//! What every file of a recording begins with, so that each is complete in itself.
+//! The records with which every file of a recording begins, so that each file is self-contained.
 
 use super::file::RecordingFile;
 use super::write_error::WriteError;
@@ -18,7 +18,7 @@ pub struct AttachedFile {
     pub data: Vec<u8>,
 }
 
-/// What is known of the system: grows while it is recorded.
+/// What is known about the system; grows during the recording.
 #[derive(Debug)]
 pub(crate) struct Contents {
     pub(crate) system: String,
@@ -30,7 +30,7 @@ pub(crate) struct Contents {
 }
 
 impl Contents {
-    /// Starts a recording with everything that is known. If there is no room even for that, the file is removed.
+    /// Starts a recording with everything known so far. If that fails, the file is removed.
     pub(crate) fn start_file(&self, path: PathBuf, file: File) -> Result<RecordingFile, WriteError> {
         self.begin(path.clone(), file).inspect_err(|_| {
             // Never remove a device or pipe.
@@ -60,7 +60,7 @@ pub(crate) fn attach_plan(recording: &mut RecordingFile, plan: &[u8]) -> Result<
     recording.attach(PLAN, "application/json", plan, now_ns())
 }
 
-/// `CLOCK_REALTIME`, as at the taps.
+/// Returns the current time in nanoseconds since 1970 by `CLOCK_REALTIME`, the clock of the taps.
 pub(crate) fn now_ns() -> u64 {
     let elapsed = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or(Duration::ZERO);
     u64::try_from(elapsed.as_nanos()).unwrap_or(u64::MAX)

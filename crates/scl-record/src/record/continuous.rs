@@ -1,4 +1,4 @@
-//! Recording into one file, or into one after the other.
+//! Recording into one file, or into several files one after the other.
 
 use super::contents::{Contents, attach_plan};
 use super::file::{RecordingFile, WrittenFile};
@@ -11,10 +11,11 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// A crash of the recorder loses at most one second: this, and the time until the queue is examined again.
+/// Interval between flushes. A crash of the recorder loses at most one second: this, and the time until the queue is
+/// polled again.
 const FLUSH: Duration = Duration::from_millis(800);
 
-/// What has happened when a file cannot be written.
+/// How the error begins when a file cannot be written.
 const STOPPED: &str = "recording stopped";
 
 /// How a recording is distributed over files.
@@ -33,7 +34,7 @@ pub(crate) struct Continuous {
     names: FileNames,
     split: Split,
     sync: Option<Duration>,
-    /// `None` after a failure.
+    /// The current file; `None` after a failure.
     file: Option<RecordingFile>,
     started: Instant,
     flushed: Instant,
@@ -68,7 +69,7 @@ impl Continuous {
         Ok(continuous)
     }
 
-    /// The current file.
+    /// Path of the current file.
     pub(crate) fn path(&self) -> Option<&Path> {
         self.file.as_ref().map(RecordingFile::path)
     }
@@ -107,7 +108,7 @@ impl Continuous {
         self.with_file(RecordingFile::flush)
     }
 
-    /// What is due by now: flush, sync, the next file.
+    /// Does what is due: flushes, syncs, starts the next file.
     pub(crate) fn keep_up(&mut self, contents: &Contents) -> Result<(), Problem> {
         if self.flushed.elapsed() >= FLUSH {
             self.flush()?;
@@ -125,7 +126,7 @@ impl Continuous {
         }
     }
 
-    /// Completes the current file: the files, the number of deleted ones, and what went wrong.
+    /// Completes the current file. Returns the written files, the number of deleted ones, and what went wrong.
     pub(crate) fn finish(mut self) -> (Vec<WrittenFile>, usize, Option<Problem>) {
         let problem = self.finish_file().err();
         (self.finished.into(), self.deleted, problem)
@@ -152,7 +153,8 @@ impl Continuous {
         Ok(())
     }
 
-    /// Does something with the file. If there is no room, the file is completed; if it cannot be written, it is ended.
+    /// Runs `action` on the current file. If the disk is full or the file was moved, the file is completed; if a write
+    /// fails, the file is ended at its last flush.
     fn with_file(&mut self, action: impl FnOnce(&mut RecordingFile) -> Result<(), WriteError>) -> Result<(), Problem> {
         let Some(file) = &mut self.file else { return Ok(()) };
         let Err(error) = action(file) else { return Ok(()) };

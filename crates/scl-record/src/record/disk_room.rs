@@ -9,10 +9,10 @@ use rustix::process::{Resource, getrlimit};
 use std::fs::File;
 use std::io;
 
-/// Blocks reserved at once, so that most messages need no system call.
+/// Bytes reserved at once, so that most messages need no system call.
 const STEP: u64 = 4 << 20;
 
-/// The room of one file that grows at its end.
+/// The disk space reserved for one file that is appended to.
 #[derive(Debug, Default)]
 pub(crate) struct DiskRoom {
     /// Size to which the file can grow.

@@ -147,14 +147,15 @@ impl RecordingFile {
         Ok(())
     }
 
-    /// Counts messages of a gate that are missing in this file.
+    /// Counts messages of a gate that are missing from this file.
     pub(crate) fn count_lost(&mut self, gate: usize, lost: u64) {
         if let Some((_, totals)) = self.gates.get_mut(&gate) {
             totals.lost += lost;
         }
     }
 
-    /// Hands everything to the operating system, so that a crash of this process loses nothing of it.
+    /// Ends the open chunk and hands everything to the operating system, so that a crash of this process loses none of
+    /// it.
     pub(crate) fn flush(&mut self) -> Result<(), WriteError> {
         if self.pending > 0 {
             self.index += INDEX_PER_CHUNK + INDEX_PER_CHUNK_AND_CHANNEL * self.channels.len() as u64;
@@ -165,10 +166,10 @@ impl RecordingFile {
         Ok(())
     }
 
-    /// Compares the file with what its name leads to.
+    /// Checks that the path still leads to this file.
     ///
     /// # Errors
-    /// The file was removed, renamed or replaced, so nobody would find the recording.
+    /// The file was removed, renamed or replaced, so the recording would not be found.
     pub(crate) fn check_name(&self) -> Result<(), WriteError> {
         let own = self.file.metadata().map_err(McapError::from)?;
         let fault = match fs::metadata(&self.path) {

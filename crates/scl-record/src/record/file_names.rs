@@ -10,7 +10,7 @@ use std::time::SystemTime;
 
 const EXTENSION: &str = "mcap";
 
-/// Where the recordings of one run go.
+/// The file names of the recordings of one run.
 #[derive(Debug)]
 pub(crate) struct FileNames {
     path: PathBuf,
@@ -29,10 +29,11 @@ pub(crate) enum Numbering {
 }
 
 impl FileNames {
-    /// `output` is a file, a folder for a file with the default name, or `None` for that in the working folder.
+    /// Chooses the names. `output` is a file, or a folder for a file with the default name; `None` is the working
+    /// folder.
     ///
     /// # Errors
-    /// The first file, or one with a number, exists and may not be overwritten.
+    /// The first file exists and may not be overwritten.
     pub(crate) fn new(
         output: Option<&Path>,
         system: &str,
@@ -56,7 +57,7 @@ impl FileNames {
     /// Creates the next file.
     ///
     /// # Errors
-    /// It exists and may not be overwritten, or cannot be created.
+    /// The file exists and may not be overwritten, is being recorded by another process, or cannot be created.
     pub(crate) fn create_next(&mut self) -> Result<(PathBuf, File), Problem> {
         let path = self.numbered(self.used + 1);
         let mut options = OpenOptions::new();

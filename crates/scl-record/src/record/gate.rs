@@ -12,13 +12,13 @@ pub(crate) struct Message {
     /// Number of the gate.
     pub(crate) gate: usize,
     pub(crate) part: Part,
-    /// As in the file.
+    /// See [`crate::format::sequence`].
     pub(crate) sequence: u32,
     pub(crate) sent_ns: u64,
     pub(crate) received_ns: u64,
     /// Messages of the same gate that were lost since the one before.
     pub(crate) lost_before: u64,
-    /// It was sent before the gate was observed.
+    /// Whether it was sent before the recorder observed the gate.
     pub(crate) latched: bool,
     pub(crate) payload: Bytes,
 }

@@ -1,34 +1,35 @@
 //! Losses of one gate, found by gaps in the numbers of its messages.
 
-/// What is expected at a tap.
+/// Counts a gate's lost messages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Losses {
-    /// The next number; `None` while the recorder has not seen the gate, because it joined when the gate was running.
+    /// The next number expected; `None` before the first message of a gate that was running when recording began.
     next: Option<u64>,
-    /// When the last one was sent.
+    /// When the last message was sent.
     sent_ns: u64,
-    /// Lost and not yet reported with a message.
+    /// Messages lost since the last call of [`take`](Self::take).
     pending: u64,
 }
 
 impl Losses {
-    /// A gate that was running when recording began: what it sent before is not lost.
+    /// For a gate that was running when recording began: messages sent before do not count as lost.
     pub(crate) fn running() -> Self {
         Self { next: None, sent_ns: 0, pending: 0 }
     }
 
-    /// A gate of a component that started during the recording: what it sent before the recorder was connected is lost.
+    /// For a gate of a component that started during the recording: messages sent before the recorder was connected
+    /// count as lost.
     pub(crate) fn started() -> Self {
         Self { next: Some(0), sent_ns: 0, pending: 0 }
     }
 
-    /// Returns true if this is the message that was seen last: a latched gate shows its last one again when the
-    /// recorder reconnects.
+    /// Returns true if this is the last message seen: a latched gate sends its last message again when the recorder
+    /// reconnects.
     pub(crate) fn is_last(&self, sequence: u64, sent_ns: u64) -> bool {
         self.next == Some(sequence + 1) && self.sent_ns == sent_ns
     }
 
-    /// Takes note of a message's number, and of when it was sent.
+    /// Counts the messages lost before this one, given its number and send time.
     pub(crate) fn see(&mut self, sequence: u64, sent_ns: u64) {
         let expected = match self.next {
             None => sequence,
@@ -40,12 +41,12 @@ impl Losses {
         (self.next, self.sent_ns) = (Some(sequence + 1), sent_ns);
     }
 
-    /// Adds messages that were seen but found no room, and what was lost before them.
+    /// Adds messages that did not fit into the queue, and those lost before them.
     pub(crate) fn add(&mut self, lost: u64) {
         self.pending += lost;
     }
 
-    /// Number of lost messages since the last call.
+    /// Returns the number of messages lost since the last call.
     pub(crate) fn take(&mut self) -> u64 {
         std::mem::take(&mut self.pending)
     }

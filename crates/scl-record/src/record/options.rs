@@ -1,4 +1,4 @@
-//! What to record and where to, and how to talk about it meanwhile.
+//! The options of a recording, and the notes printed while it runs.
 
 use super::contents::AttachedFile;
 use super::continuous::Split;
@@ -27,11 +27,11 @@ pub struct Options {
     pub split: Split,
     /// How often to force everything to the disk, against power loss.
     pub sync: Option<Duration>,
-    /// Limit of the memory for messages that wait for the disk, and once more of the ring, in bytes.
+    /// Limit of the memory for messages queued for the disk, in bytes. The ring may use the same amount again.
     pub memory: usize,
     /// Keep messages in memory only, and write them when asked.
     pub ring: Option<RingOptions>,
-    /// The topology file, which tells the gates of components that do not run yet.
+    /// The topology file, which declares the gates of components that do not run yet.
     pub topology: PathBuf,
     /// Files to add to each recording.
     pub attached: Vec<AttachedFile>,
@@ -42,7 +42,7 @@ pub struct Options {
 pub struct RingOptions {
     /// Age of the oldest message that is kept.
     pub window: Duration,
-    /// Whether to write it at the end, too.
+    /// Whether to write the ring when recording ends, too.
     pub save_at_end: bool,
 }
 

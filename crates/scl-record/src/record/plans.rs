@@ -5,14 +5,14 @@ use scl_observe::System;
 use scl_plan::{Plan, SystemPlan};
 use std::collections::BTreeMap;
 
-/// Grows while components start.
+/// The plans by component; grows while components start.
 #[derive(Debug)]
 pub(crate) struct Plans {
     by_component: BTreeMap<String, Plan>,
 }
 
 impl Plans {
-    /// The plans of now, and their text.
+    /// Reads the current plans. Returns them and their text as JSON.
     pub(crate) fn of(system: &System) -> (Self, Bytes) {
         let mut plans = Self { by_component: BTreeMap::new() };
         plans.read(system);
@@ -20,7 +20,7 @@ impl Plans {
         (plans, text)
     }
 
-    /// Reads them again; returns the text if something has changed.
+    /// Reads the plans again; returns their text if one has changed.
     pub(crate) fn update(&mut self, system: &System) -> Option<Bytes> {
         self.read(system).then(|| self.text(system))
     }

@@ -1,4 +1,4 @@
-//! The queue between the taps and the disk: bounded in bytes, so that a slow disk costs neither messages nor memory.
+//! The queue between the taps and the disk: it holds messages while the disk is slow, up to a limit in bytes.
 
 use super::gate::Message;
 use std::collections::VecDeque;
@@ -6,29 +6,29 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// Bytes after which the writer is woken. Below, it looks by itself from time to time: waking it for each of some
+/// Bytes after which the writer is woken. Below that, the writer polls the queue: waking it for each of several
 /// thousand messages a second would cost more than writing them.
 const WAKE: usize = 256 << 10;
 
-/// What waits in the queue.
+/// An entry of the queue.
 #[derive(Debug)]
 pub(crate) enum Item<C> {
     Message(Message),
-    /// Something for the writer, in its order among the messages. Always accepted.
+    /// A command for the writer, in order with the messages. Always accepted.
     Command(C),
 }
 
-/// The end of the taps.
+/// The sending end, for the thread that reads the taps.
 pub(crate) struct QueueSender<C>(Arc<Shared<C>>);
 
-/// The end of the writer.
+/// The receiving end, for the thread that writes.
 pub(crate) struct QueueReceiver<C>(Arc<Shared<C>>);
 
 struct Shared<C> {
     state: Mutex<State<C>>,
     changed: Condvar,
     limit: usize,
-    /// Bytes that were pushed and not yet released, so also those that the writer is working on.
+    /// Bytes pushed and not yet released, including those that the writer is working on.
     bytes: AtomicUsize,
 }
 
@@ -75,7 +75,8 @@ impl<C> Drop for QueueSender<C> {
 }
 
 impl<C> QueueReceiver<C> {
-    /// Takes everything that waits, or waits up to `timeout` for something worth waking up for. `None` at the end.
+    /// Takes all items. If there are none, first waits up to `timeout` to be woken; the result may still be empty.
+    /// `None` at the end.
     pub(crate) fn take(&self, timeout: Duration) -> Option<VecDeque<Item<C>>> {
         let mut state = self.0.lock();
         if state.items.is_empty() && !state.closed {

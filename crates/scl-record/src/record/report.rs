@@ -1,4 +1,4 @@
-//! What a recording has come to, for people and programs.
+//! The result of a recording, as text and as JSON.
 
 use super::file::WrittenFile;
 use crate::format::Totals;
@@ -10,10 +10,10 @@ use std::time::Duration;
 /// The result of [`record`](super::record()).
 #[derive(Debug)]
 pub struct Report {
-    /// All gates, also of files that were deleted by `keep`.
+    /// Totals of all gates, including messages in files that `keep` deleted.
     pub totals: Totals,
     pub duration: Duration,
-    /// The files that exist.
+    /// The files that were written and not deleted.
     pub files: Vec<WrittenFile>,
     /// Number of older files that were deleted.
     pub deleted: usize,
@@ -22,12 +22,12 @@ pub struct Report {
 }
 
 impl Report {
-    /// Messages of all gates.
+    /// Number of recorded messages of all gates.
     pub fn recorded(&self) -> u64 {
         self.totals.gates.values().map(|gate| gate.recorded).sum()
     }
 
-    /// A table of the gates, and the files.
+    /// Returns a table of the gates, and a line about the files.
     pub fn text(&self) -> String {
         let mut table = Table::new([("GATE", Align::Left), ("RECORDED", Align::Right), ("LOST", Align::Right)]);
         for (name, gate) in &self.totals.gates {
@@ -49,7 +49,7 @@ impl Report {
         text
     }
 
-    /// The same as one JSON value.
+    /// Returns the report as one JSON value.
     pub fn json(&self) -> Value {
         let gates = self
             .totals

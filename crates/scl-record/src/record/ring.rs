@@ -1,4 +1,4 @@
-//! The last messages in memory, written when something has happened.
+//! The last messages, kept in memory and written to a file on request.
 
 use super::contents::{Contents, now_ns};
 use super::file::{RecordingFile, WrittenFile};
@@ -10,7 +10,7 @@ use scl_terminal::Problem;
 use std::collections::VecDeque;
 use std::time::Duration;
 
-/// What has happened when the ring cannot be written.
+/// How the error begins when the ring cannot be written.
 const INCOMPLETE: &str = "the ring was not written completely";
 
 /// The messages of the last seconds.
@@ -47,7 +47,7 @@ impl Ring {
         }
     }
 
-    /// Writes what is in the ring into a new file, and goes on.
+    /// Writes the messages to a new file. They stay in the ring, and recording continues.
     pub(crate) fn save(&mut self, contents: &Contents) -> Result<WrittenFile, Problem> {
         self.forget_before(now_ns().saturating_sub(self.window_ns));
         let (path, file) = self.names.create_next()?;
@@ -67,7 +67,8 @@ impl Ring {
         error.map_or(Ok(written), |error| Err(error.problem(INCOMPLETE, &path)))
     }
 
-    /// The files that were written, and a last one if that was asked for.
+    /// Writes a last file if `save_at_end` is set. Returns the written files, the number of deleted ones, which is 0,
+    /// and what went wrong.
     pub(crate) fn finish(mut self, contents: &Contents) -> (Vec<WrittenFile>, usize, Option<Problem>) {
         let problem = if self.save_at_end { self.save(contents).err() } else { None };
         (self.written, 0, problem)

@@ -1,4 +1,4 @@
-//! The thread that writes: takes messages from the queue, and puts them into files at once or into the ring.
+//! The thread that writes: it takes messages from the queue, and writes them to files or keeps them in the ring.
 
 use super::contents::Contents;
 use super::continuous::Continuous;
@@ -15,22 +15,22 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use tokio::sync::oneshot;
 
-/// How often the queue is examined while little passes.
+/// How often the queue is polled while few messages arrive.
 const POLL: Duration = Duration::from_millis(100);
 
-/// What the storage is told besides messages.
+/// A command to the storage, queued in order with the messages.
 pub(crate) enum Command {
-    /// A gate with the next number.
+    /// A new gate, which gets the next number.
     Gate(ObservedGate),
     /// The plans of all components that were seen.
     Plan(Bytes),
-    /// Messages of a gate that are missing, after its last message.
+    /// The number of a gate, and of its messages lost after the last recorded one.
     Lost(usize, u64),
-    /// Write the ring into a file and answer; a recording without a ring hands everything to the operating system.
+    /// Write the ring to a file and send the result; without a ring, flush the current file.
     Save(SaveAnswer),
 }
 
-/// Takes the file that was written for [`Command::Save`].
+/// Receives the result of [`Command::Save`]: the written file, or `None` without a ring.
 pub(crate) type SaveAnswer = oneshot::Sender<Result<Option<WrittenFile>, Problem>>;
 
 /// Where messages go.
@@ -39,7 +39,7 @@ pub(crate) enum Store {
     Ring(Ring),
 }
 
-/// What a recording has come to.
+/// The result of a recording.
 #[derive(Debug, Default)]
 pub(crate) struct Outcome {
     /// The files that were written and not deleted by `--keep`.
@@ -59,8 +59,8 @@ pub(crate) struct Progress {
     pub(crate) bytes: AtomicU64,
 }
 
-/// Stores what comes from the queue until that ends or the disk is full; `stopped` is dropped as soon as nothing more
-/// is stored.
+/// Stores the messages from the queue until its end, or until a file cannot be written. `stopped` is dropped as soon as
+/// nothing more is stored.
 pub(crate) fn store(
     mut store: Store,
     mut contents: Contents,

@@ -1,7 +1,7 @@
-//! Telling a running recorder with a ring to write it: a socket in the folder of the system.
+//! Requests to a running recorder to write its ring, through a socket in the system's folder.
 //!
-//! `<recorder's process id>.recorder`; who connects gets one line, `ok PATH` or `error TEXT`, when the file is
-//! complete.
+//! The socket is `<recorder's process id>.recorder`. Each connection is a request; when the file is complete, the
+//! client receives one line, `ok PATH` or `error TEXT`.
 
 use scl_observe::System;
 use scl_terminal::Problem;
@@ -21,7 +21,7 @@ const PATIENCE: Duration = Duration::from_secs(120);
 
 /// The recorder's end; the socket is removed when it is dropped.
 pub(crate) struct TriggerListener {
-    /// Who connects wants the ring written.
+    /// Each connection is a request to write the ring.
     pub(crate) listener: UnixListener,
     path: PathBuf,
 }
@@ -45,7 +45,7 @@ impl Drop for TriggerListener {
     }
 }
 
-/// Tells who connected what has become of it.
+/// Sends the result of a request to its client.
 pub(crate) async fn answer(mut stream: UnixStream, result: &Result<PathBuf, String>) {
     let line = match result {
         Ok(path) => format!("ok {}\n", path.display()),
@@ -55,10 +55,10 @@ pub(crate) async fn answer(mut stream: UnixStream, result: &Result<PathBuf, Stri
     let _written = stream.write_all(line.as_bytes()).await;
 }
 
-/// Tells every recorder with a ring of this system to write it; returns the files.
+/// Asks every recorder of this system that has a ring to write it. Returns the files.
 ///
 /// # Errors
-/// No such recorder runs, or one could not write.
+/// No such recorder runs, or one could not write its ring.
 pub fn trigger(system: &System) -> Result<Vec<PathBuf>, Problem> {
     let entries = fs::read_dir(system.dir().folder()).into_iter().flatten().flatten();
     let sockets = entries.map(|entry| entry.path()).filter(|path| path.to_string_lossy().ends_with(SUFFIX));

@@ -1,4 +1,4 @@
-//! Why a recording cannot go on, and how the user is told.
+//! Why a recording cannot continue, and the error for the user.
 
 use mcap::McapError;
 use rustix::io::Errno;
@@ -6,7 +6,7 @@ use scl_terminal::Problem;
 use std::io;
 use std::path::Path;
 
-/// Why a recording cannot go on.
+/// Why a recording cannot continue.
 #[derive(Debug)]
 pub(crate) enum WriteError {
     /// No room for the message; it was not written, and the file can be finished.
@@ -18,7 +18,7 @@ pub(crate) enum WriteError {
 }
 
 impl WriteError {
-    /// The problem for the user; `what` says what has happened: `recording stopped`.
+    /// Returns the error for the user, which begins with `what`: `recording stopped`.
     pub(crate) fn problem(&self, what: &str, path: &Path) -> Problem {
         let path = path.display();
         match self {
@@ -45,7 +45,7 @@ impl From<McapError> for WriteError {
     }
 }
 
-/// The text of an error, of one of the operating system that system's own.
+/// Returns the text of an error; for an I/O error, only the operating system's text.
 pub(crate) fn text_of(error: &McapError) -> String {
     match error {
         McapError::Io(error) => error.to_string(),

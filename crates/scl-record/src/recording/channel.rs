@@ -25,7 +25,7 @@ pub struct OtherTopic {
     pub encoding: String,
     /// Name of the schema: `sensor_msgs/msg/Imu`; empty if there is none.
     pub schema_name: String,
-    /// Why it is none of SCL: `its metadata has no `kind``.
+    /// Why it is not one of SCL's topics: `its metadata has no `kind``.
     pub reason: String,
     /// Messages read so far, which are left out.
     pub messages: u64,
@@ -50,7 +50,7 @@ impl RecordedChannel {
     /// Reads a channel's record.
     ///
     /// # Errors
-    /// What is missing in a channel that SCL did not write: `its metadata has no `kind``.
+    /// Why the channel was not recorded by SCL: `its metadata has no `kind``.
     pub(super) fn new(channel: &Channel, schema: RecordedSchema) -> Result<Self, String> {
         let topic = Topic::parse(&channel.topic).ok_or("it is not `/<component>/<gate>`")?;
         let metadata = ChannelMetadata::from_map(&channel.metadata)
@@ -63,7 +63,7 @@ impl RecordedChannel {
         (self.schema_encoding == "protobuf").then_some(&*self.schema)
     }
 
-    /// How its messages are read; opaque if the recording does not describe them.
+    /// Returns the type that decodes its messages; opaque if the recording does not describe them.
     pub fn message_type(&self) -> MessageType {
         let (type_name, codec) = (self.metadata.type_name.as_deref(), &self.metadata.codec);
         MessageType::new(type_name, codec, self.descriptors())
@@ -76,7 +76,7 @@ impl RecordedChannel {
     }
 }
 
-/// For messages: `` `rover.Measurement` (protobuf) ``.
+/// A type and its codec, for messages: `` `rover.Measurement` (protobuf) ``.
 pub(crate) fn type_and_codec(type_name: Option<&str>, codec: &str) -> String {
     format!("`{}` ({})", escape(type_name.unwrap_or("bytes")), escape(codec))
 }

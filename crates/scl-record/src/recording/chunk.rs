@@ -5,8 +5,8 @@ use mcap::records::{Record, op};
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader};
 use mcap::{McapError, McapResult};
 
-/// Calls `each` for all records of a chunk of this length, after its checksum was found right. Of a chunk that was cut
-/// off, which cannot be checked, for those at its beginning.
+/// Calls `each` for all records of a chunk of this length, after its checksum was verified. A chunk that was cut off
+/// cannot be verified; `each` is called for the records before the cut.
 ///
 /// # Errors
 /// The chunk is damaged, cut off, or compressed with an unknown method.
@@ -17,7 +17,7 @@ pub(super) fn read(content: &[u8], length: u64, mut each: impl FnMut(Record<'_>)
     })
 }
 
-/// [`read`] with the opcode and the content of each record.
+/// Like [`read`], but calls `each` with the opcode and the content of each record.
 pub(crate) fn read_unparsed(
     content: &[u8],
     length: u64,

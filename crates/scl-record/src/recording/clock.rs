@@ -1,19 +1,20 @@
 //! The clock of a recording, which may have been set while it was made.
 //!
-//! A step back is certain: a recorder receives the messages of a topic one after the other. A step forward cannot be
-//! told from a time in which nothing was sent.
+//! A step back is certain, because a recorder receives the messages of a topic one after the other. A step forward
+//! cannot be distinguished from a time in which nothing was sent.
 
 use super::RecordedMessage;
 
-/// Smaller steps are left to the order of each topic's messages, in nanoseconds.
+/// Smallest step back that is taken out, in nanoseconds. Smaller ones remain; a replay still keeps each topic's
+/// messages in order.
 const SMALLEST_STEP: u64 = 100_000_000;
 
-/// Takes steps back out of the times of messages, which are given in the order of the file.
+/// Takes steps back out of the times of messages, which must be passed in the order of the file.
 #[derive(Debug, Default)]
 pub(crate) struct Clock {
-    /// By how much it was set back so far, in nanoseconds.
+    /// The total time by which the clock was set back so far, in nanoseconds.
     set_back: u64,
-    /// The latest time of receiving, and those of each channel, since it was set back.
+    /// The latest receive time, and that of each channel, since the clock was last set back.
     latest: Option<u64>,
     channels: Vec<u64>,
 }
@@ -23,14 +24,14 @@ pub(crate) struct Clock {
 pub(crate) struct Times {
     pub(crate) sent: u64,
     pub(crate) received: u64,
-    /// By how much it was set back before this message.
+    /// The time by which the clock was set back just before this message; `None` if it was not.
     pub(crate) step: Option<u64>,
-    /// The time since the last message before it was received.
+    /// The time from receiving the previous message to receiving this one.
     pub(crate) gap: u64,
 }
 
 impl Clock {
-    /// The times of the next message.
+    /// Returns the corrected times of the next message.
     pub(crate) fn times(&mut self, message: &RecordedMessage) -> Times {
         let received = message.received_ns;
         if self.channels.len() <= message.channel {

@@ -3,11 +3,11 @@
 use scl_terminal::Problem;
 use std::path::{Path, PathBuf};
 
-/// The files that an argument of the command line names: a file, a pattern such as `flight_*.mcap`, or the name that
-/// was given to `scl record --split`, whose parts have a number at their end.
+/// Returns the files that command line arguments name. Each argument is a file, a pattern such as `flight_*.mcap`, or
+/// the name that was given to `scl record --split`, whose parts have a number at their end.
 ///
 /// # Errors
-/// No file has such a name.
+/// An argument names no file.
 pub fn find_files(arguments: &[PathBuf]) -> Result<Vec<PathBuf>, Problem> {
     let mut files = Vec::new();
     for argument in arguments {
@@ -32,7 +32,8 @@ pub fn find_files(arguments: &[PathBuf]) -> Result<Vec<PathBuf>, Problem> {
     Ok(files)
 }
 
-/// Files whose names begin and end so, with the number between; without `any`, only those that have one.
+/// Returns the files whose names have this start and end, each with the number in between; without `any`, only files
+/// that have a number.
 fn matching(folder: &Path, (start, end): (&str, &str), any: bool) -> Vec<(Option<u64>, PathBuf)> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let file = |entry: std::fs::DirEntry| {

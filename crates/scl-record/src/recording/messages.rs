@@ -1,4 +1,4 @@
-//! The messages of a recording, one by one. Those of topics that SCL did not record are counted and left out.
+//! The messages of a recording, one by one. Messages of topics that SCL did not record are counted and left out.
 
 use super::channel::{OtherTopic, RecordedChannel, RecordedSchema};
 use super::chunk;
@@ -30,7 +30,7 @@ pub struct RecordedMessage {
 pub struct Messages {
     files: VecDeque<PathBuf>,
     records: Option<Records>,
-    /// Of the current file, by its ids.
+    /// Schemas and channels of the current file, by their ids.
     schemas: HashMap<u16, RecordedSchema>,
     channel_ids: HashMap<u16, Origin>,
     channels: Vec<RecordedChannel>,
@@ -38,7 +38,7 @@ pub struct Messages {
     ready: VecDeque<RecordedMessage>,
 }
 
-/// Who recorded a channel, as an index into the channels of SCL or the topics of others.
+/// Whether SCL or another program recorded a channel, with the index in `channels` or `others`.
 #[derive(Debug, Clone, Copy)]
 enum Origin {
     Scl(usize),
@@ -47,9 +47,9 @@ enum Origin {
 
 /// Why a record cannot be used.
 enum Fault {
-    /// Other records may be sound.
+    /// The record is damaged; others may be sound.
     Damaged(String),
-    /// It cannot be read.
+    /// The record cannot be read, although it may be sound.
     Unusable(String),
 }
 
@@ -158,7 +158,7 @@ impl Messages {
     }
 }
 
-/// Index of the first element that `is_it`, which is added if there is none.
+/// Returns the index of the first element for which `is_it` returns true; adds `new()` if there is none.
 fn index_of<T>(all: &mut Vec<T>, is_it: impl Fn(&T) -> bool, new: impl FnOnce() -> T) -> usize {
     all.iter().position(is_it).unwrap_or_else(|| {
         all.push(new());

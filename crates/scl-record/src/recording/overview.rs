@@ -9,10 +9,10 @@ use scl_terminal::Problem;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The beginning of a chunk, which has the times of its messages.
+/// Length of the beginning of a chunk, which has the times of its messages.
 const CHUNK_TIMES: u64 = 16;
 
-/// A file that was recorded beside the messages.
+/// A file attached to a recording.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Attachment {
     pub name: String,

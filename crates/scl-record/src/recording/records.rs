@@ -8,17 +8,17 @@ use std::path::{Path, PathBuf};
 
 /// Opcode and length.
 const HEADER: u64 = 1 + 8;
-/// What is skipped without seeking: it is in the buffer, most likely.
+/// Shorter distances are skipped within the buffer, which most likely contains the bytes.
 const NEAR: u64 = 64 << 10;
 
-/// Goes over the records of a file without knowing what they mean.
+/// Walks over the records of a file without interpreting them.
 #[derive(Debug)]
 pub(crate) struct Records {
     path: PathBuf,
     file: BufReader<File>,
     /// Where the next record begins.
     offset: u64,
-    /// Of the current record: bytes that were not read yet.
+    /// Bytes of the current record that were not read yet.
     unread: u64,
     size: u64,
 }
@@ -29,7 +29,7 @@ pub(crate) struct RecordHeader {
     pub(crate) opcode: u8,
     /// Where the record begins in the file.
     pub(crate) offset: u64,
-    /// Length of its content, also where the file has less of it.
+    /// Length of its content according to the header, even if the file ends before.
     pub(crate) length: u64,
     /// Whether the file ends before the record does.
     pub(crate) is_cut: bool,
@@ -61,7 +61,7 @@ impl Records {
         Ok(Self::new(path, file, magic.len() as u64, metadata.len()))
     }
 
-    /// The records of a file of this size, whose first bytes were read.
+    /// The records of a file of this size, whose first `offset` bytes were read already.
     pub(crate) fn new(path: &Path, file: File, offset: u64, size: u64) -> Self {
         Self { path: path.to_owned(), file: BufReader::new(file), offset, unread: 0, size }
     }
@@ -117,7 +117,7 @@ impl Records {
         skipped.map_err(|error| unreadable(&self.path, &error))
     }
 
-    /// `None` if the file has become shorter.
+    /// Fills the buffer; `None` if the file has become shorter.
     fn read_exact(&mut self, buffer: &mut [u8]) -> Result<Option<()>, Problem> {
         match self.file.read_exact(buffer) {
             Ok(()) => Ok(Some(())),

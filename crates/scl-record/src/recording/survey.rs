@@ -6,10 +6,10 @@ use scl_terminal::{Problem, escape};
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-/// How many notes there are of each sort.
+/// Maximum number of notes of each kind.
 const NAMED: usize = 5;
 
-/// A gap in the messages that is noted, in nanoseconds.
+/// Shortest gap between messages that is noted, in nanoseconds.
 const LONG: u64 = 60_000_000_000;
 
 /// What a recording contains.
@@ -29,10 +29,10 @@ pub struct Survey {
     pub gaps: Vec<Interval>,
 }
 
-/// A time in a recording.
+/// A span of time in a recording.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Interval {
-    /// Its beginning, since that of the recording.
+    /// When it begins, counted from the beginning of the recording.
     pub from: Duration,
     pub length: Duration,
 }
@@ -100,7 +100,7 @@ impl Survey {
     }
 }
 
-/// The first notes of a sort, and how many there are beside them.
+/// Returns the first notes of a kind, and a note with the number of the others.
 fn first_few(mut notes: impl ExactSizeIterator<Item = String>) -> impl Iterator<Item = String> {
     let more = notes.len().saturating_sub(NAMED);
     let first: Vec<_> = notes.by_ref().take(NAMED).collect();

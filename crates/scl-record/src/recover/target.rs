@@ -15,10 +15,10 @@ use tempfile::NamedTempFile;
 /// Uncompressed size of a chunk.
 const CHUNK: u64 = 1 << 20;
 
-/// Records of other programs have this opcode or a greater one.
+/// Lowest opcode of private records, which other programs define.
 const PRIVATE: u8 = 0x80;
 
-/// A file that takes the place of another one, or none if it is not published.
+/// A new file that appears at `path` only when it is published.
 pub(super) struct Target {
     path: PathBuf,
     /// Beside `path`; removed unless it is published.
@@ -46,7 +46,8 @@ impl Target {
         self.messages
     }
 
-    /// Adds a record of the old file; returns false if it cannot be understood. Records of the index are made anew.
+    /// Copies a record of the old file; returns false if the record cannot be parsed or does not fit the others.
+    /// Records of the index are skipped, because the index is written anew.
     pub(super) fn add_record(&mut self, opcode: u8, body: &[u8]) -> McapResult<bool> {
         let Some(record) = parse(opcode, body) else { return Ok(false) };
         if let Record::Header(header) = record {
@@ -106,7 +107,7 @@ impl Target {
         Ok(())
     }
 
-    /// Gives the file its name, after the file with this name got another one, which is returned.
+    /// Gives the file its name, and keeps the old file under another name, which is returned.
     pub(super) fn publish_keeping_old(self) -> Result<PathBuf, Problem> {
         let mut kept = self.path.clone().into_os_string();
         kept.push(".bak");
@@ -120,7 +121,7 @@ impl Target {
         Ok(kept)
     }
 
-    /// Gives the file its name, with its content safely on the disk.
+    /// Writes the content through to the disk, then gives the file its name.
     pub(super) fn publish(self) -> Result<(), Problem> {
         let Self { path, file, output, .. } = self;
         let written = output.map_or(Ok(()), |writer| writer.into_inner().into_inner().flush());

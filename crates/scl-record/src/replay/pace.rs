@@ -13,11 +13,11 @@ use std::time::{Duration, Instant};
 pub(super) struct Pace {
     rate: Rate,
     timer: Timer,
-    /// From where the times of the replay count.
+    /// The time from which the times of the replay count.
     epoch: Instant,
-    /// A time of the recording, and the time of the replay that belongs to it.
+    /// A time of the recording, and the corresponding time of the replay.
     base: Option<(u64, Duration)>,
-    /// The longest time of the recording between two messages that wait; of longer ones, the rest is skipped.
+    /// Maximum time between two messages, in nanoseconds of the recording; the rest of a longer gap is skipped.
     max_gap: Option<u64>,
     latest: Option<u64>,
     skipped: u64,
@@ -26,7 +26,7 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    /// Needs a tokio runtime.
+    /// Must be called inside a tokio runtime.
     ///
     /// # Errors
     /// The process has no file descriptor left.
@@ -37,7 +37,7 @@ impl Pace {
         Ok(Self { rate, timer, epoch, base: None, max_gap, latest: None, skipped: 0, lateness })
     }
 
-    /// Begins now, with this time of the recording, or with the first message.
+    /// Begins now, at the time `origin` of the recording; if that is `None`, begins with the first message.
     pub(super) fn begin(&mut self, origin: Option<u64>) {
         self.base = origin.map(|origin| (origin, self.epoch.elapsed()));
         (self.latest, self.skipped) = (origin, 0);
@@ -60,7 +60,7 @@ impl Pace {
         Ok(())
     }
 
-    /// Waits until a time of the replay, exact to the operating system's timer.
+    /// Waits until a time of the replay, with the precision of the operating system's timer.
     async fn wait_until(&mut self, time: Duration) -> io::Result<()> {
         loop {
             let left = time.saturating_sub(self.epoch.elapsed());
@@ -79,7 +79,7 @@ impl Pace {
         time.saturating_sub(self.skipped)
     }
 
-    /// How exact it was; `None` if messages had no time.
+    /// How late messages were sent; `None` for [`Rate::Max`], at which messages have no due time.
     pub(super) fn late(&self) -> Option<Late> {
         let time = |nanoseconds: i64| Duration::from_nanos(nanoseconds.unsigned_abs());
         let late = self.lateness.spread().map(|it| Late { p50: time(it.p50), p99: time(it.p99), max: time(it.max) });

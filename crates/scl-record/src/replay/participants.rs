@@ -7,7 +7,7 @@ use scl_observe::problem_of;
 use scl_plan::{ConnectionPlan, GatePlan, Plan, SystemPlan};
 use scl_terminal::{Problem, named_system, quoted_list};
 
-/// Who takes part in a replay.
+/// The components that take part in a replay.
 #[derive(Debug)]
 pub(super) struct Participants {
     /// The name of the system in which the replay takes place.
@@ -76,7 +76,8 @@ impl Participants {
     }
 }
 
-/// Compares one connection with what the running peer announces. Without this, both ends would wait for each other.
+/// Checks that the running peer of a connection announces the recorded contract. With different contracts, both ends
+/// would wait for each other.
 fn check_contract(dir: &SystemDir, plan: &Plan, gate: &GatePlan, connection: &ConnectionPlan) -> Result<(), Problem> {
     let ConnectionPlan { peer_component, peer_gate, contract, .. } = connection;
     if !matches!(dir.state(peer_component), ComponentState::Running(_)) {

@@ -17,13 +17,13 @@ use std::time::{Duration, Instant};
 use tokio::sync::{mpsc, oneshot};
 use tokio::task::JoinHandle;
 
-/// How many requests may wait for their turn at a gate, which has one at a time on its way.
+/// Maximum number of requests queued at a gate, which has one request in flight at a time.
 const WAITING_REQUESTS: usize = 1024;
-/// How long running peers may take for what was sent, at the end of a replay that is not lossless.
+/// How long running peers may take to receive what was sent, at the end of a replay that is not lossless.
 const LINGER: Duration = Duration::from_secs(2);
 /// The same after a stop request.
 const SHORT_LINGER: Duration = Duration::from_millis(300);
-/// How much of a request a note shows.
+/// Maximum width of a request in a note.
 const SHOWN: usize = 60;
 /// A lossless replay waits for slow peers, however long they need.
 const NO_LIMIT: Duration = Duration::from_secs(30 * 86_400);
@@ -50,14 +50,14 @@ enum SendingGate {
 /// A request for the task of its gate.
 struct Call {
     request: Bytes,
-    /// Told when it was answered, or will not be.
+    /// Completes when the request was answered, or has failed.
     done: Option<oneshot::Sender<()>>,
 }
 
 #[derive(Default)]
 struct AnswerCounts {
     answered: AtomicU64,
-    /// Those of them that are replies to other requests.
+    /// Requests that were never recorded, and got the oldest reply left.
     in_order: AtomicU64,
     unanswered: AtomicU64,
 }
@@ -111,14 +111,14 @@ impl Players {
         Ok(())
     }
 
-    /// Sends a message, or a request, for which a lossless replay waits until it is answered. Returns why a message
-    /// cannot be sent at all: it was recorded from a program of another library, and receivers would refuse it.
+    /// Sends a message or a request; a lossless replay waits until a request is answered. Returns the reason if a
+    /// message cannot be sent at all: it was recorded from a program of another library, and receivers would refuse it.
     ///
     /// # Errors
     /// The message is too long for a peer.
     ///
     /// # Cancel safety
-    /// The message is sent or not.
+    /// If the future is dropped, the message may or may not have been sent.
     pub(super) async fn send(&mut self, gate: &GateId, message: &Bytes) -> Result<Option<String>, Problem> {
         let sent = match self.senders.get_mut(gate) {
             Some(SendingGate::Pub(gate)) => gate.send(message).await,
@@ -142,12 +142,12 @@ impl Players {
         }
     }
 
-    /// Whether a played replier has recorded replies.
+    /// Whether a played component has a `rep` gate.
     pub(super) fn answers(&self) -> bool {
         !self.answering.is_empty()
     }
 
-    /// By requesting gate (`user_interface.commands`), the number of replies that it has received; it goes on counting.
+    /// The number of replies received, by requesting gate (`user_interface.commands`). The counters continue to count.
     pub(super) fn replies(&self) -> HashMap<String, Arc<AtomicU64>> {
         let replies = self.senders.iter().filter_map(|((component, gate), sender)| match sender {
             SendingGate::Req { replies, .. } => Some((format!("{component}.{gate}"), Arc::clone(replies))),
@@ -156,7 +156,8 @@ impl Players {
         replies.collect()
     }
 
-    /// Hands over what is left and closes the components. Returns what peers have not taken, and what was answered.
+    /// Delivers pending messages and closes the components. Returns the messages that peers have not taken, and the
+    /// counts of answered requests.
     pub(super) async fn close(mut self, was_stopped: bool) -> (Vec<NotTaken>, Vec<AnswerReport>) {
         let mut not_taken = self.dropped();
         self.senders.clear();
@@ -284,7 +285,7 @@ async fn call(mut gate: Req<Bytes, Bytes>, mut calls: mpsc::Receiver<Call>, repl
     }
 }
 
-/// Answers requests with what was recorded; without a recorded request there are no answers.
+/// Answers requests with the recorded replies; `answers` is `None` if no request was recorded.
 async fn answer(mut gate: Rep<Bytes, Bytes>, name: String, mut answers: Option<Answers>, counts: Arc<AnswerCounts>) {
     while let Ok(request) = gate.recv().await {
         let answer = answers.as_mut().map_or(Answer::Missing, |answers| answers.answer(request.message()));

@@ -18,7 +18,7 @@ pub struct ReplayReport {
     pub not_taken: Vec<NotTaken>,
     /// Requests of other components to played repliers.
     pub answers: Vec<AnswerReport>,
-    /// By how much messages were sent later than they should; `None` for `--rate max`.
+    /// How late messages were sent; `None` for `--rate max`.
     pub late: Option<Late>,
 }
 
@@ -35,7 +35,7 @@ pub struct GateReport {
     pub replies: Option<u64>,
     /// Messages that were not sent.
     pub skipped: u64,
-    /// Why they were not.
+    /// Why they were not sent.
     #[serde(serialize_with = "unless_empty")]
     pub reason: String,
 }
@@ -46,7 +46,7 @@ pub struct NotTaken {
     pub gate: String,
     pub peer: String,
     pub messages: u64,
-    /// Whether the peer was not there at the end.
+    /// Whether the peer was absent at the end.
     #[serde(skip)]
     pub was_absent: bool,
     /// Why: `its queue was full`.
@@ -58,13 +58,13 @@ pub struct NotTaken {
 pub struct AnswerReport {
     pub gate: String,
     pub answered: u64,
-    /// Those of them that were never recorded, and got the oldest replies left.
+    /// Requests that were never recorded, and got the oldest replies left.
     pub in_order: u64,
     /// Requests for which the recording has no reply.
     pub unanswered: u64,
 }
 
-/// Delays of messages.
+/// How late messages were sent: median, 99th percentile and maximum.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Late {
     pub p50: Duration,
@@ -78,12 +78,12 @@ impl ReplayReport {
         self.gates.iter().map(|gate| gate.sent).sum()
     }
 
-    /// Whether a peer that took part to the end has not taken everything.
+    /// Whether a peer that was present to the end has not taken all messages.
     pub fn is_incomplete(&self) -> bool {
         self.not_taken.iter().any(|left| !left.was_absent)
     }
 
-    /// One line per gate.
+    /// Returns the report as text, with one line per gate.
     pub fn to_text(&self) -> String {
         let sent = self.sent();
         let ended = if self.was_stopped { "stopped: " } else { "" };
@@ -117,7 +117,7 @@ impl ReplayReport {
         text
     }
 
-    /// One JSON object.
+    /// Returns the report as one JSON object.
     pub fn to_json(&self) -> Value {
         let micros = |time: Duration| time.as_secs_f64() * 1e6;
         json!({
@@ -134,7 +134,7 @@ impl ReplayReport {
     }
 }
 
-/// In JSON, an empty text is `null`.
+/// Serializes an empty text as `null`.
 fn unless_empty<S: Serializer>(text: &str, output: S) -> Result<S::Ok, S::Error> {
     Some(text).filter(|text| !text.is_empty()).serialize(output)
 }

@@ -19,8 +19,9 @@ pub(super) enum Route {
 
 /// Finds the gate that sent the messages of a channel.
 ///
-/// A tap records what a gate publishes, pulls or is asked. Pushers and requesters are found by the plan: if a gate has
-/// several, a recording does not say which of them sent a message, so they can only be played together.
+/// A tap records what a gate publishes or pulls, or the requests that it receives. Pushers and requesters are found by
+/// the plan: if a gate has several, a recording does not say which of them sent a message, so they can only be played
+/// together.
 ///
 /// # Errors
 /// The recorded contract is not that of the plan, or the plan has no such gate.

@@ -6,17 +6,17 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use tokio::sync::mpsc;
 
-/// Messages arrive at the recorder in almost the order in which they were sent. This is how late one may be, in
-/// nanoseconds, to be put in its place. On a busy machine a recorder that could not run for a second reads the backlog
-/// of one gate after that of another.
+/// Messages arrive at the recorder in almost the order in which they were sent. A message that is late by no more than
+/// this, in nanoseconds, is still put in order. On a busy machine, a recorder that could not run for a second reads the
+/// backlog of one gate after that of another.
 const WINDOW: u64 = 2_000_000_000;
-/// The most messages and bytes that are held to be put in order.
+/// Maximum number of messages and bytes held to be put in order.
 const MOST_MESSAGES: usize = 65_536;
 const MOST_BYTES: usize = 16 << 20;
-/// How much is given to the player at once.
+/// Size of a batch in messages and bytes.
 const BATCH_MESSAGES: usize = 256;
 const BATCH_BYTES: usize = 256 << 10;
-/// How many of those are read ahead.
+/// Number of batches read ahead.
 const AHEAD: usize = 4;
 
 /// A part of the timeline.
@@ -30,8 +30,8 @@ pub(super) struct Batch {
 /// A message and its time.
 #[derive(Debug)]
 pub(super) struct Timed {
-    /// Nanoseconds since 1970, as if the clock had not been set back. Never less than that of the message before, of
-    /// the same channel.
+    /// Nanoseconds since 1970, as if the clock had not been set back. Never less than the time of the previous message
+    /// of the same channel.
     pub(super) time: u64,
     pub(super) message: RecordedMessage,
 }
@@ -60,13 +60,13 @@ struct Timeline {
     messages: Messages,
     clock: Clock,
     span: Range<u64>,
-    /// By time, then by place in the file.
+    /// The messages held to be put in order, by time, then by place in the recording.
     held: BTreeMap<(u64, u64), RecordedMessage>,
     held_bytes: usize,
     /// Number of messages read, and the latest time at which the recorder received one.
     read: u64,
     received: u64,
-    /// Of each channel, the time of its latest message.
+    /// For each channel, the time of its latest message.
     latest: Vec<u64>,
     channels_given: usize,
     is_at_end: bool,
@@ -77,7 +77,7 @@ impl Timeline {
         Self { messages: recording.messages(), span, ..Self::default() }
     }
 
-    /// Empty at the end.
+    /// Returns the next batch, which is empty at the end.
     fn next_batch(&mut self) -> Result<Batch, Problem> {
         let mut batch = Batch::default();
         let mut bytes = 0;
@@ -126,7 +126,7 @@ impl Timeline {
         self.held.insert((time, self.read), message);
     }
 
-    /// Returns true if no message with an earlier time is expected.
+    /// Returns true if no message with an earlier time than the first held one is expected, or no more can be held.
     fn is_first_in_place(&self) -> bool {
         let is_full = self.held.len() >= MOST_MESSAGES || self.held_bytes >= MOST_BYTES;
         let is_old = |time: &u64| time.saturating_add(WINDOW) < self.received;

@@ -1,4 +1,4 @@
-//! What `cargo metadata` says: the default program of a package, and where programs are that were built before.
+//! Reads `cargo metadata`: the default program of a package, and the paths of programs that were built earlier.
 
 use super::super::program::Program;
 use super::artifacts::Artifact;
@@ -34,11 +34,11 @@ pub(super) fn default_run_of(manifest: &Path) -> Option<String> {
     packages.into_iter().find(|package| package.manifest_path == manifest)?.default_run
 }
 
-/// Where the programs of a `cargo build` are, without building them.
+/// Returns the programs that a `cargo build` makes, without running it: their paths are those of an earlier build.
 ///
 /// # Errors
 ///
-/// If cargo cannot say.
+/// If `cargo metadata` fails.
 pub(crate) fn built_before(build: &Program) -> Result<Vec<Artifact>, Problem> {
     let words: Vec<String> = build.command.iter().map(|word| word.to_string_lossy().into_owned()).collect();
     let value = |names: &[&str]| {

@@ -1,4 +1,4 @@
-//! The words of `cargo run`: what is built, and the arguments of the program.
+//! Parses `cargo run` commands: what to build, and the arguments of the program.
 
 use super::Target;
 use std::path::Path;
@@ -28,7 +28,7 @@ const WITH_VALUE: [&str; 16] = [
 pub(crate) struct CargoRun {
     /// `cargo build` with the options of the command, without those that choose the program.
     pub(crate) build: Vec<String>,
-    /// The program, as `cargo build` is told.
+    /// The options of `cargo build` that choose the program, such as `--bin sensor`; may be empty.
     pub(crate) choice: Vec<String>,
     pub(crate) target: Target,
     /// The arguments of the program.
@@ -36,7 +36,7 @@ pub(crate) struct CargoRun {
 }
 
 impl CargoRun {
-    /// Reads a command; `None` if it is another one, or prints cargo's own messages.
+    /// Parses a command. Returns `None` if it is not `cargo run`, chooses several programs, or sets `--message-format`.
     pub(crate) fn parse(words: &[String]) -> Option<Self> {
         let (cargo, rest) = words.split_first()?;
         if Path::new(cargo).file_name()? != "cargo" {

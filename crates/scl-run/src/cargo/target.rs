@@ -1,11 +1,11 @@
-//! Which of the programs that cargo has built is meant.
+//! Finds the program to run among those that cargo has built.
 
 use super::artifacts::Artifact;
 use super::metadata::default_run_of;
 use scl_terminal::{Problem, quoted_list};
 use std::path::Path;
 
-/// Which of the programs of a build is meant.
+/// Which of the programs of a build to run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Target {
     /// The only one, or the `default-run` of its package.
@@ -17,16 +17,16 @@ pub(crate) enum Target {
     OfComponent(String),
 }
 
-/// The program that is meant.
+/// Returns the program that `target` selects.
 ///
 /// # Errors
 ///
-/// If there is none, or more than one.
+/// If no program matches, or more than one.
 pub(crate) fn find<'a>(artifacts: &'a [Artifact], target: &Target, component: &str) -> Result<&'a Artifact, Problem> {
     find_by(artifacts, target, component, default_run_of)
 }
 
-/// The same; `default_run` returns the name that a package's manifest prefers.
+/// Like [`find`]; `default_run` returns the `default-run` of a manifest.
 fn find_by<'a>(
     artifacts: &'a [Artifact],
     target: &Target,

@@ -16,9 +16,9 @@ pub struct ControlOptions<'a> {
     pub components: &'a [String],
     /// The system, if the user named one.
     pub system: Option<&'a str>,
-    /// The system of the working folder, asked for only if several run.
+    /// Returns the system of the working folder. Called only if no system is named, and none or several are running.
     pub here: &'a dyn Fn() -> Option<String>,
-    /// The topology file of the working folder, if its system is called like the file for want of another name.
+    /// Returns the topology file of the working folder, if its system is named after the file.
     pub named_after_here: &'a dyn Fn() -> Option<PathBuf>,
     /// Whether a restart builds first.
     pub build: bool,
@@ -27,7 +27,7 @@ pub struct ControlOptions<'a> {
 /// What was done.
 #[derive(Debug, Default)]
 pub struct Done {
-    /// How each component is afterwards, in the order of the runs.
+    /// The state of each component after the request, in the order of the runs.
     pub components: Vec<ComponentReport>,
     /// Why not everything was done.
     pub problems: Vec<Problem>,
@@ -40,7 +40,7 @@ struct Answering {
     components: Vec<ComponentReport>,
 }
 
-/// Does it.
+/// Stops or restarts components, and waits until that is done.
 ///
 /// # Errors
 ///
@@ -107,7 +107,7 @@ pub fn ask(options: &ControlOptions<'_>) -> Result<Done, Vec<Problem>> {
     if done.components.is_empty() && !done.problems.is_empty() { Err(done.problems) } else { Ok(done) }
 }
 
-/// Builds what the components are started from, in their old processes' place only if all of it succeeds.
+/// Runs the builds of the components to restart. The old processes are replaced only if all builds succeed.
 fn build(requests: &[(ControlledRun, Request)]) -> Result<(), Problem> {
     for (run, request) in requests {
         let question = Request { command: Command::Builds, ..request.clone() };
@@ -120,7 +120,8 @@ fn build(requests: &[(ControlledRun, Request)]) -> Result<(), Problem> {
     Ok(())
 }
 
-/// Asks each run how its components are. One that ends at this moment runs nothing.
+/// Asks each run for the states of its components. Runs that end before they answer are left out; other failures are
+/// added to `problems`.
 fn list(runs: Vec<ControlledRun>, problems: &mut Vec<Problem>) -> Vec<Answering> {
     let mut answering = Vec::new();
     for run in runs {
@@ -135,8 +136,8 @@ fn list(runs: Vec<ControlledRun>, problems: &mut Vec<Problem>) -> Vec<Answering>
     answering
 }
 
-/// The components that a stop of everything did not stop, because they run without `scl run`. Those of other hosts,
-/// which a gateway only shows here, do not run here.
+/// Returns a problem for each component that runs without `scl run`, and therefore is not stopped with all others.
+/// Components of other hosts, which a gateway only mirrors here, are left out.
 fn still_running(folder: &SystemDir) -> Vec<Problem> {
     let is_here = |name: &String| Announcement::read(folder, name).is_none_or(|it| it.host.is_none());
     let names = folder.components().unwrap_or_default().into_iter().filter(is_here);
@@ -155,7 +156,7 @@ fn without_run(name: &str, holder: ComponentProcess, command: Command) -> Proble
     }
 }
 
-/// Which run is asked for what.
+/// Decides which request each run gets.
 fn assign(
     options: &ControlOptions<'_>,
     runs: Vec<Answering>,
@@ -183,7 +184,7 @@ fn assign(
     Ok(asked.map(|(it, names)| (it.run, Request::new(options.command, names))).collect())
 }
 
-/// The run that has a component: one where it has a process, if any.
+/// Returns the index of a run that has the component, preferably one in which the component has a process.
 fn run_of(name: &str, runs: &[Answering]) -> Option<usize> {
     let report = |run: &Answering| run.components.iter().find(|it| it.component == name).cloned();
     let having = runs.iter().enumerate().filter_map(|(index, run)| Some((index, report(run)?)));
@@ -203,7 +204,7 @@ fn not_run(options: &ControlOptions<'_>, name: &str, runs: &[Answering], folder:
     problem.note(format!("it has the components {}", quoted_list(names)))
 }
 
-/// The folder of the user's session, if it is the one to look in and was removed, as at a logout.
+/// Returns the folder of the user's session if sockets are looked for there, but it does not exist, as after a logout.
 fn missing_session() -> Option<PathBuf> {
     let variable = |name| std::env::var_os(name).filter(|value| !value.is_empty());
     let session = variable("XDG_RUNTIME_DIR").filter(|_| variable("SCL_RUNTIME_DIR").is_none());

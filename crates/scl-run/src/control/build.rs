@@ -1,4 +1,5 @@
-//! The builds of `scl restart`: by the command that was given, on its terminal, while the old processes run on.
+//! The builds of `scl restart`. The command runs them itself, on its own terminal, while the old processes keep
+//! running.
 
 use super::super::ending::Ending;
 use super::super::orphan_guard::bound_command;
@@ -10,7 +11,7 @@ use std::io;
 use std::os::fd::AsFd;
 use std::process::{ExitStatus, Stdio};
 
-/// Runs a build. What it prints goes to standard error.
+/// Runs a build. Its output goes to standard error.
 ///
 /// # Errors
 ///

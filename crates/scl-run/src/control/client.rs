@@ -1,4 +1,4 @@
-//! The other side of the control socket: finds every `scl run` and asks it.
+//! The client side of the control socket: finds every `scl run` and sends it requests.
 
 use super::super::own_file::{connect, process_of, sockets_in};
 use super::super::process_stat::ProcessStat;
@@ -11,13 +11,13 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How long a `scl run` that lives may take to say how its components are. It answers at once unless it hangs.
+/// How long a running `scl run` may take to report the states of its components. It answers at once unless it hangs.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// How often it is looked at meanwhile.
+/// Interval at which the process is checked while its answer is pending.
 const LOOK: Duration = Duration::from_millis(500);
 
-/// How often a request is sent again that the other side has dropped for other clients.
+/// Maximum number of attempts to send a request: a `scl run` with too many silent clients disconnects the oldest.
 const ATTEMPTS: usize = 3;
 
 /// A `scl run` that can be asked.
@@ -25,7 +25,7 @@ const ATTEMPTS: usize = 3;
 pub struct ControlledRun {
     /// The system whose components it runs.
     pub system: String,
-    /// Its process.
+    /// Its process id.
     pub process: u32,
     socket: PathBuf,
 }
@@ -44,7 +44,8 @@ pub enum NoAnswer {
     Io(io::Error),
 }
 
-/// Every `scl run` whose socket is in a folder of a system below the runtime folder; only those of `system`, if given.
+/// Returns every `scl run` that is reachable by a socket in a system's folder below the runtime folder, or only those
+/// of `system` if it is given.
 pub fn find_runs(runtime_folder: &Path, system: Option<&str>) -> Vec<ControlledRun> {
     let folders = fs::read_dir(runtime_folder).into_iter().flatten().flatten();
     let names = folders.filter_map(|entry| entry.file_name().into_string().ok());
@@ -64,11 +65,11 @@ pub fn find_runs(runtime_folder: &Path, system: Option<&str>) -> Vec<ControlledR
 }
 
 impl ControlledRun {
-    /// Sends a request and waits for its response, as long as the `scl run` lives and is not stopped.
+    /// Sends a request and waits for its response. Gives up if the `scl run` ends, is stopped, or hangs.
     ///
     /// # Errors
     ///
-    /// [`NoAnswer`].
+    /// [`NoAnswer`] gives the reason.
     pub fn ask(&self, request: &Request) -> Result<Response, NoAnswer> {
         let line = serde_json::to_string(request).map_err(|error| NoAnswer::Io(error.into()))?;
         let mut answered = self.try_ask(request.command, &line);
@@ -80,7 +81,7 @@ impl ControlledRun {
         answered
     }
 
-    /// The problem of a missing answer.
+    /// Returns the problem that reports a missing answer.
     pub(crate) fn problem(&self, error: &NoAnswer) -> Problem {
         let process = self.process;
         let kill = format!("end it and its programs: `kill -KILL {process}`");
@@ -97,8 +98,8 @@ impl ControlledRun {
         }
     }
 
-    /// The problem if it runs the system of one topology file, where that of another is meant, and one can be taken for
-    /// the other, because neither was given a name.
+    /// Returns a problem if this run belongs to the topology file `running`, but the user means `meant`. Either is
+    /// `None` if its system has a name of its own, so that the two cannot be confused.
     pub(crate) fn other_system(&self, running: Option<&Path>, meant: Option<&Path>) -> Option<Problem> {
         let (running, meant) = running.zip(meant).filter(|(running, meant)| running != meant)?;
         let (running, meant, process) = (running.display(), meant.display(), self.process);
@@ -145,8 +146,8 @@ impl ControlledRun {
         }
     }
 
-    /// Looks whether an answer may still come: a stop takes as long as the programs take, but how they are is known at
-    /// once.
+    /// Checks whether an answer may still come. A stop takes as long as the programs take, but a [`Command::List`] is
+    /// answered at once.
     fn look(&self, command: Command, began: Instant) -> Result<(), NoAnswer> {
         // A process that is stopped by a signal or a debugger cannot answer.
         let stat = Pid::from_raw(self.process.cast_signed()).and_then(ProcessStat::of);

@@ -26,9 +26,9 @@ pub struct Request {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Command {
-    /// Say how the components are.
+    /// Report the states of the components.
     List,
-    /// Say what builds the programs of components.
+    /// Report the builds that make the programs of components.
     Builds,
     /// Stop components. The response comes when they have ended. Without names the run ends too.
     Stop,
@@ -48,11 +48,11 @@ pub struct Response {
     /// The components that were asked for.
     #[serde(default)]
     pub components: Vec<ComponentReport>,
-    /// The topology file that the system is named after, unless it has a name of its own. Another system may have the
-    /// same name then.
+    /// The topology file that the system is named after; `None` if the system has a name of its own. A system that is
+    /// named after another file may have the same name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub named_after: Option<PathBuf>,
-    /// What builds the programs of the components, in this order, for [`Command::Builds`].
+    /// The builds of the components, in the order in which to run them; only for [`Command::Builds`].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub builds: Vec<BuildCommand>,
 }
@@ -60,9 +60,9 @@ pub struct Response {
 /// A build as `scl run` runs it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct BuildCommand {
-    /// Whose programs it makes, for messages.
+    /// The components whose programs it makes, for messages.
     pub owner: String,
-    /// How it is written, for messages.
+    /// The command as one text, for messages.
     pub shown: String,
     /// The command and its arguments.
     pub command: Vec<String>,
@@ -72,13 +72,13 @@ pub struct BuildCommand {
     pub environment: BTreeMap<String, String>,
 }
 
-/// How a component is, after the request.
+/// The state of a component after the request.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ComponentReport {
     /// The component.
     pub component: String,
-    /// `starting`, `running`, `ready`, `waiting` (for its restart), `stopping`, `stopped` (on request), `ended` (in
-    /// order) or `failed`.
+    /// `starting`, `running`, `ready`, `waiting` (for its restart), `stopping`, `stopped` (on request), `ended`
+    /// (successfully) or `failed`.
     pub state: String,
     /// Whether the request was fulfilled.
     pub done: bool,
@@ -91,7 +91,7 @@ pub struct ComponentReport {
 }
 
 impl BuildCommand {
-    /// The build, in the environment of this process.
+    /// Describes a build, with the environment of this process.
     pub(crate) fn of(build: &Build) -> Self {
         // JSON cannot represent variables that are not UTF-8. Builds do not inherit the component that this process
         // runs as.
@@ -109,16 +109,16 @@ impl BuildCommand {
 }
 
 impl Request {
-    /// A request of this version; about all components if none is named.
+    /// Creates a request of this version; it is about all components if `components` is empty.
     pub fn new(command: Command, components: Vec<String>) -> Self {
         Self { version: VERSION, command, components }
     }
 
-    /// Reads a line.
+    /// Parses a line.
     ///
     /// # Errors
     ///
-    /// A text for the client.
+    /// If the line is not a request of this version, with a text for the client.
     pub fn parse(line: &str) -> Result<Self, String> {
         let request: Self = serde_json::from_str(line).map_err(|error| format!("not a request: {error}"))?;
         match request.version {

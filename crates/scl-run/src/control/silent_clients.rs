@@ -1,5 +1,5 @@
-//! The clients of the control socket that have not sent a request yet. A new client always gets a place: the oldest of
-//! them is disconnected for it, so that clients that say nothing do not keep others out.
+//! The clients of the control socket that have not sent a request yet. A new client is always accepted: if there are
+//! too many, the oldest is disconnected, so that idle clients cannot lock others out.
 
 use super::super::lock::lock;
 use std::collections::VecDeque;
@@ -7,7 +7,7 @@ use std::net::Shutdown;
 use std::os::unix::net::UnixStream;
 use std::sync::{Arc, Mutex};
 
-/// How many there may be. A client usually sends its request as soon as it is connected.
+/// Maximum number of silent clients. A client usually sends its request as soon as it is connected.
 const MOST: usize = 32;
 
 /// The silent clients, oldest first.
@@ -27,7 +27,7 @@ impl SilentClients {
         }
     }
 
-    /// Takes a client out that has sent its request or has gone.
+    /// Removes a client that has sent its request or disconnected.
     pub(super) fn remove(&self, client: &Arc<UnixStream>) {
         lock(&self.0).retain(|other| !Arc::ptr_eq(other, client));
     }

@@ -1,10 +1,10 @@
-//! What the rules about YAML need to know of launch files.
+//! What the rules about YAML need to know about launch files.
 
 use super::keys::{self, Form, Key};
 use super::reader::Reader;
 use scl_topology::parse::Dialect;
 
-/// Launch files.
+/// The dialect of launch files.
 pub(super) static LAUNCH: Dialect = Dialect {
     noun: "launch file",
     minimal: "components:\n  sensor:\n    command: ./sensor",

@@ -1,4 +1,4 @@
-//! A launch file as text with places: what is wrong with it, and where.
+//! A launch file as YAML with places: reports its mistakes, and where they are.
 
 use super::LaunchFile;
 use super::dialect::LAUNCH;
@@ -11,12 +11,12 @@ use scl_topology::parse::{Document, read_document};
 use scl_topology::source::{FileId, SourceFile, Sources};
 use scl_topology::yaml::Node;
 
-/// The text of a launch file as values.
+/// The YAML of a launch file, parsed.
 pub(crate) struct LaunchDocument {
     pub(super) sources: Sources,
     file: FileId,
     document: Document,
-    /// What is wrong with the text.
+    /// The problems that were found while the YAML was parsed.
     found: Vec<Diagnostic>,
 }
 
@@ -34,7 +34,7 @@ impl LaunchDocument {
         Self { sources, file, document, found: problems.into_sorted() }
     }
 
-    /// The topology file that the launch file names. One that is not a path is reported by [`read`](Self::read).
+    /// The topology file that the launch file names. [`read`](Self::read) reports a value that is not a path.
     fn topology(&self) -> Option<(&str, &Node)> {
         let mut entries = self.document.root.as_ref()?.entries()?.iter();
         let (_, value) = entries.find(|(key, _)| key.text() == Some("topology"))?;
@@ -42,16 +42,16 @@ impl LaunchDocument {
         Some((path, value))
     }
 
-    /// The topology file that the launch file names, and where it does.
+    /// The topology file that the launch file names, and the place where it is named.
     pub(crate) fn topology_with_place(&self) -> Option<(&str, String)> {
         self.topology().map(|(path, value)| (path, self.source().place(value.span)))
     }
 
-    /// Checks that the text can be read to its end.
+    /// Checks that all of the text could be parsed.
     ///
     /// # Errors
     ///
-    /// What is wrong with it.
+    /// The problems in the text.
     pub(crate) fn check_text(&self) -> Result<(), Vec<Problem>> {
         if self.document.is_partial { Err(self.problems(&self.found)) } else { Ok(()) }
     }
@@ -60,8 +60,8 @@ impl LaunchDocument {
     ///
     /// # Errors
     ///
-    /// Every mistake of the file, sorted by place. If a part of the text cannot be read, only what is wrong with the
-    /// text: the rest may be its consequence.
+    /// Every mistake of the file, sorted by place. If a part of the text cannot be parsed, only the problems of the
+    /// text: any others may be consequences.
     pub(crate) fn read(&self, known: Option<&SystemNames>) -> Result<LaunchFile, Vec<Diagnostic>> {
         if self.document.is_partial {
             return Err(self.found.clone());
@@ -77,7 +77,7 @@ impl LaunchDocument {
         if found.is_empty() { Ok(file) } else { Err(found) }
     }
 
-    /// As [`read`](Self::read), with problems as commands show them.
+    /// Like [`read`](Self::read), with problems that are rendered for the user.
     pub(crate) fn read_shown(&self, known: Option<&SystemNames>) -> Result<LaunchFile, Vec<Problem>> {
         self.read(known).map_err(|found| self.problems(&found))
     }
@@ -91,16 +91,16 @@ impl LaunchDocument {
     }
 }
 
-/// What was found of the topology of a launch file.
+/// The result of looking for the topology of a launch file.
 #[derive(Debug)]
 pub enum LaunchTopology {
     /// There is none: names are not checked.
     None,
-    /// This one has errors, so names cannot be checked.
+    /// The topology file at this path has errors, so names cannot be checked.
     Wrong(String),
-    /// The launch file names one that does not exist.
+    /// The launch file names a topology file that does not exist.
     Missing,
-    /// These names are in it.
+    /// The names in the topology.
     Names(SystemNames),
 }
 

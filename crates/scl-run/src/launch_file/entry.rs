@@ -16,7 +16,7 @@ use scl_topology::yaml::Node;
 pub(crate) struct LaunchComponent {
     /// The component's name.
     pub(crate) name: String,
-    /// What makes the program.
+    /// The command that builds the program.
     pub(crate) build: Option<Vec<String>>,
     /// What runs it.
     pub(crate) source: Source,
@@ -28,7 +28,7 @@ pub(crate) struct LaunchComponent {
     pub(crate) input: StandardInput,
     /// How it is run.
     pub(crate) settings: Settings,
-    /// Where its program is written.
+    /// The place of the entry that names its program.
     pub(crate) place: String,
 }
 
@@ -38,25 +38,26 @@ pub(crate) enum Opens {
     /// The one that it was started as.
     #[default]
     Own,
-    /// That one and these.
+    /// That component and these.
     Also(Vec<String>),
-    /// Every one.
+    /// Every component.
     Any,
 }
 
 impl Opens {
-    /// The word for every component.
+    /// The word for [`Opens::Any`] in launch files.
     pub(super) const ANY: &str = "any";
 
-    /// Whether it names this component.
+    /// Whether `opens` lists this component.
     pub(crate) fn names(&self, component: &str) -> bool {
         matches!(self, Opens::Also(names) if names.iter().any(|name| name == component))
     }
 }
 
 impl LaunchComponent {
-    /// The components that its program may open, for the program; `topology` is the name of the system in its topology
-    /// file. `None` if it may open any. What plays a recording is told the component's name itself.
+    /// Returns the value of `SCL_COMPONENT`, the components that the program may open; `topology` is the name of the
+    /// system in its topology file. Returns `None` if the program may open any component, and for recordings: their
+    /// player gets the component's name as an argument.
     pub(crate) fn expected(&self, topology: Option<&str>) -> Option<String> {
         let also: &[String] = match &self.opens {
             _ if matches!(self.source, Source::Replay(_)) => return None,

@@ -22,7 +22,7 @@ struct Gateway {
     /// The place of the key.
     place: Span,
     port: Option<u16>,
-    /// Whether there is one, right or wrong.
+    /// Whether `gateway` has a `port`, right or wrong.
     has_port: bool,
     certificates: Option<String>,
     has_certificates: bool,
@@ -36,7 +36,7 @@ struct HostEntry {
     /// With its place.
     address: Option<(String, Span)>,
     port: Option<u16>,
-    /// Whether a `port` is there, right or wrong.
+    /// Whether the entry has a `port`, right or wrong.
     has_port: bool,
     /// With their places.
     components: Vec<(String, Span)>,
@@ -46,7 +46,7 @@ const EXAMPLE: &str = "write `hosts: {board: {address: 192.0.2.10, components: [
 const GATEWAY_EXAMPLE: &str = "write `gateway: {port: 7447, certificates: ./keys}`";
 
 impl Reader<'_> {
-    /// Reads both keys of the file; `None` without hosts. The folder of the certificates is as written.
+    /// Reads `hosts` and `gateway`; `None` without hosts. The folder of the certificates is as written.
     pub(super) fn read_deployment(&mut self, top: &Keys<'_, '_>) -> Option<Deployment> {
         let gateway = top.get("gateway").map(|field| self.read_gateway(field));
         let Some(field) = top.get("hosts") else {
@@ -113,7 +113,8 @@ impl Reader<'_> {
         })
     }
 
-    /// The name stands in certificates, keys of the network library and names of folders.
+    /// Checks that a name can be that of a host: certificates, keys of the network library and names of folders contain
+    /// it.
     fn check_host_name(&mut self, field: Field<'_>) -> Option<()> {
         let name = field.key;
         let is_allowed = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);

@@ -1,4 +1,4 @@
-//! The keys of a launch file, told once: for the reader, its messages and the tables of `docs/launch.md`.
+//! The keys of a launch file, defined once for the reader, its messages and the tables of `docs/launch.md`.
 
 use super::super::policy::Restart;
 use super::super::terminal::StandardInput;
@@ -40,7 +40,7 @@ const PATH: Form = Form::Other("a path");
 const VARIABLES: Form = Form::Other("a mapping from names to texts or numbers");
 
 impl Form {
-    /// For messages (`restart_delay` is ...) and for the tables.
+    /// Describes the form, for messages (`restart_delay` is ...) and for the tables.
     pub(super) fn description(self) -> String {
         match self {
             Form::Word(words) => either(words),
@@ -340,7 +340,7 @@ pub(super) const GATEWAY: &[Key] = &[
     },
 ];
 
-/// The row of a key. Unknown names get an empty row, which no caller asks for.
+/// Returns the form of the value of a key. The name must be that of a known key.
 pub(super) fn form_of(name: &str) -> Form {
     TOP.iter().chain(COMPONENT).chain(HOST).chain(GATEWAY).find(|key| key.name == name).map_or(KEY.form, |key| key.form)
 }

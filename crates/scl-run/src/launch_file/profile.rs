@@ -19,7 +19,7 @@ impl LaunchFile {
     ///
     /// # Errors
     ///
-    /// Every name that is not a profile of this file.
+    /// Every name that is not a profile of this file, and two components with `input: terminal`.
     pub(crate) fn components_with(&self, profiles: &[String]) -> Result<Vec<LaunchComponent>, Vec<Problem>> {
         let mut components = self.components.clone();
         let mut problems = Vec::new();
@@ -44,7 +44,7 @@ impl LaunchFile {
     }
 }
 
-/// Only one process group is in the foreground of a terminal.
+/// Reports two components with `input: terminal`: only one process group can be in the foreground of a terminal.
 fn several_with_terminal(components: &[LaunchComponent]) -> Option<Problem> {
     let mut with_terminal = components.iter().filter(|component| component.input == StandardInput::Terminal);
     let (first, second) = (with_terminal.next()?, with_terminal.next()?);
@@ -54,8 +54,8 @@ fn several_with_terminal(components: &[LaunchComponent]) -> Option<Problem> {
     )
 }
 
-/// Applies an entry. With a command or a recording it is another program, to which the other's build and folder do not
-/// belong. All other keys replace those that they name.
+/// Applies an entry. A command or a recording replaces the program, and resets the keys that belong to the old one:
+/// `build`, `working_directory`, `opens` and `input`. Variables are added; all other keys replace the component's.
 fn apply(entry: &Entry, components: &mut Vec<LaunchComponent>) {
     let Some(component) = components.iter_mut().find(|component| component.name == entry.name) else {
         components.extend(entry.clone().into_component());

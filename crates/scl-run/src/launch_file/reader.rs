@@ -1,4 +1,4 @@
-//! What all parts of a launch file are read with: the collected problems, and the check of keys.
+//! The reader that all parts of a launch file share: it collects problems and checks keys.
 
 use super::super::system_names::SystemNames;
 use super::keys::{Key, is_own};
@@ -36,7 +36,7 @@ impl<'a> Reader<'a> {
         self.problems.push(problem);
     }
 
-    /// The keys of a mapping, which are names; `owner` is how messages go on after "in".
+    /// Reads a mapping whose keys are names; `owner` is what messages say after "in".
     pub(super) fn names<'n>(&mut self, entries: &'n [(Node, Node)], owner: &str) -> Fields<'n> {
         fields(entries, owner, self.source, self.dialect, &mut self.problems)
     }
@@ -51,7 +51,7 @@ impl<'a> Reader<'a> {
         self.keys_but(|_| false, entries, allowed, owner)
     }
 
-    /// As [`keys`](Self::keys), where keys that are `ignored` are no mistake.
+    /// Like [`keys`](Self::keys), but does not report keys for which `ignored` returns true.
     pub(super) fn keys_but<'n, 'k>(
         &mut self,
         ignored: impl Fn(&str) -> bool,
@@ -68,7 +68,8 @@ impl<'a> Reader<'a> {
         keys
     }
 
-    /// The entries of a mapping; anything else is reported with `help`, unless a problem says so already.
+    /// Returns the entries of a mapping. Any other value is reported with `message` and `help`, unless it could not be
+    /// read, which has been reported.
     pub(super) fn entries<'n>(&mut self, field: Field<'n>, message: &str, help: &str) -> Option<&'n [(Node, Node)]> {
         let entries = field.value.entries();
         if entries.is_none() && !matches!(field.value.kind, NodeKind::Unread) {
@@ -86,7 +87,7 @@ impl<'a> Reader<'a> {
         entries.map(|entries| self.names(entries, &format!("`{key}`")).list).unwrap_or_default()
     }
 
-    /// Reports a component that is not among these, which are those of `source`.
+    /// Reports a component that is not among `known`, the components of `source`.
     pub(super) fn check_among(&mut self, name: &str, at: Span, known: &[String], source: &str) {
         if known.iter().any(|it| it == name) {
             return;
@@ -96,7 +97,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The keys of a mapping, and those that it may have.
+/// The keys that a mapping has, and the keys that it may have.
 pub(super) struct Keys<'n, 'k> {
     pub(super) fields: Fields<'n>,
     allowed: Vec<&'k Key>,
@@ -107,20 +108,21 @@ impl<'n> Keys<'n, '_> {
         self.fields.get(key)
     }
 
-    /// The names in the mapping that a key has.
+    /// The names in the mapping that is the value of a key.
     pub(super) fn names_of(&self, key: &str) -> Vec<String> {
         let entries = self.get(key).and_then(|field| field.value.entries()).into_iter().flatten();
         entries.filter_map(|(name, _)| name.text()).map(str::to_owned).collect()
     }
 
-    /// Whether the mapping has the key, maybe misspelt or in a part that could not be read, which has been reported.
+    /// Whether the mapping has the key, or may have it: misspelt, or in a part that could not be read. Both have been
+    /// reported.
     pub(super) fn may_have(&self, key: &str) -> bool {
         let means_it = |field: &Field<'_>| likely_key(field.key, &self.allowed) == Some(key);
         self.fields.damaged || self.get(key).is_some() || self.fields.list.iter().any(means_it)
     }
 }
 
-/// A problem about a name, with the `known` ones that it may have meant.
+/// The problem of an unknown name, with the `known` names that may have been meant.
 pub(super) fn unknown_name(message: String, name: &str, at: Span, known: &[String]) -> Diagnostic {
     let near = similar(name, known.iter().map(String::as_str));
     rules::UNKNOWN_NAME.at(message, at, "").did_you_mean(&near).fix_word(name, &near)
@@ -144,7 +146,7 @@ fn likely_key<'k>(word: &str, allowed: &[&'k Key]) -> Option<&'k str> {
     named.map(|key| key.name).or_else(|| closest_name(&lower, allowed.iter().map(|key| key.name)))
 }
 
-/// Where the value of a field stands; the key, if nothing is written.
+/// The place of the value of a field, or of its key if the value is empty.
 pub(super) fn value_span(field: Field<'_>) -> Span {
     let span = field.value.span;
     if span.start == span.end { field.key_span } else { span }

@@ -1,5 +1,4 @@
-//! The keys of a component that may also stand in `defaults`: restarts, limits of time, processors, priority,
-//! descriptors.
+//! The keys of a component that may also stand in `defaults`: restarts, time limits, processors, priority, descriptors.
 
 use super::super::policy::{Policy, Restart, RestartDelay, RestartLimit};
 use super::keys::{Form, form_of};
@@ -11,7 +10,7 @@ use scl_topology::parse::Field;
 use scl_topology::yaml::{Node, NodeKind};
 use std::time::Duration;
 
-/// Settings as written: what is not is `None`.
+/// Settings as written; a setting that is not written is `None`.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Settings {
     pub(crate) restart: Option<Restart>,
@@ -32,7 +31,7 @@ pub(crate) struct Settings {
 }
 
 impl Settings {
-    /// These settings, and those of `base` that are missing here.
+    /// These settings; the settings of `base` replace missing ones.
     pub(crate) fn over(self, base: &Settings) -> Settings {
         let base = base.clone();
         Settings {
@@ -107,13 +106,13 @@ impl Reader<'_> {
         path.map(str::to_owned)
     }
 
-    /// Reports a value that is not what the key's row in the table says.
+    /// Reports a value that does not have the form that its key needs.
     pub(super) fn wrong_value(&mut self, field: Field<'_>) {
         let form = form_of(field.key);
         self.wrong_form(field, form, &format!("`{}`", field.key));
     }
 
-    /// Reports a value that has not this form; `what` is what should have it.
+    /// Reports a value that does not have this form; `what` names the value in the message.
     pub(super) fn wrong_form(&mut self, field: Field<'_>, form: Form, what: &str) {
         if matches!(field.value.kind, NodeKind::Unread) {
             return;
@@ -129,13 +128,13 @@ impl Reader<'_> {
     }
 }
 
-/// Describes a wrong value: a list by its items, where one is expected.
+/// Describes a wrong value. Where a list is expected, a list is shown with its items.
 fn shown_value(form: Form, value: &Node) -> String {
     let items = texts(value).filter(|items| form == Form::Processors && !items.is_empty());
     items.map_or_else(|| shown(value), |items| format!("`[{}]`", items.join(", ")))
 }
 
-/// What was probably meant by a wrong value.
+/// Guesses what was meant by a wrong value.
 fn likely(form: Form, text: &str) -> Option<String> {
     match form {
         Form::Word(words) => closest_name(&text.replace(['-', ' '], "_"), words.iter().copied()).map(str::to_owned),
@@ -167,7 +166,7 @@ fn any_duration(text: &str) -> Option<Duration> {
     parse_duration(text.trim()).ok()
 }
 
-/// A time in which something must happen, so not zero.
+/// Parses a time limit, which must not be zero.
 fn limit(text: &str) -> Option<Duration> {
     any_duration(text).filter(|time| !time.is_zero())
 }

@@ -8,7 +8,7 @@ use scl_topology::parse::Field;
 use scl_topology::source::Span;
 use scl_topology::yaml::Node;
 
-/// What the file says of transports.
+/// The transports that the file chooses.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Transports {
     all: Option<String>,
@@ -17,7 +17,8 @@ pub(crate) struct Transports {
 }
 
 impl Transports {
-    /// The value of `SCL_TRANSPORT`, which is `inherited` without this file; `None` if nothing is to be set.
+    /// Returns the value of `SCL_TRANSPORT` for the programs, where `inherited` is its value in this process. `None` if
+    /// the file chooses nothing, so that the programs inherit the variable.
     pub(crate) fn variable(&self, inherited: Option<&str>) -> Option<String> {
         if *self == Self::default() {
             return None;
@@ -46,7 +47,7 @@ impl Reader<'_> {
         Some((name.to_owned(), read?))
     }
 
-    /// A wrong name would change nothing, so it is looked up in the topology where there is one.
+    /// Checks the name of a gate, also against the topology if there is one: a wrong name would have no effect.
     fn check_gate(&mut self, name: &str, at: Span) {
         let parts = name.split_once('.').filter(|(component, gate)| is_word(component) && is_word(gate));
         let Some((component, _)) = parts else {
@@ -73,7 +74,7 @@ fn transport(value: &Node) -> Option<String> {
     value.text().filter(is_known).map(str::to_owned)
 }
 
-/// Whether this can be part of a name: programs read the names from a list with commas and equals signs.
+/// Whether this can be part of a gate's name: programs read the names from a list with commas and equals signs.
 fn is_word(text: &str) -> bool {
     !text.is_empty() && !text.contains(|letter: char| letter.is_whitespace() || ".,=\0".contains(letter))
 }

@@ -1,5 +1,5 @@
-//! Values as they are written: what programs get, commands and variables, is the text in the file. YAML would make
-//! `104` of `0x68`, and `1.1` of `1.10`.
+//! Values as they are written: commands and variables reach programs exactly as the file spells them. YAML would turn
+//! `0x68` into `104`, and `1.10` into `1.1`.
 
 use scl_topology::source::Span;
 use scl_topology::yaml::{Node, NodeKind};
@@ -28,7 +28,7 @@ pub(super) fn number(value: &Node) -> Option<u64> {
     }
 }
 
-/// The texts of a list; none if it is no list, or has anything else in it.
+/// The texts of a list; `None` if the value is not a list, or if an item is not a text.
 pub(super) fn texts(value: &Node) -> Option<Vec<String>> {
     value.items()?.iter().map(|item| text(item).map(str::to_owned)).collect()
 }
@@ -39,7 +39,7 @@ pub(super) fn placed_texts(value: &Node) -> Option<Vec<(String, Span)>> {
     Some(texts(value)?.into_iter().zip(places).collect())
 }
 
-/// What one of these words stands for.
+/// The meaning of the value; `None` if it is not one of these words.
 pub(super) fn word<T: Copy>(value: &Node, words: &[(&str, T)]) -> Option<T> {
     let text = value.text()?;
     words.iter().find(|(word, _)| *word == text).map(|(_, meaning)| *meaning)

@@ -11,13 +11,13 @@ pub(crate) enum Input {
     Started,
     /// It could not be started, because of this.
     CannotStart(String),
-    /// The first of its processes ended, and others run on that are to end with it.
+    /// The first of its processes ended. Others are still running, which are to end with it.
     LeaderEnded,
-    /// Its process ended, and all that it has started.
+    /// Its process and all processes that it has started ended.
     Exited(Ending),
-    /// Its process said something about itself.
+    /// Its process sent a notice.
     Notified(Notice),
-    /// Its process is another program than it should be, because of this.
+    /// Its process is the wrong program, as this report says.
     Refused(String),
     /// All components are to stop.
     StopAll(Signal),
@@ -51,7 +51,7 @@ pub(crate) enum Notice {
 pub(crate) enum Action {
     /// Start a process, and answer with [`Input::Started`] or [`Input::CannotStart`].
     Start,
-    /// Send a signal to the process and those that it has started, also to one that misses it at first.
+    /// Send a signal to the process and those that it has started, and again to those that missed it.
     Signal(Signal),
     /// Tell the user this.
     Report(String),

@@ -14,8 +14,8 @@ pub(crate) enum State {
     Running,
     /// Its process has said that it is ready.
     Ready,
-    /// Its process was told to end, or said that it is ending. It is killed at this time, if it has not been killed
-    /// yet.
+    /// Its process was asked to end, or reported that it is stopping. It is killed at this time; `None` if it has been
+    /// killed already.
     Stopping { reason: StopReason, kill_at: Option<Time> },
     /// It has no process, and gets one only on request.
     Ended(Verdict),
@@ -33,16 +33,16 @@ pub(crate) enum StopReason {
     /// It is the wrong program, so another start would not help. SCL in the program has refused to run, and it ends by
     /// itself.
     Refused,
-    /// It said so itself.
+    /// The process itself reported that it is stopping.
     Own,
-    /// Its first process ended by itself, and the others were told to.
+    /// Its first process ended by itself, and the others were asked to end.
     LeaderEnded,
 }
 
 /// How a component ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Verdict {
-    /// As it should, also when all components were stopped.
+    /// Successfully, also when all components were stopped.
     InOrder,
     /// On request.
     Stopped,
@@ -51,7 +51,7 @@ pub(crate) enum Verdict {
 }
 
 impl StopReason {
-    /// The signal that asked all to stop.
+    /// The signal that asked all components to stop, if that is the reason.
     pub(super) fn asked_by(self) -> Option<Signal> {
         match self {
             StopReason::Everything(signal) => Some(signal),
@@ -63,7 +63,7 @@ impl StopReason {
         self.asked_by().unwrap_or(Signal::TERM)
     }
 
-    /// Whether the processes were asked to end, so that a second signal would mean more than that.
+    /// Whether the processes were asked to end, so that a second signal would end an SCL program at once.
     pub(super) fn is_asked(self) -> bool {
         matches!(self, StopReason::Everything(_) | StopReason::Request { .. } | StopReason::LeaderEnded)
     }

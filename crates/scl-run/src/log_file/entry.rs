@@ -49,7 +49,7 @@ pub struct LogEntry {
 }
 
 impl LogEntry {
-    /// A line that is printed now, of which at most [`LONGEST_TEXT`] bytes are kept.
+    /// Creates the entry of a line that was printed now; it keeps at most [`LONGEST_TEXT`] bytes.
     pub(super) fn new(component: &str, stream: LogStream, run: u64, line: &[u8]) -> Self {
         let kept = &line[..cut(line, LONGEST_TEXT)];
         let (text, escaped) = match std::str::from_utf8(kept) {
@@ -61,7 +61,7 @@ impl LogEntry {
     }
 }
 
-/// Where to cut, so that no character is cut in two.
+/// Returns where to cut the text, so that no character is cut in two.
 fn cut(text: &[u8], longest: usize) -> usize {
     if text.len() <= longest {
         return text.len();

@@ -46,14 +46,15 @@ impl LogFolder {
     }
 }
 
-/// By the XDG Base Directory Specification: relative paths are invalid.
+/// Returns the folder with the logs of all systems. The XDG Base Directory Specification declares relative paths
+/// invalid.
 fn state_folder(env: &dyn Fn(&str) -> Option<OsString>) -> Option<PathBuf> {
     let absolute = |name| env(name).map(PathBuf::from).filter(|path| path.is_absolute());
     let state = absolute("XDG_STATE_HOME").or_else(|| Some(absolute("HOME")?.join(".local/state")))?;
     Some(state.join("scl"))
 }
 
-/// A name that stays inside its folder.
+/// Whether a name stays inside its folder.
 fn is_plain(name: &str) -> bool {
     let fits = |c: char| c.is_ascii_alphanumeric() || "_-.~".contains(c);
     !name.is_empty() && !name.starts_with('.') && name.chars().all(fits)

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 pub struct LogReader {
     folder: LogFolder,
     component: String,
-    /// The file that is read, and what tells it from the others.
+    /// The file that is being read, and its inode number.
     current: Option<(BufReader<File>, u64)>,
     /// Whether `current` was seen to have a successor, so nothing more is written to it.
     is_complete: bool,
@@ -20,14 +20,14 @@ pub struct LogReader {
 }
 
 impl LogReader {
-    /// A reader before the oldest entry. The log need not exist yet.
+    /// Creates a reader that starts at the oldest entry. The log need not exist yet.
     pub fn new(folder: &LogFolder, component: &str) -> Self {
         let (folder, component) = (folder.clone(), component.to_owned());
         Self { folder, component, current: None, is_complete: false, line: Vec::new() }
     }
 
-    /// The next entry; `None` at the end so far. Calling it again later returns what was written meanwhile. Lines that
-    /// are no entries are passed over.
+    /// Returns the next entry, or `None` at the current end of the log. A later call returns entries that were written
+    /// since. Lines that are not entries are skipped.
     ///
     /// # Errors
     /// A file cannot be opened or read.
@@ -69,7 +69,7 @@ impl LogReader {
         files.iter().rev().position(|file| file_id(file) == Some(id)) != Some(0) && !files.is_empty()
     }
 
-    /// Opens the file after the one with this id, or the oldest.
+    /// Opens the file after the one with this id, or the oldest. Returns false if there is none yet.
     fn open_next(&mut self, after: Option<u64>) -> io::Result<bool> {
         let files = self.folder.files_of(&self.component);
         let position = after.and_then(|id| files.iter().position(|file| file_id(file) == Some(id)));

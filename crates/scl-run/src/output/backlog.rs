@@ -12,9 +12,9 @@ use std::time::Duration;
 const LONGEST: usize = 16 << 20;
 /// At most one longer line is queued at a time; the next one waits for it while the reader makes progress.
 const HUGE: usize = 1 << 20;
-/// After this long without a byte taken, a reader has stopped reading.
+/// A reader that reads nothing for this long has stopped reading.
 const STALLED: Duration = Duration::from_secs(1);
-/// How much is written at once, so that a slow reader is seen to read.
+/// Maximum number of bytes written at once; small, so that the progress of a slow reader is visible.
 const CHUNK: usize = 64 << 10;
 
 /// Bytes that wait to be written, in order.
@@ -27,13 +27,13 @@ pub(super) struct Backlog {
 #[derive(Debug, Default)]
 struct State {
     parts: VecDeque<Part>,
-    /// The length of all lines, of each up to [`HUGE`].
+    /// Total length of all lines; of each line, at most [`HUGE`] bytes count.
     bytes: usize,
     has_huge: bool,
     is_writing: bool,
     /// Number of bytes that were written.
     written: u64,
-    /// Lines by program that there was no room for.
+    /// Number of lines dropped for lack of room, by program.
     dropped: BTreeMap<usize, u64>,
 }
 
@@ -45,12 +45,12 @@ struct Part {
     bytes: Vec<u8>,
 }
 
-/// What came of writing.
+/// The result of writing.
 #[derive(Debug)]
 pub(super) struct Written {
-    /// Lines by program that were dropped behind what was written.
+    /// Number of lines dropped after what was written, by program.
     pub(super) dropped: BTreeMap<usize, u64>,
-    /// Whether the reader of the programs' lines has gone.
+    /// Whether the programs' lines could not be written, because their reader has closed the stream.
     pub(super) is_lost: bool,
 }
 
@@ -76,12 +76,12 @@ impl Backlog {
         self.changed.notify_all();
     }
 
-    /// Waits until everything is written, or until nothing was written for as long as this.
+    /// Waits until everything is written, or until nothing was written for `patience`.
     pub(super) fn finish(&self, patience: Duration) {
         drop(self.wait(lock(&self.state), patience, |state| state.is_writing || !state.parts.is_empty()));
     }
 
-    /// Waits while a condition holds and something is written now and then.
+    /// Waits while a condition holds. Gives up if nothing is written for `patience`.
     fn wait<'a>(
         &self,
         mut state: MutexGuard<'a, State>,
@@ -116,7 +116,7 @@ impl Backlog {
         Written { dropped, is_lost }
     }
 
-    /// Waits for something to write. What was dropped comes after it.
+    /// Waits for something to write. Returns it, with the numbers of lines that were dropped after it.
     fn take(&self) -> (VecDeque<Part>, BTreeMap<usize, u64>) {
         let mut state = lock(&self.state);
         state.is_writing = false;

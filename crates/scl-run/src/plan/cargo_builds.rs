@@ -1,4 +1,4 @@
-//! The builds of programs that cargo makes, and where it says they are.
+//! The builds of programs that cargo makes, and the paths that cargo reports for them.
 
 use super::super::cargo::{CargoRun, built_before, find};
 use super::super::component::MadeByCargo;
@@ -6,8 +6,8 @@ use super::super::program::{Build, Program};
 use super::{Built, RunPlan};
 use scl_terminal::Problem;
 
-/// Adds what makes a component's program to the builds: to one that differs only in the program that it makes, if there
-/// is one, because cargo builds several in one go.
+/// Adds the cargo build of a component's program. A build that differs only in the program that it makes is extended,
+/// if there is one, because cargo builds several programs at once.
 pub(super) fn add(builds: &mut Vec<Build>, program: Program, component: &str, cargo: &CargoRun) -> MadeByCargo {
     let is_same = |build: &Build| match &build.cargo_choices {
         // Do not combine builds with and without a choice of program: without one, cargo builds all programs.
@@ -43,11 +43,11 @@ impl RunPlan {
         if problems.is_empty() { Ok(()) } else { Err(problems) }
     }
 
-    /// The same with the programs of earlier builds, and without building.
+    /// Like [`take_built`](Self::take_built), but with the programs of earlier builds.
     ///
     /// # Errors
     ///
-    /// Every component whose program cargo does not know.
+    /// Every component whose program cargo does not know, or the failure of `cargo metadata`.
     pub(crate) fn find_programs_built_before(&mut self) -> Result<(), Vec<Problem>> {
         let programs = self.builds.iter().map(|build| match &build.cargo_choices {
             Some(_) => built_before(&build.program),

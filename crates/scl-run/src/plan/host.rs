@@ -25,7 +25,7 @@ pub struct DeployedSystem {
     pub deployment: Deployment,
 }
 
-/// Reads the hosts of a launch file; `topology` is for another topology file than the launch file names.
+/// Reads the hosts of a launch file; `topology` overrides the topology file that the launch file names.
 ///
 /// # Errors
 ///
@@ -52,7 +52,8 @@ pub fn read_deployment(
     Ok(DeployedSystem { topology, deployment })
 }
 
-/// The host of `--host`; `None` without the option, which a user of several hosts may have forgotten.
+/// Returns the host of `--host`, or `None` without the option. In that case prints a note if the launch file has hosts,
+/// because the option may have been forgotten.
 pub(super) fn choose<'l>(launch: &'l LaunchFile, options: &Options, shown: &str) -> Result<Option<&'l Host>, Problem> {
     match (&options.host, &launch.deployment) {
         (None, None) => Ok(None),
@@ -68,7 +69,7 @@ pub(super) fn choose<'l>(launch: &'l LaunchFile, options: &Options, shown: &str)
     }
 }
 
-/// Refuses a component that could not be told from the gateway.
+/// Rejects a component that has the name of the gateway's program.
 pub(super) fn check_names(components: &[LaunchComponent], shown: &str) -> Result<(), Problem> {
     if components.iter().any(|component| component.name == GATEWAY) {
         let problem = Problem::new(format!("the component `{GATEWAY}` has the name of the gateway's program"));
@@ -114,7 +115,7 @@ pub(super) fn plan_gateway(
     })
 }
 
-/// `--host` where only a cargo package says what runs.
+/// The problem of `--host` without a launch file.
 pub(super) fn without_file(folder: &Path) -> Problem {
     Problem::new("`--host` needs a launch file")
         .help("write one with `hosts`; `scl run --help` shows it")

@@ -11,7 +11,7 @@ use scl_terminal::Problem;
 use std::ffi::OsString;
 use std::path::Path;
 
-/// The build of the package, and the program of each component, which has its name.
+/// Plans the build of the package and, for each component, the program that has the component's name.
 ///
 /// # Errors
 ///

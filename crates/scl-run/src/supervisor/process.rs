@@ -1,4 +1,4 @@
-//! The process of a program, and what of it is still to be shown.
+//! The process of a program, and the reports about it that are still to be shown.
 
 use super::super::children::Running;
 use std::time::{Duration, Instant};
@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 /// How long to wait for output after a program has ended: processes it started may still write.
 const LATE_OUTPUT: Duration = Duration::from_millis(500);
 
-/// The process of a program, or its last.
+/// The current or last process of a program.
 #[derive(Debug)]
 pub(super) struct Process {
     pub(super) number: usize,
@@ -22,17 +22,17 @@ impl Process {
         Self { number, running, open_streams: 2, ended: None, reports: Vec::new() }
     }
 
-    /// When it counts as drained, if it has ended.
+    /// When it counts as drained at the latest, if it has ended.
     pub(super) fn drained_at(&self) -> Option<Instant> {
         self.ended.map(|at| at + LATE_OUTPUT)
     }
 
-    /// Whether it has ended and no output of it is to be waited for.
+    /// Whether it has ended, and no more output of it is waited for.
     pub(super) fn is_drained(&self) -> bool {
         self.ended.is_some_and(|at| self.open_streams == 0 || at.elapsed() >= LATE_OUTPUT)
     }
 
-    /// Whether everything has been reported.
+    /// Whether it is drained, and all reports about it have been written.
     pub(super) fn is_silent(&self) -> bool {
         self.is_drained() && self.reports.is_empty()
     }

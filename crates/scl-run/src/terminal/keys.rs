@@ -1,4 +1,4 @@
-//! `scl __keys`: tells which keys have sent a signal to its process group. It blocks all signals, so none ends it.
+//! `scl __keys`: reports the keys that have sent a signal to its process group. It blocks all signals, so none ends it.
 
 use nix::sys::signal::{SigSet, Signal};
 use nix::sys::signalfd::{SfdFlags, SignalFd};
@@ -9,7 +9,7 @@ use std::process::ExitCode;
 /// The hidden command.
 pub const KEYS_WORD: &str = "__keys";
 
-/// `si_code` of signals that the kernel has sent, as for a key. Processes send others.
+/// `si_code` of signals that the kernel has sent, as for a key. Signals from processes have other codes.
 const SI_KERNEL: i32 = 0x80;
 
 /// A key that sends a signal.
@@ -25,7 +25,7 @@ impl Key {
     const ALL: [(Self, Signal, &'static str); 2] =
         [(Key::Interrupt, Signal::SIGINT, "interrupt"), (Key::Suspend, Signal::SIGTSTP, "suspend")];
 
-    /// The key of a line.
+    /// The key that a line of `scl __keys` names.
     pub(super) fn of(line: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|(.., word)| *word == line).map(|(key, ..)| key)
     }

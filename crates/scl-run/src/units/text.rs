@@ -3,7 +3,8 @@
 use std::path::Path;
 use std::time::Duration;
 
-/// A word of a command line, or of `Environment=`. In a command line, `$` would be a variable.
+/// Quotes a word for a command line or `Environment=`. In a command line, `$` is escaped, because it would start a
+/// variable.
 pub(super) fn quoted(word: &str, in_command: bool) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "/._-:=,+@".contains(letter);
     if !word.is_empty() && word.chars().all(is_plain) {
@@ -23,7 +24,7 @@ fn escaped(letter: char, in_command: bool) -> String {
     }
 }
 
-/// The line of a variable.
+/// The `Environment=` line of a variable.
 pub(super) fn environment((name, value): &(String, String)) -> String {
     format!("Environment={}\n", quoted(&format!("{name}={value}"), false))
 }

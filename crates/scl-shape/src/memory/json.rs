@@ -1,22 +1,22 @@
 //! Walks through a text of canonical JSON.
 //!
-//! Every decoder makes more than the message from it: Rust a message described by its schema and the protobuf encoding,
-//! Python dictionaries, C++ the protobuf encoding. The numbers are those of Rust, which are the largest.
+//! Every decoder creates more than the message from it: Rust a dynamic message and the protobuf encoding, Python
+//! dictionaries, C++ the protobuf encoding. The constants are those of Rust, which are the largest.
 
 use super::{Cost, Kind, Language, MessageLayout};
 use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use std::cell::Cell;
 use std::fmt;
 
-/// The place of a value in a list or map, each twice as long as what it holds.
+/// A slot for a value in a list or map, twice, because either may have twice the capacity that it needs.
 const PLACE: u64 = 2 * 64;
-/// A map entry; a map that grows is beside its smaller predecessor.
+/// A map entry; while a map grows, its smaller predecessor still exists.
 const ENTRY: u64 = 5 * 96;
 /// What a message with at least one field takes: a node of a `BTreeMap` with room for 11 values.
 const NODE: u64 = 640;
 /// A value of `google.protobuf.Value`, `Struct` and `ListValue`, twice: each is a message in a message.
 const ANY: u64 = 4 * NODE;
-/// How often a text is copied: into the described message, its encoding, and the message.
+/// How often a text is copied: into the dynamic message, its encoding, and the message.
 const COPIES: u64 = 3;
 /// What a value of an unknown field takes in Python and C++.
 const IGNORED: u64 = 128;
@@ -66,7 +66,7 @@ enum Part {
     /// A well-known type.
     Any,
     Plain,
-    /// Of an unknown field, kept by no language, but Python and C++ read it before they know that.
+    /// A value of an unknown field. No language keeps it, but Python and C++ decode it before they discard it.
     Unknown,
 }
 

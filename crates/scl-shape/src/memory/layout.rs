@@ -6,7 +6,8 @@ use prost_types::field_descriptor_proto::{Label, Type};
 use prost_types::{DescriptorProto, FieldDescriptorProto, FileDescriptorSet};
 use std::collections::{HashMap, HashSet};
 
-/// Besides its fields: the header of a message of libprotobuf or `protobuf-c`, or cases of oneofs and padding in Rust.
+/// What a message takes besides its fields: its header in libprotobuf or `protobuf-c`, or discriminants of oneofs and
+/// padding in Rust.
 const HEADER: u64 = 32;
 /// What an allocator adds to a block.
 const BLOCK: u64 = 16;
@@ -27,7 +28,7 @@ pub(super) struct MessageLayout {
     pub(super) fields: Vec<Field>,
     /// Indices of fields by their names, and by those in JSON.
     pub(super) by_name: HashMap<String, usize>,
-    /// Whether canonical JSON has a form of its own for it.
+    /// Whether canonical JSON has a special form for it.
     pub(super) is_well_known: bool,
 }
 
@@ -38,22 +39,23 @@ pub(super) struct Field {
     pub(super) cost: Cost,
 }
 
-/// What each occurrence adds.
+/// The memory that each occurrence of a field adds.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cost {
     /// The first in a row: a `Vec` starts with room for 4, a map with room for 11.
     pub(super) first: u64,
-    /// Each other: a list grows to twice what it holds, and a map that grows is beside its smaller predecessor.
+    /// Each further one: a list may have twice the capacity that it needs, and while a map grows, its smaller
+    /// predecessor still exists.
     pub(super) next: u64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Kind {
     Message(usize),
-    /// The value of the map is a field of the entry.
+    /// A map, by the index of its entry type; the map's value is a field of the entry.
     Map(usize),
     Text,
-    /// Numbers of this width in memory; in a packed field, of `packed` bytes each, or 0 if that varies.
+    /// A number of `width` bytes in memory, and of `packed` bytes in a packed field; `packed` is 0 if that varies.
     Number {
         width: u64,
         packed: usize,
@@ -144,8 +146,8 @@ impl<'d> Sizes<'d> {
         }
     }
 
-    /// Only Rust has messages in place, unless they could contain the outer one. The entries of a map are no part of a
-    /// message.
+    /// Whether `message` contains `inner` in place: only in Rust, and only if `inner` cannot contain `message` in turn.
+    /// In Rust, a map entry always does, because it is not itself stored in a message.
     fn is_inline(&self, message: usize, inner: usize) -> bool {
         self.language == Language::Rust && (self.is_entry(message) || !self.reached[inner].contains(&message))
     }

@@ -27,7 +27,7 @@ pub(super) fn most_per_byte(messages: &[MessageLayout], language: Language) -> u
     most.fold(unknown, u64::max) / 2 + 1
 }
 
-/// Of a damaged frame, what the part before the damage takes.
+/// Returns the memory that a decoded frame takes; for a damaged frame, what the part before the damage takes.
 pub(super) fn estimate(messages: &[MessageLayout], language: Language, frame: &[u8]) -> u64 {
     let mut total = messages[0].size;
     let mut at = 0;

@@ -9,8 +9,8 @@ use crate::value::Value;
 use scl_terminal::{closest_name, quoted_list};
 
 impl Condition {
-    /// Checks that the condition may hold for messages of a type. If the type is not known, every field may be there
-    /// and have any value.
+    /// Checks that the condition can hold for messages of a type. If the type is not known, every field may exist and
+    /// have any value.
     ///
     /// # Errors
     /// The type has no such field, a field alone is not a boolean, or values are compared that are never equal, such as
@@ -46,13 +46,13 @@ impl Operand {
     }
 }
 
-/// `mode == AUTO`
+/// Adds to an error the hint that texts stand in quotes: `mode == AUTO`.
 fn or_a_text(error: Mismatch, operand: &Operand) -> Mismatch {
     let Operand::Field(path) = operand else { return error };
     Mismatch { help: error.help.or_else(|| Some(format!("texts stand in quotes: `'{path}'`"))), ..error }
 }
 
-/// A field alone that is no boolean.
+/// The error about a field that stands alone, but is not a boolean.
 pub(super) fn not_boolean(path: &FieldPath, kind: &FieldKind) -> Mismatch {
     let example = match kind {
         FieldKind::Number => format!("{path} > 0"),
@@ -117,7 +117,7 @@ fn check_comparison(
     }
 }
 
-/// A constant that is compared with enum values must be one of their names.
+/// Checks that a text which is compared with enum values is one of their names.
 fn check_names(kind: &FieldKind, operand: &Operand) -> Result<(), Mismatch> {
     let (FieldKind::Enum(names), Operand::Constant(Value::Text(text))) = (kind, operand) else { return Ok(()) };
     if names.contains(text) {

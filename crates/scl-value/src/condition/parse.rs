@@ -1,16 +1,16 @@
-//! From the text of a condition to its tree.
+//! Parses the text of a condition into a tree.
 
 use super::{Node, Operand, Operator};
 use crate::path::{FieldPath, read_quoted};
 use crate::value::Value;
 
-/// Maximum number of parentheses and `not` within each other.
+/// Maximum nesting depth of parentheses and `not`.
 const MAX_DEPTH: usize = 50;
 
-/// Where in the text, in bytes, and what is wrong there.
+/// The byte offset of a mistake in the text, and what is wrong there.
 type Wrong = (usize, String);
 
-/// The longer ones first.
+/// The operators, the longer ones first: `<=` begins with `<`.
 const OPERATORS: [(&str, Operator); 8] = [
     ("==", Operator::Equal),
     ("!=", Operator::NotEqual),
@@ -127,7 +127,7 @@ impl<'t> Parser<'t> {
         after.is_some()
     }
 
-    /// Takes a word, if it is a whole one: `order` does not begin with `or`.
+    /// Consumes `word` if it comes next as a whole word: `order` does not begin with `or`.
     fn word(&mut self, word: &str) -> bool {
         self.skip_space();
         let continues =

@@ -1,4 +1,4 @@
-//! Checks a payload before it is decoded: where it is not a message of its type, and that it unfolds within the limits.
+//! Checks before a payload is decoded that it is a message of its type and stays within the limits.
 
 use crate::limits::{Budget, MAX_DEPTH};
 use prost::encoding::{WireType, decode_key, decode_varint};
@@ -94,7 +94,7 @@ fn fields(
 struct Field<'k> {
     number: u32,
     wire: WireType,
-    /// Its kind, and whether it is repeated.
+    /// Its kind, and whether it is repeated; `None` if the type does not have it.
     known: Option<(&'k Kind, bool)>,
 }
 
@@ -134,7 +134,7 @@ fn one_field(
     }
 }
 
-/// Checks the numbers of a repeated field that are written as one.
+/// Checks the numbers of a packed repeated field.
 fn packed(wire: WireType, kind: &Kind, rest: &mut Rest<'_>, budget: &Budget) -> Result<(), Fault> {
     let mut numbers = rest.length_delimited()?;
     while !numbers.bytes.is_empty() {

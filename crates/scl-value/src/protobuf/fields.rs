@@ -10,7 +10,7 @@ use prost_reflect::{FieldDescriptor, Kind, MessageDescriptor};
 /// Maximum number of columns of a table.
 const MAX_COLUMNS: usize = 1000;
 
-/// What the value at a path may be.
+/// Returns what kind of value is at a path.
 ///
 /// # Errors
 /// The message has no such field.
@@ -73,7 +73,8 @@ fn of_message(message: &MessageDescriptor) -> FieldKind {
     }
 }
 
-/// The columns of a table of messages: all fields that are no messages, those of messages within with their path.
+/// Returns the columns of a table of messages: the paths of all fields that are not messages, including those of nested
+/// messages.
 pub(crate) fn columns(message: &MessageDescriptor) -> Vec<FieldPath> {
     let mut columns = Vec::new();
     if let FieldKind::Message(_) = of_message(message) {

@@ -67,7 +67,7 @@ pub(crate) fn from_value(
     }
 }
 
-/// `its fields: ...`
+/// Lists the fields of a message: `its fields: ...`
 fn known_fields(message: &MessageDescriptor) -> String {
     let names: Vec<String> = message.fields().map(|field| field.name().to_owned()).collect();
     match names.len() {
@@ -86,7 +86,7 @@ pub(super) fn unknown_field(message: &MessageDescriptor, name: &str) -> Mismatch
     error.did_you_mean(name, names.iter().map(String::as_str)).note(known_fields(message))
 }
 
-/// A field may be there once, and of a oneof only one.
+/// Checks that a field is given only once, and only one field of a oneof.
 fn check_given(field: &FieldDescriptor, given: &[FieldDescriptor]) -> Result<(), Mismatch> {
     if given.contains(field) {
         return Err(Mismatch::new(format!("the field `{}` is there twice", field.name())));
@@ -102,7 +102,7 @@ fn check_given(field: &FieldDescriptor, given: &[FieldDescriptor]) -> Result<(),
     }
 }
 
-/// Whether null is a value of this kind, not its absence.
+/// Whether null is a value of this kind, rather than a missing one.
 fn takes_null(kind: &Kind, null: &Value) -> bool {
     let is_any = kind.as_message().is_some_and(|message| message.full_name() == "google.protobuf.Value");
     let is_named = || kind.as_enum().is_some_and(|names| names.get_value_by_name(&key_text(null)).is_some());
@@ -188,7 +188,7 @@ fn wrong(expected: &str, found: &Value) -> Mismatch {
     Mismatch::new(format!("expected {expected}, found {}", told(found)))
 }
 
-/// A value for a message: short ones themselves, others by their kind.
+/// Describes a value in an error: a short one by itself, others by their kind.
 fn told(value: &Value) -> String {
     const LONGEST: usize = 40;
     match value.meaning() {
@@ -198,7 +198,7 @@ fn told(value: &Value) -> String {
     }
 }
 
-/// The error about a scalar without quotes where a text belongs.
+/// Adds to an error the hint to quote a scalar where a text is expected.
 fn unquoted(value: &Value, error: Mismatch) -> Mismatch {
     match value.meaning() {
         Value::Int(_) | Value::Uint(_) | Value::Float(_) | Value::Bool(_) => {
@@ -208,7 +208,7 @@ fn unquoted(value: &Value, error: Mismatch) -> Mismatch {
     }
 }
 
-/// The error about a text where a boolean belongs.
+/// Adds to an error the hint to write `true` or `false` where a text such as `yes` was found.
 fn boolean_word(word: &str, error: Mismatch) -> Mismatch {
     match word.to_ascii_lowercase().as_str() {
         "yes" | "y" | "on" => error.help("write `true`"),
@@ -236,7 +236,7 @@ fn enum_number(descriptor: &EnumDescriptor, value: &Value) -> Result<i32, Mismat
     }
 }
 
-/// Keys are texts in JSON, whatever their type.
+/// Reads the key of a map. In JSON, keys are texts, whatever their type.
 fn map_key(kind: &Kind, key: &Value) -> Result<MapKey, Mismatch> {
     let flag = match key.meaning() {
         Value::Bool(flag) => Some(*flag),

@@ -4,7 +4,7 @@ use super::well_known::{Short, short};
 use crate::value::Value;
 use prost_reflect::{FieldDescriptor, Kind, MessageDescriptor};
 
-/// Maximum number of fields of an example: a type may contain others that contain others.
+/// Maximum number of fields of an example, because nested types may have very many in total.
 const MAX_FIELDS: usize = 1000;
 
 /// An example of a message: defaults, one element of each list and map, the first field of each oneof.
@@ -39,12 +39,12 @@ fn example(message: &MessageDescriptor, around: &mut Vec<MessageDescriptor>, cou
     }
 }
 
-/// Whether a field is no alternative to one before it.
+/// Whether a field belongs to no oneof, or is the first field of its oneof.
 fn is_first(field: &FieldDescriptor) -> bool {
     field.containing_oneof().is_none_or(|oneof| oneof.fields().next().as_ref() == Some(field))
 }
 
-/// An `Any` has no example: its JSON needs a type.
+/// Whether a field is an `Any`, which has no example because its JSON needs a type.
 fn is_any(field: &FieldDescriptor) -> bool {
     field.kind().as_message().is_some_and(|message| short(message) == Some(Short::Any))
 }

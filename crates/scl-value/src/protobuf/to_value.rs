@@ -78,7 +78,7 @@ fn map_key(key: &MapKey) -> Value {
     }
 }
 
-/// A field that the type does not have: its number, and its content as far as it can be told without a type.
+/// A field that the type does not have: its number, and its content as far as it can be decoded without a type.
 fn unknown_field(field: &UnknownField) -> (Value, Value) {
     let mut bytes = Vec::new();
     field.encode(&mut bytes);

@@ -1,10 +1,10 @@
-//! The second reading of a YAML text, which adds what was written to the scalars of the first one.
+//! The second pass over a YAML text, which adds to the scalars of the first pass how they were written.
 
 use crate::value::{Value, Written, key_text};
 use serde::de::{Deserialize, DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use std::fmt;
 
-/// What the first reading made of the same place of the same text.
+/// The value that the first pass read at the same place of the text.
 pub(super) struct AsWritten(pub(super) Value);
 
 impl<'de> DeserializeSeed<'de> for AsWritten {
@@ -33,7 +33,7 @@ impl<'de> DeserializeSeed<'de> for AsWritten {
     }
 }
 
-/// Whether it is a number with digits after a leading zero.
+/// Whether a text is a number with digits after a leading zero.
 fn has_leading_zero(text: &str) -> bool {
     let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
     let mut bytes = digits.bytes();

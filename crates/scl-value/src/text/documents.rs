@@ -20,7 +20,7 @@ pub struct Documents {
 }
 
 impl Documents {
-    /// Adds a line, without its end. Returns the message that it completes.
+    /// Adds a line, without its line ending. Returns the message that it completes.
     pub fn line(&mut self, line: &str) -> Option<Result<Value, ReadError>> {
         // If several files were concatenated, each may begin with a byte order mark.
         let line = line.trim_start_matches(BYTE_ORDER_MARK);
@@ -43,7 +43,7 @@ impl Documents {
         None
     }
 
-    /// The message that ends with the text, if there is one.
+    /// Ends the text. Returns the message that this completes, if there is one.
     pub fn end(&mut self) -> Option<Result<Value, ReadError>> {
         let text = std::mem::take(&mut self.pending);
         (!is_blank(&text)).then(|| read_yaml(&text))
@@ -55,7 +55,7 @@ impl Documents {
     }
 }
 
-/// Whether there are only comments and white space.
+/// Whether a text has only comments and white space.
 fn is_blank(text: &str) -> bool {
     text.lines().map(str::trim_start).all(|line| line.is_empty() || line.starts_with('#'))
 }

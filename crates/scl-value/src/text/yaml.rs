@@ -8,7 +8,7 @@ use scl_terminal::Problem;
 use serde::de::DeserializeSeed;
 use thiserror::Error;
 
-/// What may stand before a text in UTF-8.
+/// The byte order mark that may precede a text in UTF-8.
 pub(super) const BYTE_ORDER_MARK: char = '\u{feff}';
 
 /// A text is not one value in YAML or JSON.
@@ -42,7 +42,7 @@ pub fn read_yaml(text: &str) -> Result<Value, ReadError> {
     Ok(AsWritten(value.clone()).deserialize(input()).unwrap_or(value))
 }
 
-/// A value as YAML, as a user would write it; it ends with a line end. `read_yaml` reads it back.
+/// A value as YAML, as a user would write it, with a newline at the end. `read_yaml` reads it back.
 pub fn to_yaml(value: &Value) -> String {
     serde_yaml::to_string(&InFormat(value, Format::Yaml)).unwrap_or_else(|_| format!("{}\n", to_json(value)))
 }

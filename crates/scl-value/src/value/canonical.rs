@@ -1,8 +1,9 @@
-//! Values in a form that can be compared.
+//! The canonical form of values, for comparisons.
 
 use super::{EXACT, Value};
 
-/// What all values become that mean the same: maps are in one order, whole numbers of one kind.
+/// Returns the form that all values with the same meaning have in common: maps are in one order, whole numbers of one
+/// kind.
 pub(crate) fn canonical(value: &Value) -> Value {
     match value {
         Value::Float(number) if number.fract() == 0.0 && number.abs() <= EXACT as f64 => Value::Int(*number as i64),

@@ -8,7 +8,7 @@ use serde_yaml::value::{Tag, TaggedValue};
 
 /// The key of the number of a MessagePack extension.
 pub(crate) const EXTENSION: &str = "@extension";
-/// The key of its bytes.
+/// The key of the bytes of a MessagePack extension.
 pub(crate) const DATA: &str = "data";
 /// The name by which `rmp_serde` knows extensions.
 const EXTENSION_STRUCT: &str = rmp_serde::MSGPACK_EXT_STRUCT_NAME;
@@ -21,7 +21,7 @@ pub fn to_json(value: &Value) -> String {
     escape_json(&serde_json::to_string(&InFormat(value, Format::Json)).unwrap_or_default()).into_owned()
 }
 
-/// What a value is written as.
+/// The format in which a value is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Format {
     Json,

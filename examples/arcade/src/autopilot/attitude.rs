@@ -8,27 +8,27 @@ use super::parameters::Parameters;
 use super::quaternion::Quaternion;
 use super::vector::{Vec3, limit};
 
-/// No working gyroscope has more, rad/s.
+/// No working gyroscope has a larger bias, rad/s.
 const MAX_BIAS: f64 = 0.1;
 
 /// What is known about the attitude.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AttitudeEstimator {
     pub attitude: Quaternion,
-    /// Of the gyroscopes, rad/s.
+    /// Bias of the gyroscopes, rad/s.
     pub bias: Vec3,
-    /// Without the bias, in body axes, rad/s.
+    /// Angular rates without the bias, in body axes, rad/s.
     pub rates: Vec3,
 }
 
 impl AttitudeEstimator {
-    /// Starts from a reading, and again after a gap in the readings.
+    /// Sets the attitude from a reading, at the start and after a gap in the readings.
     pub fn reset(&mut self, rates: Vec3, angles: Vec3) {
         self.rates = rates - self.bias;
         self.attitude = Quaternion::from_angles(angles);
     }
 
-    /// Takes in the next reading, `elapsed` seconds after the last.
+    /// Updates the estimate with the next reading, `elapsed` seconds after the last.
     pub fn update(&mut self, rates: Vec3, angles: Vec3, elapsed: f64, parameters: &Parameters) {
         self.rates = rates - self.bias;
         let predicted = self.attitude.multiply(Quaternion::from_rotation_vector(self.rates * elapsed));

@@ -1,22 +1,22 @@
-//! Which commands are accepted, and in words why others are not.
+//! Decides which commands are accepted, and explains why others are not.
 
 use super::parameters::Parameters;
 use super::vector::Vec3;
 use crate::arcade::{Action, Command, Mode};
 
-/// Nearer to the ground the vehicle only takes off and lands, m.
+/// Below this height the vehicle only takes off and lands, m.
 pub const LOWEST: f64 = 1.0;
 
-/// What a command is judged by.
+/// The state of the vehicle that commands are checked against.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Situation {
     pub mode: Mode,
-    /// Above home, m.
+    /// Height above home, m.
     pub height: f64,
     pub position_valid: bool,
 }
 
-/// Returns why a command cannot be carried out now.
+/// Checks whether a command can be carried out now. The error says why not.
 pub fn check(command: &Command, situation: &Situation, parameters: &Parameters) -> Result<(), String> {
     let target = Vec3::from(command.target);
     if !target.is_finite() || !command.yaw.is_finite() || !command.speed.is_finite() {

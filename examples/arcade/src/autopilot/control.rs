@@ -1,8 +1,9 @@
 //! Control: a cascade from position to velocity, attitude and angular rates.
 //!
-//! Position P, velocity PI with feed-forward, attitude P on quaternions, rates PID, as PX4's multicopter controllers;
-//! the attitude law is that of Brescianini, Hehn and D'Andrea, Nonlinear Quadrocopter Attitude Control, 2013.
-//! Integrators stop where an actuator has reached its limit (Astrom and Hagglund, PID Controllers, 1995, section 3.5).
+//! Position P, velocity PI with feed-forward, attitude P on quaternions, rates PID, as in PX4's multicopter
+//! controllers; the attitude law is that of Brescianini, Hehn and D'Andrea, Nonlinear Quadrocopter Attitude Control,
+//! 2013. Integrators stop when an actuator has reached its limit (Astrom and Hagglund, PID Controllers, 1995, section
+//! 3.5).
 
 use super::mixer::Demand;
 use super::parameters::Parameters;
@@ -11,11 +12,11 @@ use super::quaternion::Quaternion;
 use super::trajectory::SetPoint;
 use super::vector::{Vec3, clamp, limit};
 
-/// Of rates set by the attitude controller, rad/s.
+/// Limit of the rates set by the attitude controller, rad/s.
 const MAX_RATE: f64 = 3.5;
-/// Of the integral of angular rates, as a difference of motor set-points.
+/// Limit of the integral of angular rates, as a difference of motor set-points.
 const MAX_TORQUE_INTEGRAL: f64 = 0.1;
-/// Of the integral of velocity, m/s^2.
+/// Limit of the integral of velocity, m/s^2.
 const MAX_ACCELERATION_INTEGRAL: f64 = 4.0;
 /// The differentiated rates pass a low-pass filter with this time constant, s.
 const DERIVATIVE_TIME: f64 = 0.008;
@@ -23,13 +24,13 @@ const DERIVATIVE_TIME: f64 = 0.008;
 /// The thrust that the position controller asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thrust {
-    /// As specific force, m/s^2, in the world's axes.
+    /// The thrust as specific force, m/s^2, in the world's axes.
     pub force: Vec3,
-    /// With the body's z axis along the force.
+    /// The attitude with the body's z axis along the force.
     pub attitude: Quaternion,
 }
 
-/// From position to specific force.
+/// The controller from position to specific force.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct VelocityController {
     /// m/s^2.
@@ -37,8 +38,8 @@ pub struct VelocityController {
 }
 
 impl VelocityController {
-    /// `level`: the horizontal position is unknown, so only what the integral has learned of the wind is held against
-    /// it.
+    /// Returns the thrust towards the set-point. With `level`, the horizontal position is unknown, so only what the
+    /// integral has learned about the wind acts against it.
     pub fn update(
         &mut self,
         set_point: &SetPoint,
@@ -111,19 +112,20 @@ fn attitude_along(force: Vec3, yaw: f64) -> Quaternion {
     tilt.multiply(Quaternion::from_angles(Vec3::new(0.0, 0.0, yaw)))
 }
 
-/// From attitude to torques.
+/// The controller from attitude to torques.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RateController {
     /// Differences of motor set-points.
     pub integral: Vec3,
-    /// Of the last beat, rad/s.
+    /// Angular rates at the last beat, rad/s.
     pub rates: Vec3,
-    /// Filtered, rad/s^2.
+    /// Filtered derivative of the rates, rad/s^2.
     pub derivative: Vec3,
 }
 
 impl RateController {
-    /// `cut`: by how much the motors missed roll, pitch and yaw of the last beat, see [`Mixed`](super::mixer::Mixed).
+    /// Returns the demand on the motors. `cut` is by how much they missed roll, pitch and yaw at the last beat, see
+    /// [`Mixed`](super::mixer::Mixed).
     pub fn update(
         &mut self,
         thrust: &Thrust,

@@ -1,4 +1,4 @@
-//! Detection of the ground: after touching down the vehicle stands still although it is told to sink.
+//! Detection of the ground: after touching down, the vehicle stands still although its set-point continues to sink.
 //!
 //! The conditions of PX4's land detector: low, no vertical movement, and little thrust, for a while.
 
@@ -10,7 +10,7 @@ const STILL: f64 = 0.2; // m/s
 const LITTLE_THRUST: f64 = 0.6;
 const HOLD: f64 = 0.5; // s
 
-/// Measures for how long the vehicle has seemed to stand.
+/// Measures for how long the vehicle has seemed to stand still.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LandDetector {
     /// Seconds.

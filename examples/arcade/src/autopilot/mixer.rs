@@ -19,11 +19,11 @@ pub struct Demand {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Mixed {
     pub motors: [f64; 4],
-    /// Roll, pitch and yaw that were given less those that were asked for; 0 unless an axis was reduced.
+    /// Roll, pitch and yaw as achieved minus as demanded; 0 unless an axis was reduced.
     pub cut: Vec3,
 }
 
-/// Left motors roll to positive roll; rear motors lower the nose, which is positive pitch.
+/// Left motors cause positive roll; rear motors lower the nose, which is positive pitch.
 const ROLL: [f64; 4] = [1.0, -1.0, 1.0, -1.0];
 const PITCH: [f64; 4] = [-1.0, -1.0, 1.0, 1.0];
 /// Front left and rear right turn clockwise, so that their torque turns the vehicle counter-clockwise.

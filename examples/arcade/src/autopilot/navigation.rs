@@ -1,4 +1,4 @@
-//! Navigation: the mode of flight, and where the vehicle is to be now.
+//! Navigation: the mode of flight, and the current set-point of the vehicle.
 //!
 //! Grounded -> taking off -> flying -> landing -> grounded. Commands and the land detector change the mode.
 
@@ -23,11 +23,11 @@ pub enum Drive {
     Off,
     Idle,
     Fly,
-    /// Without horizontal position.
+    /// Fly level, because the horizontal position is unknown.
     FlyLevel,
 }
 
-/// Where the vehicle is, as far as navigation wants to know.
+/// The part of the estimated state that navigation needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     pub position: Vec3,
@@ -43,12 +43,12 @@ pub struct Estimate {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Navigator {
     pub mode: Mode,
-    /// Of the command in effect.
+    /// Id of the command in effect.
     pub command_id: u32,
     pub target: Vec3,
     /// Radians.
     pub target_yaw: f64,
-    /// m/s, at most.
+    /// Maximum speed, m/s.
     pub speed: f64,
     pub set_point: SetPoint,
     /// Seconds since the mode began.
@@ -97,7 +97,7 @@ impl Navigator {
         }
     }
 
-    /// Straight down from here; a movement ends where it can stop.
+    /// Starts to land straight down from here; a moving vehicle lands where it can stop.
     fn land(&mut self) {
         self.enter(Mode::Landing);
         let velocity = self.set_point.velocity;
@@ -112,7 +112,8 @@ impl Navigator {
         self.land_detector = LandDetector::default();
     }
 
-    /// Moves the set-point on by `elapsed` seconds and changes the mode when its time has come.
+    /// Advances the set-point by `elapsed` seconds, changes the mode when that is due, and returns what the motors are
+    /// to do.
     pub fn update(&mut self, estimate: &Estimate, parameters: &Parameters, elapsed: f64) -> Drive {
         self.in_mode += elapsed;
         let airborne = self.mode == Mode::Flying || self.mode == Mode::TakingOff && self.in_mode > SPIN_UP;

@@ -1,9 +1,9 @@
 //! Messages that wait for the beat at which they take effect.
 //!
-//! A message takes effect at a time of its own rather than when it arrives. As long as it arrives before that, the
-//! outcome does not depend on the operating system's schedule, and a recorded flight can be repeated exactly.
+//! A message takes effect at a fixed time rather than when it arrives. As long as it arrives before that time, the
+//! outcome does not depend on the operating system's scheduling, and a recorded flight can be repeated exactly.
 
-/// More would mean that the beat has stopped; then the oldest are of no use.
+/// Maximum number of messages. More would mean that the beat has stopped; the oldest are then useless and are dropped.
 const CAPACITY: usize = 8;
 
 /// Messages of one gate, ordered by the time at which they are due.
@@ -28,7 +28,7 @@ impl<T> Pending<T> {
         self.messages.insert(index, (due_us, message));
     }
 
-    /// The next message that is due at `now_us`.
+    /// Removes and returns the next message that is due at `now_us`.
     pub fn take_due(&mut self, now_us: u64) -> Option<T> {
         let (due, _) = self.messages.first()?;
         if *due <= now_us { Some(self.messages.remove(0).1) } else { None }

@@ -15,7 +15,7 @@ use crate::geodesy;
 
 pub const GRAVITY: f64 = 9.81; // m/s^2
 
-/// Estimates are kept for 0.85 s at 300 Hz.
+/// Number of past estimates that are kept: those of 0.85 s at 300 Hz.
 const HISTORY: usize = 256;
 /// Without a fix for this long, the position is no longer valid.
 const FIX_TIMEOUT_US: u64 = 5_000_000;
@@ -24,7 +24,7 @@ const LONGEST_STEP: f64 = 0.4;
 /// No working accelerometer has a larger error, m/s^2.
 const MAX_BIAS: f64 = 1.0;
 
-/// What was estimated at one beat.
+/// The estimate of one beat.
 #[derive(Clone, Copy, Debug, Default)]
 struct Past {
     time_us: u64,
@@ -39,9 +39,9 @@ struct Past {
 pub struct PositionEstimator {
     pub position: Vec3,
     pub velocity: Vec3,
-    /// Of the acceleration in the world's axes, m/s^2.
+    /// Bias of the acceleration in the world's axes, m/s^2.
     pub bias: Vec3,
-    /// What the barometer shows too much, m.
+    /// By how much the barometer reads too high, m.
     pub barometer_offset: f64,
     /// When the last fix was measured; 0 before the first.
     pub fix_us: u64,
@@ -89,8 +89,8 @@ impl PositionEstimator {
         self.next = (self.next + 1) % HISTORY;
     }
 
-    /// The newest estimate that is not newer than `time_us`. None if it is older than all of them, for example because
-    /// it is of the time before a restart.
+    /// Returns the newest estimate that is not newer than `time_us`, or `None` if all are newer, for example because
+    /// `time_us` is before a restart.
     fn past(&self, time_us: u64) -> Option<Past> {
         for age in 1..=HISTORY {
             let past = self.history[(self.next + HISTORY - age) % HISTORY];
@@ -101,7 +101,8 @@ impl PositionEstimator {
         None
     }
 
-    /// Takes in a height. Above the ultrasonic sensor's range the barometer counts, by what it showed before.
+    /// Corrects the estimate with a height. Above the ultrasonic sensor's range, this is the barometer's, less the
+    /// offset that was learned within the range.
     pub fn correct_height(&mut self, height: &Height, parameters: &Parameters) {
         let Some(past) = self.past(height.time_us) else { return };
         let elapsed = step(self.height_us, height.time_us);
@@ -127,7 +128,8 @@ impl PositionEstimator {
         self.bias.z = limit(bias, MAX_BIAS);
     }
 
-    /// Takes in a fix: its horizontal position and velocity. Heights by GPS are worse than by the other sensors.
+    /// Corrects the estimate with the horizontal position and velocity of a fix. Its height is not used, because the
+    /// other sensors' are better.
     pub fn correct_fix(&mut self, fix: &Fix, parameters: &Parameters) {
         if fix.quality() == FixQuality::None {
             return;
@@ -163,7 +165,7 @@ impl PositionEstimator {
     }
 }
 
-/// The seconds from the last measurement to this one, within what the filters bear.
+/// Returns the seconds from the last measurement to this one, limited to `LONGEST_STEP`.
 fn step(last_us: u64, time_us: u64) -> f64 {
     if last_us == 0 || time_us <= last_us {
         return 0.0;

@@ -8,9 +8,10 @@ use std::io;
 use std::os::unix::fs::{FileExt, OpenOptionsExt};
 use std::path::Path;
 
-/// Changes with the meaning of the numbers, so that another version's file is not taken for this one's.
+/// Identifies the format of the file. It changes with the meaning of the numbers, so that a file of another version is
+/// not read.
 const FORMAT: u64 = u64::from_le_bytes(*b"ARCADE-1");
-/// Format, sequence number, checksum.
+/// Size of the header: format, sequence number, checksum.
 const HEADER: usize = 3 * 8;
 
 /// The file and the sequence number of its newest copy.
@@ -24,7 +25,7 @@ impl StateFile {
     /// Opens or creates the file. Returns the newest complete copy if it has `count` numbers.
     ///
     /// # Errors
-    /// Those of the operating system.
+    /// Errors of the operating system.
     pub fn open(path: &Path, count: usize) -> io::Result<(Self, Option<Vec<f64>>)> {
         let mut options = OpenOptions::new();
         let file = options.read(true).write(true).create(true).truncate(false).mode(0o600).open(path)?;
@@ -36,7 +37,7 @@ impl StateFile {
     /// Replaces the older copy.
     ///
     /// # Errors
-    /// Those of the operating system, for example a full disk. The newer copy is then still complete.
+    /// Errors of the operating system, for example a full disk. The newer copy is then still complete.
     pub fn store(&mut self, numbers: &[f64]) -> io::Result<()> {
         let sequence = self.sequence + 1;
         let copy = encode(sequence, numbers);
@@ -72,7 +73,7 @@ fn decode(copy: &[u8]) -> Option<(u64, Vec<f64>)> {
     complete.then(|| (words[1], words[3..].iter().map(|word| f64::from_bits(*word)).collect()))
 }
 
-/// FNV-1a (Fowler, Noll, Vo) over words: it has to find a torn copy, not an attacker.
+/// FNV-1a (Fowler, Noll, Vo) over words: it has to detect torn copies, not attacks.
 fn checksum(words: &[u64]) -> u64 {
     words.iter().fold(0xcbf2_9ce4_8422_2325, |sum, word| (sum ^ word).wrapping_mul(0x0100_0000_01b3))
 }

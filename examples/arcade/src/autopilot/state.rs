@@ -18,7 +18,7 @@ pub fn save(state: &FlightController) -> Vec<f64> {
     numbers
 }
 
-/// A state from its numbers, if they are as many as [`COUNT`].
+/// Restores a state from its numbers. Returns `None` unless there are [`COUNT`] of them.
 pub fn restore(numbers: &[f64]) -> Option<FlightController> {
     let (fields, values) = numbers.split_at_checked(FIELDS)?;
     let mut state =
@@ -28,7 +28,7 @@ pub fn restore(numbers: &[f64]) -> Option<FlightController> {
     Some(state)
 }
 
-/// Shows each number of the state. Whole numbers are exact up to 2^53.
+/// Calls `number` with each number of the state, to read or replace it. Whole numbers are exact up to 2^53.
 fn visit(state: &mut FlightController, number: &mut impl FnMut(&mut f64)) {
     whole(&mut state.time_us, number);
     number(&mut state.thrust);

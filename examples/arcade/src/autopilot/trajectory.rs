@@ -26,19 +26,19 @@ pub struct SetPoint {
     pub yaw: f64,
 }
 
-/// Where the set-point goes.
+/// Where the set-point moves, and how fast.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leg {
     pub target: Vec3,
     pub yaw: f64,
-    /// m/s, horizontally.
+    /// Maximum horizontal speed, m/s.
     pub speed: f64,
-    /// m/s, up and down.
+    /// Maximum vertical speed, m/s, up and down.
     pub climb: f64,
 }
 
 impl SetPoint {
-    /// At rest.
+    /// Creates a set-point at rest.
     pub fn at(position: Vec3, yaw: f64) -> Self {
         Self { position, yaw, ..Self::default() }
     }
@@ -69,7 +69,7 @@ impl SetPoint {
     }
 }
 
-/// The speed at a distance from which the vehicle can still stop at the target.
+/// Returns the speed, at most `cruise`, from which the vehicle can still stop at a target at this distance.
 fn speed_at(distance: f64, cruise: f64, acceleration: f64) -> f64 {
     let braking = (2.0 * BRAKING * acceleration * distance).sqrt();
     let near = APPROACH * distance;

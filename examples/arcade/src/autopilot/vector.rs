@@ -1,4 +1,5 @@
-//! Vectors in scalar arithmetic of a fixed order, so that a port to another language agrees to rounding.
+//! Vectors in scalar arithmetic with a fixed order of operations, so that a port to another language agrees up to
+//! rounding.
 
 use crate::arcade;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};

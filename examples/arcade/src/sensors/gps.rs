@@ -11,7 +11,7 @@ use crate::world::noise::{Noise, Wander};
 const WHITE: f64 = 0.15; // m
 const SLOW: f64 = 0.15; // m
 const SLOW_TIME: f64 = 30.0; // s
-/// Heights are worse, because all satellites are above.
+/// Factor of the errors of heights, which are larger because all satellites are above.
 const HEIGHT_WORSE: f64 = 1.5;
 const SPEED_WHITE: f64 = 0.05; // m/s, by Doppler shift
 /// Fixes per second.
@@ -33,7 +33,7 @@ impl Receiver {
         Self { noise, drift }
     }
 
-    /// One of [`RATE`] fixes a second.
+    /// Measures the next fix, which is one of [`RATE`] a second.
     pub fn measure(&mut self, world: &arcade::World, home: Home) -> Fix {
         self.drift.iter_mut().for_each(|drift| drift.step(&mut self.noise, 1.0 / f64::from(RATE)));
         let mut error = self.drift.each_ref().map(|drift| drift.value);

@@ -11,7 +11,7 @@ const ULTRASONIC_NOISE: f64 = 0.02; // m
 /// Tilted further than this, the echo misses the sensor; cosine of 25 degrees.
 const ULTRASONIC_UPRIGHT: f64 = 0.906;
 const BAROMETER_NOISE: f64 = 0.1; // m
-/// With the weather.
+/// The barometer drifts with the weather.
 const BAROMETER_DRIFT: f64 = 0.3; // m
 const BAROMETER_DRIFT_TIME: f64 = 120.0; // s
 /// Readings per second.

@@ -10,7 +10,7 @@ use glam::DVec3;
 const ACCELERATION_NOISE: f64 = 0.15; // m/s^2
 const RATE_NOISE: f64 = 0.01; // rad/s
 const ANGLE_NOISE: f64 = 0.01; // rad
-/// Constant for a flight.
+/// Biases, which are constant for a flight.
 const ACCELERATION_BIAS: f64 = 0.05; // m/s^2
 const RATE_BIAS: f64 = 0.01; // rad/s
 

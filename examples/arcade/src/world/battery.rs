@@ -10,7 +10,7 @@ const VOLTAGE: [f64; 11] = [3.30, 3.61, 3.69, 3.71, 3.75, 3.80, 3.84, 3.91, 3.98
 pub struct Battery {
     /// Ah.
     pub capacity: f64,
-    /// Taken since it was full, Ah.
+    /// Charge taken since it was full, Ah.
     pub used: f64,
     /// A.
     pub current: f64,
@@ -22,7 +22,7 @@ impl Battery {
         Self { capacity, used: capacity * (1.0 - charge), current: 0.0 }
     }
 
-    /// 0 to 1.
+    /// Charge that is left, 0 to 1.
     pub fn charge_left(&self) -> f64 {
         (1.0 - self.used / self.capacity).clamp(0.0, 1.0)
     }
@@ -31,7 +31,7 @@ impl Battery {
         self.used >= self.capacity
     }
 
-    /// Under the present load, V.
+    /// Voltage under the present load, V.
     pub fn voltage(&self) -> f64 {
         self.open_voltage() - RESISTANCE * self.current
     }
@@ -42,7 +42,7 @@ impl Battery {
         CELLS * (VOLTAGE[below] + (VOLTAGE[below + 1] - VOLTAGE[below]) * (place - below as f64))
     }
 
-    /// Takes `power` W for `elapsed` s. From P = (U - R I) I follows I.
+    /// Draws `power` W for `elapsed` s. The current I follows from P = (U - R I) I.
     pub fn draw(&mut self, power: f64, elapsed: f64) {
         if self.is_empty() {
             self.current = 0.0;

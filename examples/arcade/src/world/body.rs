@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3, EulerRot};
 use std::ops::Add;
 
 pub const MASS: f64 = 1.2; // kg
-/// About the body's axes, kg m^2.
+/// Moments of inertia about the body's axes, kg m^2.
 pub const INERTIA: DVec3 = DVec3::new(0.012, 0.012, 0.022);
 
 /// Position and motion. `position` is the point between the feet.
@@ -12,9 +12,9 @@ pub const INERTIA: DVec3 = DVec3::new(0.012, 0.012, 0.022);
 pub struct Body {
     pub position: DVec3,
     pub velocity: DVec3,
-    /// From body axes to the world's.
+    /// Rotation from body axes to the world's.
     pub attitude: DQuat,
-    /// In body axes, rad/s.
+    /// Angular rates in body axes, rad/s.
     pub rates: DVec3,
 }
 

@@ -3,17 +3,17 @@
 use super::body::{Body, Load};
 use glam::DVec3;
 
-/// Of a foot from the body's x and y axes, m.
+/// Distance of a foot from the body's x and y axes, m.
 const REACH: f64 = 0.12;
 const STIFFNESS: f64 = 2500.0; // N/m
 const DAMPING: f64 = 60.0; // N s/m
 const FRICTION: f64 = 0.6;
-/// Slower than this, friction falls with speed, m/s: it would otherwise shake between two directions.
+/// Below this speed, friction decreases with speed, m/s; otherwise it would alternate between two directions.
 const CREEP: f64 = 0.01;
 /// Height of the centre of mass above the feet, m.
 const LEG: f64 = 0.1;
 
-/// The load of the feet that touch the ground; nothing in the air.
+/// Returns the load of the feet that touch the ground, or `None` in the air.
 pub fn load(body: &Body) -> Option<Load> {
     let corners = [(REACH, REACH), (REACH, -REACH), (-REACH, REACH), (-REACH, -REACH)];
     corners.into_iter().filter_map(|(x, y)| foot(body, x, y)).reduce(|sum, foot| sum + foot)

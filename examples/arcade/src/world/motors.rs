@@ -5,22 +5,22 @@ use glam::{DQuat, DVec3};
 
 pub const MAX_THRUST: f64 = 6.5; // N for each motor
 const TIME_CONSTANT: f64 = 0.03; // s
-/// Drag of a propeller turns the airframe, N m for each N of thrust.
+/// Torque of a propeller's drag on the airframe, N m for each N of thrust.
 const YAW_TORQUE: f64 = 0.016;
-/// Of a motor from the body's x and y axes: an arm of 0.225 m at 45 degrees.
+/// Distance of a motor from the body's x and y axes: an arm of 0.225 m at 45 degrees.
 const ARM: f64 = 0.225 * std::f64::consts::FRAC_1_SQRT_2; // m
-/// Power goes with thrust to the power of 1.5 (momentum theory of the ideal rotor), W for 1 N.
+/// Power is proportional to thrust to the power of 1.5 (momentum theory of the ideal rotor), W for 1 N.
 const POWER: f64 = 6.6;
-/// Of the electronics, W.
+/// Power of the electronics, W.
 const IDLE_POWER: f64 = 5.0;
 
-/// In the order of the message: front left, front right, rear left, rear right.
+/// Positions in the order of the message: front left, front right, rear left, rear right.
 const POSITIONS: [DVec3; 4] =
     [DVec3::new(ARM, ARM, 0.0), DVec3::new(ARM, -ARM, 0.0), DVec3::new(-ARM, ARM, 0.0), DVec3::new(-ARM, -ARM, 0.0)];
 /// Front left and rear right turn clockwise and push the airframe counter-clockwise.
 const TURNS: [f64; 4] = [1.0, -1.0, -1.0, 1.0];
 
-/// What the four propellers do now.
+/// The state of the four propellers.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Motors {
     /// N.
@@ -48,7 +48,7 @@ impl Motors {
         Load { force: attitude * (DVec3::Z * total), torque }
     }
 
-    /// W.
+    /// Power that motors and electronics draw, W.
     pub fn power(&self) -> f64 {
         IDLE_POWER + POWER * self.thrust.iter().map(|thrust| thrust * thrust.sqrt()).sum::<f64>()
     }
@@ -73,7 +73,7 @@ impl MotorControllers {
         if self.silence_us(now_us) <= HOLD_US { self.set_points } else { [0.0; 4] }
     }
 
-    /// Since the last set-point.
+    /// Microseconds since the last set-point.
     pub fn silence_us(&self, now_us: u64) -> u64 {
         now_us - self.received_us
     }

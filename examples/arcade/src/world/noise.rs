@@ -15,7 +15,7 @@ impl Noise {
         Self(StdRng::seed_from_u64(key))
     }
 
-    /// Normally distributed with mean 0.
+    /// Returns a normally distributed value with mean 0 and standard deviation `sigma`.
     pub fn normal(&mut self, sigma: f64) -> f64 {
         let normal: f64 = StandardNormal.sample(&mut self.0);
         normal * sigma
@@ -32,7 +32,7 @@ impl Noise {
 pub struct Wander {
     pub value: f64,
     sigma: f64,
-    /// s.
+    /// Correlation time, s.
     time: f64,
 }
 
@@ -42,7 +42,7 @@ impl Wander {
         Self { value: 0.0, sigma, time }
     }
 
-    /// Exact for any `elapsed`.
+    /// Advances by `elapsed` seconds; exact for steps of any length.
     pub fn step(&mut self, noise: &mut Noise, elapsed: f64) {
         let kept = (-elapsed / self.time).exp();
         self.value = kept * self.value + noise.normal(self.sigma * (1.0 - kept * kept).sqrt());

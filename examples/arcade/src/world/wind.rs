@@ -32,7 +32,7 @@ impl Wind {
         self.gusts.iter_mut().for_each(|gust| gust.step(&mut self.noise, elapsed));
     }
 
-    /// m/s.
+    /// Wind at a height above the ground, m/s.
     pub fn at_height(&self, height: f64) -> DVec3 {
         let [x, y, z] = self.gusts.each_ref().map(|gust| gust.value);
         (self.mean + DVec3::new(x, y, z)) * (height / BOUNDARY).clamp(0.0, 1.0)

@@ -7,13 +7,13 @@ use rusqlite::{Connection, ErrorCode, OpenFlags, TransactionBehavior, ffi};
 
 use super::statistics::Observation;
 
-/// In the header of the file, so that no other program's database is taken for one of these: `OSPR`.
+/// Identifies these databases in the header of the file, so that those of other programs are not accepted: `OSPR`.
 const APPLICATION_ID: i32 = 0x4F53_5052;
 
-/// Of the tables below, in the header, too. A program that changes them counts this up.
+/// Schema version, also in the header of the file. Increment it when the tables below change.
 const SCHEMA_VERSION: i32 = 1;
 
-/// Observations in order of their times: a primary key without row numbers is the order in the file.
+/// Observations in order of their times: without row numbers, the primary key is the order in the file.
 const SCHEMA: &str = "
     CREATE TABLE observation (
         time_us INTEGER NOT NULL, -- since 1970
@@ -24,12 +24,13 @@ const SCHEMA: &str = "
     ) STRICT, WITHOUT ROWID;
 ";
 
-/// Short, because observations and queries wait meanwhile.
+/// How long to wait for a lock; short, because observations and queries wait, too.
 const BUSY_TIMEOUT: Duration = Duration::from_millis(50);
 
 const PAGE_BYTES: u64 = 4096;
 
-/// The length at which the log is moved to the file: what is in it when the disk becomes full needs room in the file.
+/// The length at which the log is copied into the file; short, because what is in the log when the disk becomes full
+/// still needs space in the file.
 const LOG_PAGES: u32 = 32;
 
 /// Why a database was not opened.
@@ -39,13 +40,13 @@ pub enum OpenError {
     /// The file has other tables.
     #[error("it belongs to another program")]
     Foreign,
-    /// Its tables are not those of this program.
+    /// The tables have another schema version.
     #[error("it has schema version {found}, this program knows version {SCHEMA_VERSION}")]
     Version {
-        /// What the file says.
+        /// The schema version of the file.
         found: i32,
     },
-    /// SQLite could not.
+    /// SQLite reported an error.
     #[error(transparent)]
     Sqlite(#[from] rusqlite::Error),
 }
@@ -55,9 +56,9 @@ pub enum OpenError {
 pub enum Trouble {
     /// Another process has locked it.
     Locked,
-    /// It has its largest size, or the disk is full.
+    /// It has reached its maximum size, or the disk is full.
     Full,
-    /// Its bytes make no sense.
+    /// It is damaged, or not a database.
     Corrupt,
     /// Anything else.
     Other,
@@ -81,10 +82,10 @@ pub struct Database {
 }
 
 impl Database {
-    /// Opens a database of at most `max_bytes`, or creates it. Its bytes are checked.
+    /// Opens or creates a database of at most `max_bytes`, and checks its integrity.
     ///
     /// # Errors
-    /// Those of [`OpenError`].
+    /// See [`OpenError`].
     pub fn open(path: &Path, max_bytes: u64) -> Result<Self, OpenError> {
         let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
         let mut connection = Connection::open_with_flags(path, flags)?;
@@ -104,7 +105,7 @@ impl Database {
     /// Writes observations and removes those from before `oldest_us`, in one transaction: all of it or nothing.
     ///
     /// # Errors
-    /// Those of SQLite.
+    /// Errors of SQLite.
     pub fn write(&mut self, new: impl Iterator<Item = Observation>, oldest_us: i64) -> rusqlite::Result<()> {
         let transaction = self.connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
         transaction.prepare_cached("DELETE FROM observation WHERE time_us < ?1")?.execute([oldest_us])?;
@@ -121,7 +122,7 @@ impl Database {
     /// Calls `each` with the observations from `from_us` on, in order of their times.
     ///
     /// # Errors
-    /// Those of SQLite.
+    /// Errors of SQLite.
     pub fn read(&self, from_us: i64, mut each: impl FnMut(Observation)) -> rusqlite::Result<()> {
         let query = "SELECT time_us, channel, power_db, occupied FROM observation WHERE time_us >= ?1 \
                      ORDER BY time_us, channel";
@@ -138,10 +139,11 @@ impl Database {
         Ok(())
     }
 
-    /// Removes the oldest quarter of the time. The file does not grow from then on: what was removed is room enough.
+    /// Removes the observations from the oldest quarter of the recorded time. The file does not grow from then on: the
+    /// space that this frees is enough.
     ///
     /// # Errors
-    /// Those of SQLite.
+    /// Errors of SQLite.
     pub fn remove_oldest(&mut self) -> rusqlite::Result<()> {
         let delete = "DELETE FROM observation WHERE time_us < \
                       (SELECT min(time_us) + (max(time_us) - min(time_us)) / 4 FROM observation)";
@@ -153,7 +155,7 @@ impl Database {
     }
 }
 
-/// Makes sure that the file has this program's tables: those that it has, or new ones if it is empty.
+/// Makes sure that the file has this program's tables. Creates them if it is empty.
 fn prepare_tables(connection: &mut Connection) -> Result<(), OpenError> {
     // Lock out other writers, so none of them creates tables in between.
     let transaction = connection.transaction_with_behavior(TransactionBehavior::Immediate)?;

@@ -1,4 +1,4 @@
-//! The thread of the database. What blocks there, a lock or a slow disk, does not keep the gates from working.
+//! The database thread. A lock or a slow disk blocks this thread, but not the gates.
 
 use std::io;
 use std::thread::{self, JoinHandle};
@@ -11,7 +11,8 @@ use super::recorder::{Recorder, Refused};
 use crate::ospecorr::occupancy::Channel;
 use crate::ospecorr::{Query, Statistics};
 
-/// Jobs that may wait: about two seconds. More wait in the gates, which count what they drop.
+/// Maximum number of jobs that wait: those of about two seconds. Further messages wait in the gates, which count what
+/// they drop.
 const QUEUE: usize = 100;
 
 /// What the thread is to do.
@@ -26,7 +27,7 @@ pub enum Job {
 
 /// The thread. It ends when this is dropped, after it has written what is left.
 pub struct Keeper {
-    /// Where jobs go.
+    /// Sends jobs to the thread.
     pub jobs: Sender<Job>,
     /// Why the thread has refused the database, if it has.
     pub refused: oneshot::Receiver<Refused>,

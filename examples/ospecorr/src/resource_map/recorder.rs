@@ -23,23 +23,24 @@ pub const KEPT: f64 = 3600.0;
 /// Blocks that are kept in memory while the database cannot be written: a minute of them.
 const MOST_HELD: usize = 3000;
 
-/// The ending of a file that takes up room until the disk is full.
+/// Suffix of the reserve file, which occupies space until the disk is full.
 const RESERVE: &str = "-reserve";
 const RESERVE_BYTES: usize = 512 << 10;
 
-/// How long a database that cannot be written is left alone, in microseconds. One that is locked is tried each time.
+/// How long to wait before retrying a database that cannot be written, in microseconds. A locked one is retried at each
+/// flush.
 const RETRY_US: i64 = 1_000_000;
 
 /// Where the database is, and how large it may become.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// Its largest size.
+    /// Maximum size of the file in bytes.
     pub max_bytes: u64,
 }
 
-/// The file is not this program's to use.
+/// Why this program cannot use the database.
 #[derive(Debug, thiserror::Error)]
 #[error(
     "cannot use the database `{path}`: {reason}\n  = help: choose another file with --database, or move this one away"
@@ -52,7 +53,7 @@ pub struct Refused {
 /// Writes blocks of observations and answers queries.
 pub struct Recorder {
     settings: Settings,
-    /// `None` until it could be opened.
+    /// `None` while it is not open.
     database: Option<Database>,
     was_opened: bool,
     /// Blocks that are not written yet, in the order of their times.
@@ -71,7 +72,7 @@ struct Block {
 }
 
 /// Whether observations were removed because the database is full. When that does not help, because the disk itself is
-/// full, it is not done again: there would soon be none left.
+/// full, it is not repeated: there would soon be no observations left.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum MadeRoom {
     Never,
@@ -80,7 +81,7 @@ enum MadeRoom {
 }
 
 impl Recorder {
-    /// Calls `report` with a line about each event.
+    /// Creates a recorder that calls `report` with a line about each event.
     pub fn new(settings: Settings, report: impl FnMut(String) + Send + 'static) -> Self {
         Self {
             settings,
@@ -107,10 +108,10 @@ impl Recorder {
         }
     }
 
-    /// Writes what was added, in one transaction. What cannot be written now is tried again next time.
+    /// Writes the added blocks in one transaction. If that is not possible now, a later flush writes them.
     ///
     /// # Errors
-    /// The file is not this program's to use.
+    /// This program cannot use the database.
     pub fn flush(&mut self, now_us: i64) -> Result<(), Refused> {
         if self.held.is_empty() && self.database.is_some() || now_us < self.retry_at_us {
             return Ok(());
@@ -181,7 +182,8 @@ impl Recorder {
         Ok(())
     }
 
-    /// Those that are not written yet. A detector may report what SQLite has no number for; that is left out.
+    /// Returns the observations that are not written yet. Those whose power is not finite are left out: a detector may
+    /// report them, but SQLite cannot store NaN.
     fn observations(&self) -> impl Iterator<Item = Observation> {
         self.held.iter().flat_map(|block| {
             let numbered = (0..).zip(&block.channels).filter(|(_, it)| it.power_db.is_finite());
@@ -194,7 +196,7 @@ impl Recorder {
         })
     }
 
-    /// Moves the file to `<file>.corrupt-<n>`, and its log as well, which belongs to it.
+    /// Moves the file to `<file>.corrupt-<n>`, together with its log.
     fn set_aside(&mut self, result: &Result<(), OpenError>) -> Result<(), Refused> {
         self.database = None;
         let path = &self.settings.path;
@@ -258,7 +260,7 @@ fn cannot_move(to: &Path, error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("it is corrupt, and cannot be moved to `{}`: {error}", to.display()))
 }
 
-/// `path` with more at its end.
+/// Returns `path` with `more` appended.
 fn ending(path: &Path, more: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(more);

@@ -1,4 +1,4 @@
-//! What the observations of some time say about each channel.
+//! Statistics of each channel over a period of observations.
 
 use crate::ospecorr::statistics::Channel;
 
@@ -7,11 +7,11 @@ use crate::ospecorr::statistics::Channel;
 pub struct Observation {
     /// Microseconds since 1970.
     pub time_us: i64,
-    /// Its number in the band.
+    /// Number of the channel in the band.
     pub channel: u32,
     /// Mean power above the noise floor.
     pub power_db: f64,
-    /// Whether it was in use.
+    /// Whether the channel was in use.
     pub occupied: bool,
 }
 
@@ -28,7 +28,7 @@ pub struct Summary {
 struct Sums {
     observations: u32,
     occupied: u32,
-    /// Of powers, not of decibels: the mean of -10 dB and 10 dB is 7 dB, not 0 dB.
+    /// Sum of powers, not of decibels: the mean of -10 dB and 10 dB is 7 dB, not 0 dB.
     power: f64,
     idle_us: i64,
     idle_times: u32,
@@ -36,7 +36,7 @@ struct Sums {
 }
 
 impl Summary {
-    /// Adds one.
+    /// Adds an observation.
     pub fn add(&mut self, now: Observation) {
         let index = now.channel as usize;
         if index >= self.channels.len() {
@@ -54,8 +54,8 @@ impl Summary {
         sums.last = Some(now);
     }
 
-    /// The statistics of each channel, from channel 0. Idle times that were cut off by the beginning or the end of the
-    /// observations count as far as they were seen.
+    /// Returns the statistics of each channel, from channel 0. Idle times that were cut off by the beginning or the end
+    /// of the observations count as far as they were observed.
     pub fn finish(self) -> Vec<Channel> {
         self.channels.into_iter().map(Sums::finish).collect()
     }

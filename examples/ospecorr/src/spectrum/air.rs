@@ -14,7 +14,7 @@ pub struct Air {
     primary_users: PrimaryUsers,
     receiver: Receiver,
     seed: u64,
-    /// Counts steps: the clock.
+    /// Number of steps so far, which is the clock.
     step: u64,
     /// The channel of the last frame of this slot.
     used: Option<u32>,
@@ -22,7 +22,7 @@ pub struct Air {
 }
 
 impl Air {
-    /// At time 0.
+    /// Creates the band at time 0.
     pub fn new(primary_users: PrimaryUsers, snr_db: f64, seed: u64) -> Self {
         Self { primary_users, receiver: Receiver::new(snr_db), seed, step: 0, used: None, lost: 0 }
     }
@@ -37,8 +37,8 @@ impl Air {
         self.lost
     }
 
-    /// A step with a frame of the radio on this channel, or without one, and what arrives at the far end. On a channel
-    /// outside of the band a frame is lost.
+    /// Advances by a step in which the radio sends `frame`, if any, on `channel`. Returns what arrives at the far end.
+    /// A frame on a channel outside of the band is lost.
     pub fn carry(&mut self, channel: u32, frame: Option<Frame>) -> Option<Received> {
         let (begin_us, end_us) = (self.time_us(), self.time_us() + STEP_US);
         self.step += 1;
@@ -52,8 +52,8 @@ impl Air {
         Some(Received { time_us: end_us, number: frame.number, length, channel })
     }
 
-    /// A quiet period: samples of the band, and what is true at this time. The radio sends no frame now, so it is not
-    /// in the samples; `channel` is what it is set to.
+    /// Advances by a quiet period, and returns samples of the band and the truth at this time. The radio sends no frame
+    /// now, so it is not in the samples; `channel` is the channel that it is set to.
     pub fn listen(&mut self, channel: u32) -> (Samples, Truth) {
         let time_us = self.time_us();
         let channels = self.primary_users.channels(time_us, time_us + BLOCK_US);

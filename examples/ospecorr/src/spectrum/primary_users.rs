@@ -9,9 +9,9 @@ use rand_distr::{Distribution, Exp1};
 use super::random::{self, Purpose};
 use crate::band::CHANNELS;
 
-/// A primary user of a random band is away for this long on average, ...
+/// Mean time for which a random primary user is away.
 const MEAN_IDLE_US: f64 = 6e6;
-/// ... and then transmits for this long: each channel is in use two fifths of the time.
+/// Mean time for which a random primary user then transmits, so that each channel is in use two fifths of the time.
 const MEAN_VISIT_US: f64 = 4e6;
 
 /// The time during which a primary user transmits in a channel.
@@ -28,7 +28,7 @@ impl Visit {
     }
 }
 
-/// `CHANNEL@FROM..TO`, in seconds.
+/// Parses `CHANNEL@FROM..TO`, with times in seconds.
 impl FromStr for Visit {
     type Err = String;
 
@@ -55,9 +55,9 @@ fn microseconds(seconds: &str) -> Result<u64, String> {
 
 /// All primary users of the band.
 pub enum PrimaryUsers {
-    /// At these times.
+    /// Users that transmit at these times.
     Scheduled(Vec<Visit>),
-    /// One in each channel, independent of the others.
+    /// A user in each channel, independent of the others.
     Random(Vec<RandomUser>),
 }
 
@@ -67,8 +67,8 @@ impl PrimaryUsers {
         Self::Random((0..CHANNELS).map(|channel| RandomUser::new(channel, seed)).collect())
     }
 
-    /// The channels that are in use at some time from `from_us` until before `to_us`, in order. Times of successive
-    /// calls do not decrease.
+    /// Returns the channels that are in use at some time from `from_us` until before `to_us`, in order. The times must
+    /// not decrease from call to call.
     pub fn channels(&mut self, from_us: u64, to_us: u64) -> Vec<u32> {
         (0..CHANNELS).filter(|channel| self.uses(*channel, from_us, to_us)).collect()
     }
@@ -81,8 +81,8 @@ impl PrimaryUsers {
     }
 }
 
-/// Comes and goes at exponentially distributed times: an alternating renewal process, as in Kim and Shin, "Efficient
-/// Discovery of Spectrum Opportunities", IEEE Transactions on Mobile Computing 7(5), 2008.
+/// A primary user that comes and goes after exponentially distributed times: an alternating renewal process, as in Kim
+/// and Shin, "Efficient Discovery of Spectrum Opportunities", IEEE Transactions on Mobile Computing 7(5), 2008.
 pub struct RandomUser {
     rng: StdRng,
     visit: Visit,

@@ -1,4 +1,5 @@
-//! Random numbers: from one seed, a generator for each purpose. What one purpose uses up does not change another.
+//! Random numbers: from one seed, a generator for each purpose. The numbers drawn for one purpose do not affect those
+//! of another.
 
 use rand::SeedableRng;
 use rand::rngs::StdRng;

@@ -18,19 +18,19 @@ const SPAN: usize = 16;
 /// Makes blocks of samples.
 pub struct Receiver {
     pulse: Vec<f64>,
-    /// Of a primary user's signal; the noise has amplitude 1.
+    /// Amplitude of a primary user's signal; the noise has amplitude 1.
     amplitude: f64,
 }
 
 impl Receiver {
-    /// `snr_db`: the power of a primary user above that of the noise in its channel.
+    /// Creates a receiver. `snr_db` is the power of a primary user above that of the noise in its channel.
     pub fn new(snr_db: f64) -> Self {
         let power = 10f64.powf(snr_db / 10.0) / f64::from(CHANNELS);
         Self { pulse: pulse(), amplitude: power.sqrt() }
     }
 
-    /// A block with primary users on these channels: real and imaginary parts in turn. White noise has power 1 in the
-    /// whole band.
+    /// Returns a block with primary users on these channels, with real and imaginary parts in turn. The white noise has
+    /// power 1 in the whole band.
     pub fn block(&self, channels: &[u32], rng: &mut StdRng) -> Vec<f32> {
         let mut iq: Vec<f64> =
             StandardNormal.sample_iter(&mut *rng).take(2 * BLOCK).map(|it: f64| it * FRAC_1_SQRT_2).collect();
@@ -40,8 +40,8 @@ impl Receiver {
         iq.into_iter().map(|it| it as f32).collect()
     }
 
-    /// Adds random QPSK symbols, shaped by the pulse and moved to a channel. Nothing ties phase and symbol clock of a
-    /// primary user to this receiver, so both are random in each block.
+    /// Adds random QPSK symbols, shaped by the pulse and moved to a channel. The phase and symbol clock of a primary
+    /// user are not synchronized with this receiver, so both are random in each block.
     fn add_primary_user(&self, iq: &mut [f64], channel: u32, rng: &mut StdRng) {
         let symbols: Vec<[f64; 2]> = (0..BLOCK / SAMPLES_PER_SYMBOL + 2 + SPAN)
             .map(|_| [(); 2].map(|()| if rng.random() { FRAC_1_SQRT_2 } else { -FRAC_1_SQRT_2 }))
@@ -75,7 +75,7 @@ fn pulse() -> Vec<f64> {
     taps.into_iter().map(|tap| tap * scale).collect()
 }
 
-/// At time `t`, counted in symbols.
+/// Returns the root raised cosine at time `t`, in symbols.
 fn root_raised_cosine(t: f64) -> f64 {
     let edge = 4.0 * ROLL_OFF * t;
     if t == 0.0 {

@@ -8,8 +8,8 @@ use scl_plan::{Plan, Schema};
 use std::collections::HashMap;
 use syn::Ident;
 
-/// The embedded schemas of one invocation. Components with the same schema files share one constant, because its bytes
-/// may be many.
+/// The embedded schemas of one invocation. Components with the same schema files share one constant, because it may be
+/// large.
 #[derive(Default)]
 pub(in crate::expand) struct EmbeddedSchemas<'p> {
     all: Vec<&'p Schema>,

@@ -1,5 +1,6 @@
-//! The sign of -0.0: prost takes it for the default of a field and leaves it out. So fields are marked as `required`,
-//! which are always encoded, and prost is replaced by the modules of `scl::private::floats`, which leave out 0.0.
+//! Keeps the sign of -0.0: prost takes it for the default of a field and omits it. So fields are marked as `required`,
+//! which makes prost always encode them, and prost is replaced by the modules of `scl::private::floats`, which omit
+//! 0.0.
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};

@@ -59,7 +59,7 @@ fn generate(files: &[FileDescriptorProto]) -> Result<Tree, String> {
     Ok(root)
 }
 
-/// What the generator writes for these files, or what it says.
+/// Returns the code that the generator writes for these files, or its error.
 #[cfg(test)]
 pub(crate) fn generate_messages(files: &[FileDescriptorProto]) -> Result<TokenStream, String> {
     let root = no_panic(|| generate(files)).flatten()?;

@@ -77,7 +77,7 @@ impl Module {
     }
 }
 
-/// `unknown` gives the type of all types, by the number of modules around it.
+/// Expands a module. `unknown` returns the type that all its types stand for, by the number of enclosing modules.
 fn expand_module(module: &Module, depth: usize, unknown: &dyn Fn(usize) -> TokenStream) -> TokenStream {
     let types = module.types.iter().filter_map(|name| {
         let (name, unknown) = (identifier(name, Span::call_site())?, unknown(depth));

@@ -19,7 +19,7 @@ pub(in crate::expand) struct Lookups {
     pub(in crate::expand) private: TokenStream,
     /// The struct that has the associated types.
     pub(in crate::expand) holder: Ident,
-    /// The type in place of one that is not found.
+    /// The stand-in for a type that is not found.
     pub(in crate::expand) not_found: Ident,
     pub(in crate::expand) all: Vec<Lookup>,
     pub(in crate::expand) index: HashMap<String, usize>,
@@ -71,13 +71,13 @@ impl Lookups {
         Some(quote_spanned!(span => <#holder as #private::NamedType<#index>>::Type))
     }
 
-    /// The type in place of one that is not found, if that may be the case for this one.
+    /// The stand-in for this type, if it may not be found.
     pub(in crate::expand) fn stand_in(&self, name: &TypeName) -> Option<&Ident> {
         self.index.contains_key(name.dotted()).then_some(&self.not_found)
     }
 }
 
-/// `None` if the type needs no lookup.
+/// Returns what a path starts with; `None` if the type needs no lookup.
 fn start(dotted: &str, crates: &BTreeSet<String>) -> Option<Start> {
     match dotted.split_once('.') {
         None if PRELUDE.contains(&dotted) => None,

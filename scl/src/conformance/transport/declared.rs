@@ -28,8 +28,8 @@ pub async fn counts_what_was_not_taken(transport: &dyn Transport) {
     }
 }
 
-/// A receiving end that is dropped has told what its program has received. The rest is not received: what waits in its
-/// gate, and what was never taken.
+/// Before a receiving end is dropped, it reports which messages its program has received. The others count as not
+/// received: those that wait in its gate, and those that were never taken.
 pub async fn tells_what_was_received(transport: &dyn Transport) {
     for pattern in PATTERNS {
         let (mut sender, mut receiver) = pattern.connected(transport).await;

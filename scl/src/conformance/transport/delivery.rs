@@ -48,7 +48,7 @@ pub async fn never_delivers_an_oversized_message(transport: &dyn Transport) {
         }
     }
 
-    /// Receives what was sent more than once.
+    /// Receives the repeated messages that are still on their way.
     async fn until_silent(sender: &mut TestSender, receiver: &mut super::TestReceiver, accepted: &Bytes) {
         let end = Bytes::from_static(b"end");
         sender.queue([end.clone()]);

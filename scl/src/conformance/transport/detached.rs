@@ -93,7 +93,7 @@ pub async fn replies_when_detached(transport: &dyn Transport) {
     }
 }
 
-/// Calls a function until it returns true.
+/// Calls a function until it returns true, for at most [`PATIENCE`].
 fn tries(mut call: impl FnMut() -> bool) {
     let started = Instant::now();
     while !call() && started.elapsed() < PATIENCE {
@@ -101,7 +101,7 @@ fn tries(mut call: impl FnMut() -> bool) {
     }
 }
 
-/// A second runtime, which ends when it is dropped, also inside the first one.
+/// A second runtime, which shuts down when it is dropped, even inside the first one.
 struct OtherRuntime(Option<Runtime>);
 
 impl OtherRuntime {

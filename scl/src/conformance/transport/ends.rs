@@ -1,4 +1,4 @@
-//! The ends of messages, as the tests use them.
+//! Sending and receiving ends, as the tests use them.
 
 use super::watched::Watched;
 use crate::transport::{Driven, Frame, Link, PeerKind, Receiver, Sender, Sent};
@@ -8,7 +8,7 @@ use std::future::poll_fn;
 use std::task::{Context, Poll, Waker};
 use std::time::Duration;
 
-/// More than any test opens.
+/// More peers than any test opens.
 const MOST_PEERS: usize = 10_000;
 
 /// A sending end, its newest link, and the messages to send over that.
@@ -63,8 +63,8 @@ impl TestSender {
         self.queue.is_empty() && self.link.as_ref().is_none_or(|link| link.watched.end.is_written())
     }
 
-    /// Looks for peers and drives the link, if these were woken, and sends what is queued. Returns true if there is a
-    /// peer.
+    /// Polls for peers and drives the link, each only if it was woken, then sends the queued messages. Returns true if
+    /// a peer is connected.
     pub(super) fn poll(&mut self, test: &Context<'_>) -> bool {
         loop {
             while let Poll::Ready(link) = self.poll_link(test) {
@@ -93,12 +93,12 @@ impl TestSender {
         self.watched.call_again();
     }
 
-    /// Waits until there is a peer, or no longer.
+    /// Waits until a peer is connected, or until none is if `connected` is false.
     pub(super) async fn until_connected(&mut self, connected: bool) {
         poll_fn(|cx| if self.poll(cx) == connected { Poll::Ready(()) } else { Poll::Pending }).await;
     }
 
-    /// Waits until everything is written, to the peer that is connected.
+    /// Waits until all messages are written to the connected peer.
     pub(super) async fn until_written(&mut self) {
         poll_fn(|cx| {
             self.poll(cx);
@@ -140,8 +140,8 @@ impl TestLink {
         Self { watched: Watched::new(end), refused: false, is_gone: false, turns: 0 }
     }
 
-    /// Drives the link if it was woken, and sends from the queue; a message that was returned only after a wake-up.
-    /// Returns false if the peer is gone.
+    /// Drives the link if it was woken, and sends from the queue. A message that was returned is sent again only after
+    /// a wake-up. Returns false if the peer is gone.
     pub(super) fn poll(&mut self, test: &Context<'_>, queue: &mut VecDeque<Frame>) -> bool {
         let mut driven = None;
         if self.watched.take_turn(test) {
@@ -196,7 +196,8 @@ impl TestLink {
         self.watched.end.request_acknowledgement(&mut Context::from_waker(&self.watched.waker));
     }
 
-    /// Number of messages that the peer's program has not received, from what the peer has said before it left.
+    /// Returns the number of messages that the peer's program has not received, as the peer reported before it
+    /// disconnected.
     pub(super) fn not_received_at_last(&mut self) -> u64 {
         self.watched.end.read_last();
         self.watched.end.not_received()
@@ -208,7 +209,7 @@ pub(super) struct TestReceiver {
     pub(super) watched: Watched<Box<dyn Receiver>>,
     /// What [`poll_newest`](Self::poll_newest) has received and not returned yet.
     newest: Option<Bytes>,
-    /// Whether a call of it has begun that has returned nothing yet.
+    /// Whether a pending [`poll_newest`](Self::poll_newest) is continued by the next one.
     catching_up: bool,
 }
 
@@ -217,7 +218,7 @@ impl TestReceiver {
         Self { watched: Watched::new(end), newest: None, catching_up: false }
     }
 
-    /// Drops the end as a gate does in which some of the messages wait that were returned last.
+    /// Drops the end as a gate does while the last `waiting` messages that were returned wait in its queue.
     pub(super) fn leave(mut self, waiting: u64) {
         let _awaited = self.watched.end.note_waiting(&mut Context::from_waker(&self.watched.waker), waiting);
         self.watched.end.acknowledge_last();
@@ -264,7 +265,8 @@ impl TestReceiver {
         .await
     }
 
-    /// Receives what has arrived, or what arrives in some time, without a runtime.
+    /// Receives the messages that have arrived, without a runtime. Waits up to `within` for those that the sender holds
+    /// back.
     pub(super) fn fetch(&mut self, within: Duration) -> Vec<Bytes> {
         self.watched.end.catch_up(within);
         self.watched.call_again();

@@ -15,14 +15,14 @@ use std::task::{Context, Poll};
 use std::time::{Duration, Instant};
 use tokio::net::UnixStream;
 
-/// More than fits between two ends.
+/// More messages than fit between two ends.
 const MANY: u64 = 5000;
 /// How long one of several senders is polled before the next one has its turn.
 const TURN: Duration = Duration::from_millis(2);
-/// Each answers in its first turn or two, even on a busy machine.
+/// Maximum number of turns: each sender answers in its first turn or two, even on a busy machine.
 const MOST_TURNS: usize = 20;
 
-/// After a pause, a receiver that has caught up has the newest message, however many were sent meanwhile.
+/// After a pause, a receiver that has caught up has the newest message, however many were sent during the pause.
 pub async fn returns_the_newest_message(transport: &dyn Transport) {
     for pattern in PATTERNS {
         let (mut sender, mut receiver) = connected(pattern, transport).await;
@@ -37,7 +37,7 @@ pub async fn returns_the_newest_message(transport: &dyn Transport) {
     }
 }
 
-/// A receiver catches up even if the sender never pauses, and has a message not older than the call.
+/// A receiver catches up even if the sender never pauses, and returns a message that is not older than the call.
 pub async fn catches_up_with_a_busy_sender(transport: &dyn Transport) {
     for pattern in PATTERNS {
         let (mut sender, mut receiver) = connected(pattern, transport).await;
@@ -63,7 +63,7 @@ pub async fn catches_up_with_a_busy_sender(transport: &dyn Transport) {
     }
 }
 
-/// Senders that are slow do not have to answer at the same time: what one has said counts until the other has answered.
+/// Slow senders need not answer at the same time: the answer of one counts until the other has answered.
 pub async fn catches_up_with_senders_that_answer_in_turn(transport: &dyn Transport) {
     let endpoint = Endpoint { newest_only: true, ..Endpoint::new(ENDPOINT) };
     let mut puller = Pattern::PushPull.receiver_at(transport, &endpoint);
@@ -95,8 +95,8 @@ pub async fn catches_up_with_senders_that_answer_in_turn(transport: &dyn Transpo
 }
 
 /// [`Receiver::catch_up`](crate::transport::Receiver::catch_up) gets the newest message from a sender in another
-/// thread, without help from a runtime. It gives up in time if that sender does nothing, and the next call is not
-/// content with an answer to the one that gave up.
+/// thread, without help from a runtime. It gives up in time if that sender does nothing, and the next call does not
+/// accept an answer to the one that gave up.
 pub async fn catches_up_without_a_runtime(transport: &dyn Transport) {
     for pattern in PATTERNS {
         let (mut sender, receiver) = connected(pattern, transport).await;
@@ -126,7 +126,7 @@ pub async fn catches_up_without_a_runtime(transport: &dyn Transport) {
     }
 }
 
-/// Lets a receiver catch up with a sender that does nothing; in a thread that is left behind if that takes too long.
+/// Lets a receiver catch up with a sender that does nothing, in a thread that is abandoned if that takes too long.
 fn give_up(pattern: Pattern, mut receiver: TestReceiver) -> TestReceiver {
     let (returned, gave_up) = std::sync::mpsc::channel();
     std::thread::spawn(move || {
@@ -159,7 +159,7 @@ async fn send(sender: &mut TestSender, last: &mut u64, count: u64) {
     }
 }
 
-/// Polls a sender that does not pause, and its receiver, until that has caught up.
+/// Polls a sender that does not pause, and its receiver, until the receiver has caught up.
 async fn until_caught_up(mut poll: impl FnMut(&Context<'_>) -> Poll<u64>) -> u64 {
     loop {
         match poll_fn(|cx| Poll::Ready(poll(cx))).await {
@@ -169,16 +169,16 @@ async fn until_caught_up(mut poll: impl FnMut(&Context<'_>) -> Poll<u64>) -> u64
     }
 }
 
-/// Waits until the runtime has looked for what has happened at sockets. The thread that does may be late on a busy
-/// machine, and an end that is not told of an answer cannot read it.
+/// Waits until the runtime has polled its sockets. The thread that polls them may be late on a busy machine, and an end
+/// that is not woken for an answer cannot read it.
 async fn sockets_looked_at() {
     let (end, other) = UnixStream::pair().expect("two connected sockets");
     drop(other);
     end.readable().await.expect("the other end is closed");
 }
 
-/// The newest message of a sender that goes on sending. It may have sent nothing since the last call, if its link was
-/// not woken meanwhile.
+/// Returns the newest message of a sender that never pauses. Stays pending if nothing was sent since the last call,
+/// which happens if the sender's link was not woken.
 fn poll_newest(receiver: &mut TestReceiver, cx: &Context<'_>) -> Poll<u64> {
     match receiver.poll_newest(cx) {
         Poll::Ready(Some(newest)) => Poll::Ready(number(&newest)),

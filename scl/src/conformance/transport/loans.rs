@@ -7,11 +7,11 @@ use bytes::Bytes;
 use std::future::poll_fn;
 use std::task::Poll;
 
-/// What is lent: memory of the least length that is worth it, and more.
+/// Lengths of lent memory: the smallest that is worth lending, and longer ones.
 const LENGTHS: [usize; 4] = [64 << 10, (64 << 10) + 1, 300_000, 1 << 20];
 const LENGTH: usize = LENGTHS[0];
 
-/// A transport that is said to lend nothing does not.
+/// A transport that is tested without `lends;` lends no memory.
 pub async fn lends_nothing(transport: &dyn Transport) {
     for pattern in PATTERNS {
         let (mut sender, mut receiver) = pattern.connected(transport).await;
@@ -78,7 +78,7 @@ pub async fn returns_loans_that_it_refuses(transport: &dyn Transport) {
     }
 }
 
-/// Loans that are dropped are sent to nobody, and what they took is lent again.
+/// Loans that are dropped are not sent, and their memory is lent again.
 pub async fn takes_dropped_loans_back(transport: &dyn Transport) {
     for pattern in PATTERNS {
         let (mut sender, mut receiver) = pattern.connected(transport).await;
@@ -157,7 +157,7 @@ fn fill(mut loan: Loan, message: &[u8]) -> Frame {
     loan.into()
 }
 
-/// Sends one message, so that whatever both ends agree on is agreed on.
+/// Sends one message, so that both ends have agreed on whatever they negotiate.
 async fn exchange(sender: &mut TestSender, receiver: &mut TestReceiver) {
     let message = Bytes::from_static(b"an ordinary message");
     sender.queue([message.clone()]);

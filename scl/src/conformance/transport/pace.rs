@@ -1,4 +1,4 @@
-//! Peers of different speed, acknowledgements, and rest.
+//! Peers of different speed, acknowledgements, and idle ends.
 
 use super::ends::TestLink;
 use super::{OTHER_ENDPOINT, PATTERNS, Pattern, content, numbered, requests};

@@ -1,4 +1,4 @@
-//! Ends find each other, in any order and again.
+//! Ends that connect in any order, and reconnect.
 
 use super::ends::{TestReceiver, TestSender};
 use super::request_ends::TestReplier;
@@ -76,7 +76,7 @@ pub async fn yields_each_peer_once(transport: &dyn Transport) {
     }
 }
 
-/// A receiver that is dropped is noticed, and what is sent afterwards reaches the next one.
+/// A sender notices that its receiver was dropped, and messages sent afterwards reach the next one.
 pub async fn serves_the_next_receiver(transport: &dyn Transport) {
     for pattern in PATTERNS {
         let mut sender = pattern.sender(transport);
@@ -120,7 +120,7 @@ pub async fn frees_its_endpoint(transport: &dyn Transport) {
     }
 }
 
-/// A sender and a receiver find each other, whatever one of them was doing with a peer that was dropped at that moment.
+/// A sender and a receiver find each other, at whatever stage of its connection an earlier peer was dropped.
 pub async fn finds_the_peer_that_stays(transport: &dyn Transport) {
     for pattern in PATTERNS {
         let mut sender = pattern.sender(transport);
@@ -250,7 +250,7 @@ pub async fn requests_only_if_the_check_passes(transport: &dyn Transport) {
     check_call(&mut requester, &mut replier, 1).await;
 }
 
-/// An endpoint with a check that refuses until told otherwise.
+/// Returns an endpoint with a check that refuses until the returned flag is set.
 fn with_check() -> (Endpoint, Arc<AtomicBool>) {
     let accepts = Arc::new(AtomicBool::new(false));
     let decision = Arc::clone(&accepts);
@@ -258,7 +258,7 @@ fn with_check() -> (Endpoint, Arc<AtomicBool>) {
     (Endpoint { check: Some(Arc::new(check)), ..Endpoint::new(ENDPOINT) }, accepts)
 }
 
-/// Polls until there is a result. For what an end reports without waking the task.
+/// Polls again and again until there is a result, for state that an end reports without waking the task.
 async fn until<R>(mut poll: impl FnMut(&Context<'_>) -> Option<R>) -> R {
     poll_fn(|cx| {
         cx.waker().wake_by_ref();

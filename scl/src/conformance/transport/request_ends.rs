@@ -1,4 +1,4 @@
-//! The ends of requests and replies, as the tests use them.
+//! Requesting and replying ends, as the tests use them.
 
 use super::watched::Watched;
 use crate::transport::{Answer, IncomingRequest, Replier, Requester};

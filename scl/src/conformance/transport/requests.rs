@@ -142,7 +142,7 @@ pub async fn reports_a_lost_replier(transport: &dyn Transport) {
     }
 }
 
-/// A requester finds the replier that stays, whatever it was doing with one that was dropped at that moment.
+/// A requester finds the replier that stays, at whatever stage of its connection an earlier one was dropped.
 pub async fn finds_the_replier_that_stays(transport: &dyn Transport) {
     let endpoint = Endpoint::new(ENDPOINT);
     let mut requester = requester(transport, &endpoint);
@@ -155,7 +155,7 @@ pub async fn finds_the_replier_that_stays(transport: &dyn Transport) {
     }
 }
 
-/// Requests once. Returns false if the replier was one that is dropped.
+/// Sends one request. Returns false if it was lost with a replier that was dropped.
 async fn is_answered(requester: &mut TestRequester, replier: &mut TestReplier) -> bool {
     let mut requested = false;
     let answer = poll_fn(|cx| {

@@ -14,7 +14,7 @@ use tokio::time::timeout;
 enum Place {
     /// A task of the runtime.
     Task,
-    /// A thread beside it.
+    /// A separate thread.
     Thread,
 }
 

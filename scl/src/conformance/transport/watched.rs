@@ -1,4 +1,4 @@
-//! An end with a waker of its own, which is called again only after it has used that.
+//! An end with a separate waker, which is called again only after it has used that waker.
 
 use crate::sync::lock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -16,7 +16,7 @@ pub(super) struct Watched<E> {
 struct Signal {
     woken: AtomicBool,
     wakes: AtomicUsize,
-    /// The task of the test.
+    /// Wakes the task of the test.
     test: Mutex<Option<Waker>>,
 }
 

@@ -10,11 +10,11 @@ use std::task::Context;
 /// How many messages there were, and what became of those that left the queue.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Account {
-    /// Messages of the program.
+    /// Messages that the program has sent.
     pub(super) published: u64,
     /// Messages handed to a link, or to plain programs in the place of the component.
     pub(super) handed: u64,
-    /// Those of them for the plain programs, which count them as well.
+    /// The part of `handed` that went to plain programs, which count it as well.
     pub(super) in_place: u64,
     /// Messages that had not been received by the peer's program when their link broke.
     pub(super) lost: u64,
@@ -42,14 +42,14 @@ impl Connection {
         self.foreign.iter().fold(own.plus(self.foreign_left), |sum, one| sum.plus(one.counts()))
     }
 
-    /// At a slow gate, a peer acknowledges only when it is asked.
+    /// Asks the peer for an acknowledgement: at a slow gate, it sends one only when it is asked.
     pub(crate) fn request_acknowledgement(&mut self) {
         if let Some(link) = &mut self.peer {
             link.request_acknowledgement(&mut Context::from_waker(&self.task));
         }
     }
 
-    /// Adds what this connection has done to the figures of its gate, and returns its own.
+    /// Adds the counts of this connection to the figures of its gate, and returns the connection's own figures.
     pub(crate) fn add_to_figures(&self, gate: &mut GateFigures) -> ConnectionFigures {
         let Queue { replaced, dropped_oldest, dropped_newest, .. } = self.queue;
         self.check_account();
@@ -94,8 +94,8 @@ impl Connection {
         }
     }
 
-    /// Published, with those sent once more, = taken + in flight + lost + waiting + replaced + dropped; and a peer has
-    /// received no more than it was sent.
+    /// Checks that published, with those sent once more, = taken + in flight + lost + waiting + replaced + dropped, and
+    /// that the peer has received no more than it was sent.
     pub(super) fn check_account(&self) {
         let Account { published, handed, lost, latched, .. } = self.account;
         let Queue { replaced, dropped_oldest, dropped_newest, .. } = self.queue;
@@ -104,7 +104,7 @@ impl Connection {
         debug_assert!(lost + self.not_received() <= handed, "{} has received more than it was sent", self.peer_name());
     }
 
-    /// Received by the peer's program, or dropped in its queue, as far as the peer has said.
+    /// Number of messages that the peer's program has received or its queue has dropped, as far as the peer has said.
     fn taken(&self) -> u64 {
         self.account.handed - self.account.lost - self.not_received()
     }

@@ -6,7 +6,7 @@ use crate::time::Watchdog;
 use std::task::{Context, Poll};
 use tokio::time::Instant;
 
-/// A call in progress, which hands the end back to the task when it ends in any way.
+/// A call in progress. However it ends, it hands the end back to the task.
 pub(super) struct InCall<'a> {
     exchange: &'a Exchange,
     id: u64,

@@ -1,4 +1,4 @@
-//! An inbox as the calls of the program and the gate's background task share it.
+//! An inbox that the calls of the program and the gate's background task share.
 
 use super::Inbox;
 use crate::figures::FigureSource;

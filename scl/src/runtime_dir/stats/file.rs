@@ -1,4 +1,4 @@
-//! Writing the stats file in place, and reading one that may be written at this moment.
+//! Writes the stats file in place, and reads one that may be written at the same time.
 
 use super::ComponentStats;
 use super::layout::{BEGIN, BODY, COUNTER, decode, encode};
@@ -13,14 +13,15 @@ use std::io;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// More than a component with ten thousand connections writes.
+/// Maximum size of a stats file that is read, in bytes: more than a component with ten thousand connections needs.
 const LIMIT: usize = 16 << 20;
 
-/// Attempts to read a file that is written meanwhile, which takes some microseconds of each period.
+/// Maximum number of attempts to read a file that is written at the same time, which takes some microseconds of each
+/// period.
 const ATTEMPTS: usize = 100;
 
-/// Attempts end after this time. Each waits for a turn, which takes long on a busy machine; and a file whose component
-/// was killed while it wrote will never be whole.
+/// Time after which a reader gives up: between two attempts it yields the processor, which takes long on a busy
+/// machine, and a file whose component was killed while it wrote will never be whole.
 const PATIENCE: Duration = Duration::from_millis(100);
 
 /// The stats file of a component of this process. Dropping it removes the file.
@@ -82,7 +83,7 @@ fn place(dir: &SystemDir, path: &Path, block: &[u8]) -> Result<OwnedPath, Runtim
     write_temp(dir.folder(), path, block)?.rename(path, OFlags::WRONLY)
 }
 
-/// In three steps, so that no reordering within a write makes a half-written block look whole.
+/// Writes a block in three steps, so that no reordering within a write makes a half-written block look whole.
 fn write_block(block: &[u8], mut write: impl FnMut(&[u8], u64) -> io::Result<usize>) -> io::Result<()> {
     let end = block.len() - COUNTER;
     for (from, to) in [(BEGIN, BODY), (BODY, end), (end, block.len())] {
@@ -93,7 +94,7 @@ fn write_block(block: &[u8], mut write: impl FnMut(&[u8], u64) -> io::Result<usi
     Ok(())
 }
 
-/// Reads a stats file. Returns `None` if there is none, or it is not whole or cannot be understood.
+/// Reads a stats file. Returns `None` if the file does not exist, is not whole, or cannot be understood.
 pub(super) fn read(path: &Path) -> Option<ComponentStats> {
     let file = open_file(path).ok()?;
     let (mut block, start) = (Vec::new(), Instant::now());
@@ -109,7 +110,7 @@ pub(super) fn read(path: &Path) -> Option<ComponentStats> {
     None
 }
 
-/// Returns true if nothing was written meanwhile.
+/// Reads the file once. Returns true if it was not written at the same time.
 fn read_whole(file: &File, block: &mut Vec<u8>) -> io::Result<bool> {
     let found = file.metadata()?;
     let length = usize::try_from(found.len()).unwrap_or(usize::MAX);

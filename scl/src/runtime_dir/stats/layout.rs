@@ -7,7 +7,7 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 const MAGIC: &[u8; 8] = b"SCLSTATS";
 const VERSION: u32 = 2;
 
-/// Where *begin* and the body are.
+/// Offsets of *begin* and of the body.
 pub(super) const BEGIN: usize = 16;
 pub(super) const BODY: usize = 24;
 /// Length of a counter.
@@ -78,7 +78,7 @@ fn put_gate(gate: &GateFigures, block: &mut Vec<u8>) {
     }
 }
 
-/// Reads a block. Returns `None` if it is not one of this version, or its parts do not fit together.
+/// Reads a block. Returns `None` if it has another version, or its parts do not fit together.
 pub(super) fn decode(block: &[u8]) -> Option<ComponentStats> {
     let mut rest = block.strip_prefix(MAGIC)?;
     let (version, length) = (rest.try_get_u32_le().ok()?, rest.try_get_u32_le().ok()?);

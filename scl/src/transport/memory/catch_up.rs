@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 /// Receives until `end` has caught up with its senders or the time is over, and returns the messages.
 ///
-/// A sender that uses this very thread cannot answer meanwhile.
+/// A sender on the same thread cannot answer during this call.
 pub(super) fn catch_up(end: &mut dyn Receiver, within: Duration) -> VecDeque<Bytes> {
     let started = Instant::now();
     let waker = unparks_this_thread();
@@ -30,7 +30,8 @@ pub(super) fn catch_up(end: &mut dyn Receiver, within: Duration) -> VecDeque<Byt
     }
 }
 
-/// Receives what has arrived, but not more than a connection holds: a busy sender could keep this going without end.
+/// Receives what has arrived, up to what a connection holds: a busy sender could otherwise keep this loop running
+/// forever.
 fn fetch(end: &mut dyn Receiver, cx: &mut Context<'_>, fetched: &mut VecDeque<Bytes>) {
     for _ in 0..=super::IN_FLIGHT {
         match end.poll_recv(cx) {

@@ -4,10 +4,10 @@ use crate::transport::{Frame, HeapMemory, Loan, LoanedMemory};
 use bytes::Bytes;
 use std::sync::Arc;
 
-/// What fits every line of a cache, and most messages.
+/// Alignment of lent memory: a cache line, which suits most message types.
 const ALIGNMENT: usize = 64;
 
-/// Lends memory of one link, and tells it from that of others.
+/// Lends the memory of one link and recognizes it when it comes back.
 #[derive(Default)]
 pub(super) struct Lender(Arc<()>);
 
@@ -22,7 +22,8 @@ impl Lender {
         Loan::new(Lent { memory, lender: Arc::clone(&self.0) })
     }
 
-    /// The message as the receiver gets it: own memory as it is, that of another link as a copy.
+    /// Returns the message as the receiver gets it: memory of this link without a copy, memory of another link as a
+    /// copy.
     pub(super) fn take_back(&self, message: Frame) -> Bytes {
         let loan = match message {
             Frame::Bytes(bytes) => return bytes,

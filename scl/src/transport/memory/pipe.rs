@@ -14,7 +14,7 @@ pub(super) fn pipe<T>(capacity: usize) -> (PipeWriter<T>, PipeReader<T>) {
     pipe_of(capacity, &Endpoint::new(""))
 }
 
-/// The same, and the reader knows what its writer was told.
+/// Like `pipe`, with a reader that knows whether its writer's endpoint is lossless and whether it is latched.
 pub(super) fn pipe_of<T>(capacity: usize, writer: &Endpoint) -> (PipeWriter<T>, PipeReader<T>) {
     let state = State {
         queue: VecDeque::new(),
@@ -42,7 +42,7 @@ pub(super) struct PipeReader<T> {
     shared: Arc<Shared<T>>,
     /// Number of items taken so far.
     taken: Cell<u64>,
-    /// Number of the last item that had been sent before this reader joined, and when.
+    /// Number of the last taken item that was sent before this reader joined, and when it was sent.
     latched: Cell<Option<(u64, Instant)>>,
 }
 
@@ -59,13 +59,13 @@ struct State<T> {
     queue: VecDeque<T>,
     /// Number of items sent so far.
     sent: u64,
-    /// Number of an item that was sent before the reader joined, and when.
+    /// Number of an item that was sent before the reader joined, and when it was sent.
     latched: Option<(u64, Instant)>,
     /// Number of items that the reader has not taken. Those it left behind when it was dropped still count.
     untaken: u64,
     /// Set when either end is dropped.
     closed: bool,
-    /// The writer was refused and has not been woken for it yet.
+    /// The writer was refused and has not been woken since.
     wants_room: bool,
     /// The writer asked to be woken when everything is taken.
     wants_empty: bool,
@@ -100,8 +100,8 @@ impl<T> State<T> {
 }
 
 impl<T> PipeWriter<T> {
-    /// Appends an item, or returns it if there is no room or no reader. Wakes the task when to try again, or to find
-    /// out that the reader is gone. `sent`: when the item was sent, if that was before the reader joined.
+    /// Appends an item, or returns it if there is no room or no reader. Wakes the task when it should try again, or
+    /// find out that the reader is gone. `sent` is when the item was sent, if that was before the reader joined.
     pub(super) fn send(&self, cx: &Context<'_>, item: T, sent: Option<Instant>) -> Result<(), T> {
         let mut state = lock(&self.shared.state);
         if state.closed {
@@ -123,8 +123,8 @@ impl<T> PipeWriter<T> {
         Ok(())
     }
 
-    /// Appends what `to_item` makes of a queue's front while there is room, and calls `sent` with each. An emptied
-    /// queue tells the reader that nothing is held back.
+    /// Takes items from the front of a queue while there is room, converts them with `to_item`, calls `sent` with each,
+    /// and appends them. If that empties the queue, the reader learns that nothing is held back.
     pub(super) fn send_all<S>(
         &self,
         cx: &Context<'_>,
@@ -167,7 +167,7 @@ impl<T> PipeWriter<T> {
         false
     }
 
-    /// Returns true if the reader is there. Wakes the task when it is dropped.
+    /// Returns true if the reader still exists. Wakes the task when the reader is dropped.
     pub(super) fn poll_open(&self, cx: &Context<'_>) -> bool {
         let mut state = lock(&self.shared.state);
         keep_waker(&mut state.writer, cx.waker());
@@ -264,7 +264,8 @@ impl<T> PipeReader<T> {
         self.shared.latched
     }
 
-    /// When an item was sent, if that was before this reader joined: the last one taken, or one that many before.
+    /// Returns when an item was sent, if that was before this reader joined. The item is `before_last` items before the
+    /// one taken last.
     pub(super) fn latched(&self, before_last: u64) -> Option<Instant> {
         let (number, sent) = self.latched.get()?;
         (number + before_last == self.taken.get()).then_some(sent)
@@ -298,7 +299,7 @@ impl<T> Drop for PipeReader<T> {
     }
 }
 
-/// Wakes a task. Call it without holding a lock, because a waker may run code of its own.
+/// Wakes a task. Call it without holding a lock, because a waker may run arbitrary code.
 pub(super) fn wake(waker: Option<Waker>) {
     if let Some(waker) = waker {
         waker.wake();

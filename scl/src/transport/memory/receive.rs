@@ -93,7 +93,7 @@ impl Receiver for Subscriber {
 pub(super) struct Puller {
     listener: Listener<PipeReader<Bytes>, PipeWriter<Bytes>>,
     pushers: Senders<PipeReader<Bytes>>,
-    /// As at a [`Subscriber`].
+    /// As in a [`Subscriber`].
     fetched: VecDeque<Bytes>,
 }
 

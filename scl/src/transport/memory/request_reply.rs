@@ -32,8 +32,8 @@ pub(super) struct ToReplier {
     replies: PipeReader<Answer>,
 }
 
-/// Replies are not limited in number: each belongs to a request, and requesters discard old ones before the next
-/// request.
+/// Creates both halves of a connection. The number of replies is not limited: each belongs to a request, and requesters
+/// discard old ones before the next request.
 pub(super) fn connect(_listener: &Endpoint, _connector: &Endpoint) -> (ToRequester, ToReplier) {
     let (request, requests) = pipe(IN_FLIGHT);
     let (reply, replies) = pipe(usize::MAX);
@@ -127,7 +127,7 @@ impl Replier for MemoryReplier {
         })
     }
 
-    /// What was sent can be received even after this end is dropped.
+    /// Always returns true, because what was sent can be received even after this end is dropped.
     fn drive(&mut self, cx: &mut Context<'_>) -> bool {
         while let Poll::Ready(requester) = self.listener.poll_connection(cx) {
             self.requesters.connections.push(requester);
@@ -155,7 +155,7 @@ impl ToRequester {
     }
 }
 
-/// Tells the requester and those who hold unanswered requests that the replier is gone.
+/// Tells the requester and the holders of unanswered requests that the replier is gone.
 impl Drop for ToRequester {
     fn drop(&mut self) {
         self.replies.close();

@@ -110,7 +110,7 @@ impl Link for MemoryLink {
         Some(self.lender.lend(length))
     }
 
-    /// What was sent can be received even after this end is dropped.
+    /// Always returns true, because what was sent can be received even after this end is dropped.
     fn is_written(&self) -> bool {
         true
     }

@@ -13,7 +13,7 @@ pub(super) struct Switchboard<L, C> {
     pair: Pair<L, C>,
 }
 
-/// Creates a connection, from what its listener and its connector were told.
+/// Creates a connection from the endpoints of its listener and its connector.
 type Pair<L, C> = fn(&Endpoint, &Endpoint) -> (L, C);
 
 struct Table<L, C> {
@@ -33,9 +33,9 @@ type Shared<H> = Arc<Mutex<End<H>>>;
 
 struct End<H> {
     endpoint: Endpoint,
-    /// Of a listener: its number. Of a connector: that of the listener it was connected to last.
+    /// The number of this listener, or of the listener that this connector was connected to last.
     listener: u64,
-    /// New connections that it has not looked at yet.
+    /// New connections that the end has not taken yet.
     connections: VecDeque<H>,
     waiting: Option<Waker>,
 }
@@ -146,7 +146,7 @@ impl<L, C> Listener<L, C> {
         Poll::Pending
     }
 
-    /// Counts the new connections of some kind.
+    /// Counts the new connections for which `of_kind` returns true.
     pub(super) fn count(&self, of_kind: impl Fn(&L) -> bool) -> usize {
         lock(&self.end).connections.iter().filter(|&connection| of_kind(connection)).count()
     }
@@ -171,7 +171,7 @@ pub(super) struct Connector<L, C> {
 }
 
 impl<L, C> Connector<L, C> {
-    /// Returns the next connection. Call it only while there is none.
+    /// Returns the next connection. Call it only while not connected.
     pub(super) fn poll_connection(&mut self, cx: &Context<'_>) -> Poll<C> {
         if !self.finds_listener(cx) {
             return Poll::Pending;
@@ -218,12 +218,12 @@ impl<L, C> Connector<L, C> {
         self.again = true;
     }
 
-    /// Returns true if there is a new connection of some kind.
+    /// Returns true if `of_kind` returns true for a new connection.
     pub(super) fn has_connection(&self, of_kind: impl Fn(&C) -> bool) -> bool {
         lock(&self.end).connections.iter().any(of_kind)
     }
 
-    /// Why the check refused the end that is listening.
+    /// Returns why the check refused the end that is listening, if it did.
     pub(super) fn refusal(&self) -> Option<String> {
         let table = lock(&self.switchboard.table);
         let is_listening =

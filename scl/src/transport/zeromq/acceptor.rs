@@ -1,11 +1,11 @@
 //! Accepting connections and their handshakes.
 //!
-//! A process without free descriptors cannot accept, not even to learn that nobody is waiting any more, and would try
-//! again forever. So one descriptor is kept in reserve, with which waiting peers are accepted and closed at once; they
-//! see that and come again.
+//! A process without free descriptors cannot accept, not even to find out that no connection is pending, and would
+//! retry forever. So one descriptor is kept in reserve: with it, pending connections are accepted and closed at once,
+//! and their peers retry.
 //!
-//! Over TCP every user of the machine can connect. Connections of others are closed at once, without a handshake and
-//! a limited number of times in a second; they take no place from those of this user.
+//! Over TCP every user of the machine can connect. Connections of other users are closed at once, without a handshake
+//! and at a limited rate; they do not count towards the limits for connections of this user.
 
 use super::TransportKind;
 use super::listener::{Accepted, Listener};
@@ -39,9 +39,10 @@ pub(super) const MOST_CONNECTIONS: usize = 1024;
 const ACCEPTS: usize = 64;
 /// Delay before accepting again after an error that is likely to last.
 const PAUSE: Duration = Duration::from_millis(50);
-/// Delay before accepting again after connections of other users: they come one by one, and this handles them together.
+/// Delay before accepting again after connections of other users: they arrive one by one, and the delay lets them be
+/// handled together.
 const STRANGERS_PAUSE: Duration = Duration::from_millis(5);
-/// Delay before binding again in a restored folder after that failed.
+/// Delay before binding is retried after it failed in a restored folder.
 const RETRY: Duration = Duration::from_secs(1);
 
 pub(super) struct Acceptor {
@@ -56,9 +57,9 @@ pub(super) struct Acceptor {
     runtime: Option<Handle>,
     listener: Listener,
     guard: OwnedPath,
-    /// How often the folder had been restored when the listener was bound.
+    /// How many restorations of the folder this end has seen.
     restored: Seen,
-    /// When to bind again after that failed.
+    /// When to retry binding after it failed.
     retry: Timer,
     reserve: Option<File>,
     pause: Timer,
@@ -71,7 +72,7 @@ pub(super) struct Acceptor {
 
 struct Handshake {
     session: Session,
-    /// The service that was offered.
+    /// The shared memory service that the peer was offered.
     service: Option<u128>,
     deadline: Instant,
 }
@@ -108,10 +109,10 @@ impl Acceptor {
         })
     }
 
-    /// Offers shared memory to peers if that is what this end listens on.
+    /// Offers shared memory to peers if this end uses the transport `shm`.
     ///
     /// # Errors
-    /// There is too little of it, or it cannot be used.
+    /// There is too little shared memory, or it cannot be used.
     pub(super) fn offering_memory(mut self) -> Result<Self, TransportError> {
         if self.kind == TransportKind::Shm {
             self.offer = Some(Offer::open(&self.dir, &self.endpoint)?);
@@ -127,14 +128,14 @@ impl Acceptor {
         self.handshakes.iter_mut().for_each(|handshake| handshake.session.detach());
     }
 
-    /// Returns the next connection whose handshake is done. `open` is the number of those in use.
+    /// Returns the next connection whose handshake is done. `open` is the number of connections in use.
     pub(super) fn poll_session(&mut self, cx: &mut Context<'_>, open: usize) -> Poll<(Session, PeerReady)> {
         self.bind_again_if_restored(cx);
         self.accept(cx, open);
         self.poll_handshakes(cx)
     }
 
-    /// Binds again in a runtime folder that was removed. Connections stay.
+    /// Binds again after the runtime folder was removed and restored. Existing connections stay.
     fn bind_again_if_restored(&mut self, cx: &mut Context<'_>) {
         let Some(runtime) = &self.runtime else { return };
         let mut is_due = self.retry.is_set() && self.retry.poll(cx).is_ready();
@@ -196,7 +197,8 @@ impl Acceptor {
         true
     }
 
-    /// Begins the handshakes of this user's connections, and closes the others. Returns the number of those.
+    /// Begins the handshakes of this user's connections, and closes the others. Returns the number of connections of
+    /// other users.
     fn admit(&mut self, cx: &mut Context<'_>, arrived: Vec<Accepted>, open: usize) -> usize {
         let mut checks = UserChecks::default();
         let mut refused = 0;
@@ -240,7 +242,8 @@ impl Acceptor {
         }
     }
 
-    /// Returns true if nobody is waiting to be accepted; the task is woken for the next one.
+    /// Handles a failure to accept a connection. Returns true if no connection is pending; the task is woken for the
+    /// next one.
     fn handle_failure(&mut self, cx: &mut Context<'_>, error: &io::Error) -> bool {
         tracing::debug!(endpoint = %self.endpoint.name, %error, "cannot accept a connection");
         match Errno::from_io_error(error) {
@@ -311,7 +314,7 @@ impl Acceptor {
     }
 }
 
-/// Ready when the peer has introduced itself.
+/// Continues the handshake. Ready when the peer has sent READY.
 pub(super) fn poll_handshake(session: &mut Session, cx: &mut Context<'_>) -> Poll<Result<PeerReady, Closed>> {
     if !session.is_written() {
         session.flush(cx)?;

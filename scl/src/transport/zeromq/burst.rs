@@ -7,14 +7,14 @@ use std::task::Context;
 /// one tick of the coarse clock (1 to 4 ms) are a burst: they are gathered until the link is driven, until there are
 /// [`GATHERED`], or until something is sent after that tick.
 const ONE_BY_ONE: u32 = 64;
-/// How many messages of a burst are written together if the link is not driven meanwhile.
+/// How many messages of a burst are written together if the link is not driven before.
 pub(super) const GATHERED: usize = 128;
 /// Longer messages gain nothing from being written together.
 const SHORT: usize = 4 << 10;
 
-/// Recognizes a burst by the messages that are written by themselves.
+/// Recognizes a burst by the messages that are written one by one.
 pub(super) struct Burst {
-    /// Number of messages written one by one since the link was driven, and the tick in which that was.
+    /// Number of messages written one by one since the link was driven, and the tick in which they were written.
     one_by_one: u32,
     tick: Timespec,
 }
@@ -24,12 +24,13 @@ impl Burst {
         Self { one_by_one: 0, tick: tick() }
     }
 
-    /// The link is driven: what was gathered is written in the same turn.
+    /// Ends a burst because the link is driven: what was gathered is written in the same turn.
     pub(super) fn end(&mut self) {
         self.one_by_one = 0;
     }
 
-    /// Many messages of a burst were written at once. It goes on, most likely: one more message is enough to see that.
+    /// Expects a burst to continue, because many of its messages were just written at once: one more message is enough
+    /// to confirm that.
     pub(super) fn expect_more(&mut self) {
         *self = Self { one_by_one: ONE_BY_ONE - 1, tick: tick() };
     }
@@ -39,7 +40,7 @@ impl Burst {
         self.one_by_one >= ONE_BY_ONE && length <= SHORT && self.tick == tick()
     }
 
-    /// Counts a message that was written by itself. The task ends a burst that begins with it.
+    /// Counts a message that was written by itself. If a burst begins with it, wakes the task, which ends the burst.
     pub(super) fn count_one(&mut self, cx: &Context<'_>) {
         let now = tick();
         if std::mem::replace(&mut self.tick, now) != now {
@@ -52,7 +53,7 @@ impl Burst {
     }
 }
 
-/// The time of the coarse clock, which costs a fraction of an exact one and moves every 1 to 4 ms.
+/// Returns the time of the coarse clock, which costs a fraction of an exact one and advances every 1 to 4 ms.
 fn tick() -> Timespec {
     clock_gettime(ClockId::MonotonicCoarse)
 }

@@ -7,19 +7,19 @@ use std::time::{Duration, Instant};
 /// How long a receiver waits for the messages that the sender has announced: a stopped sender must not stop a control
 /// loop.
 pub(super) const LIMIT: Duration = Duration::from_millis(100);
-/// The number of steps in which the limit passes. Time in which this program itself is stopped counts as one step at
+/// Number of steps that the limit is divided into. Time in which this program itself is stopped counts as one step at
 /// most.
 const STEPS: u32 = 10;
-/// For how long an answer counts for a caller that does not wait, and looks again.
+/// How long an answer stays valid for a caller that does not wait, but calls repeatedly.
 const FRESH: Duration = Duration::from_millis(1);
 
 #[derive(Default)]
 pub(super) struct CatchUp {
     /// Whether the sender holds messages until earlier ones are acknowledged.
     behind: bool,
-    /// Whether the sender has let the time for catching up pass.
+    /// Whether the sender was silent for the whole limit.
     gave_up: bool,
-    /// For how many of the steps of that time it has been silent.
+    /// Number of steps of the limit in which the sender has been silent.
     silent_steps: u32,
     /// Number of the last question whether newer messages wait, and of the last that the sender has answered.
     question: u64,
@@ -37,18 +37,18 @@ enum Answer {
     Forgotten,
     /// Nothing yet since the call began.
     Awaited,
-    /// That none waited, at some time since the call began. A sender that never pauses says in the same breath that
+    /// That none waited, at some time since the call began. A sender that never pauses reports right afterwards that
     /// others wait.
     CaughtUp,
 }
 
 impl CatchUp {
-    /// The sender holds newer messages.
+    /// Notes that the sender holds newer messages.
     pub(super) fn note_behind(&mut self) {
         (self.behind, self.gave_up) = (true, false);
     }
 
-    /// The sender has answered a question: none waits.
+    /// Notes that the sender has answered a question: no newer message waits.
     pub(super) fn note_caught_up(&mut self, question: u64) {
         (self.behind, self.gave_up) = (false, false);
         if question == self.question {
@@ -59,7 +59,7 @@ impl CatchUp {
         }
     }
 
-    /// A call begins: it does not rely on what was said before.
+    /// Marks the start of a call, which does not rely on earlier answers.
     pub(super) fn forget_answer(&mut self) {
         self.answer = Answer::Forgotten;
     }
@@ -82,7 +82,8 @@ impl CatchUp {
         self.question
     }
 
-    /// Returns true if the sender may hold newer messages. `is_unread`: bytes that may tell have not been decoded.
+    /// Returns true if the sender may hold newer messages. `is_unread`: some received bytes, which may contain the
+    /// answer, have not been decoded.
     pub(super) fn may_be_behind(&self, is_unread: bool) -> bool {
         self.answer != Answer::CaughtUp && (self.behind || self.question != self.answered || is_unread)
     }
@@ -91,7 +92,7 @@ impl CatchUp {
         self.gave_up
     }
 
-    /// The sender was silent for `limit`, which may be too short to tell.
+    /// Notes that the sender was silent for `limit`, which may be too short to give up.
     pub(super) fn note_silence(&mut self, limit: Duration) {
         self.gave_up = limit >= LIMIT;
     }
@@ -109,7 +110,7 @@ impl CatchUp {
         Poll::Ready(())
     }
 
-    /// The wait is over.
+    /// Ends a wait: the next one measures silence anew.
     pub(super) fn end_wait(&mut self) {
         self.timer.unset();
         self.silent_steps = 0;

@@ -6,13 +6,13 @@ use std::collections::VecDeque;
 
 /// What an ordinary receiving end allows in flight.
 pub(super) const WINDOW: Window = Window { messages: 4096, bytes: 1 << 20 };
-/// The same if only the newest message matters: little enough for the socket to hold it, so that a message is either
-/// there or announced as waiting.
+/// The same if only the newest message matters: little enough to fit into the socket's buffers, so that a message has
+/// either arrived or been announced as waiting.
 const NEWEST_WINDOW: Window = Window { messages: 64, bytes: 32 << 10 };
-/// No window that a peer announces lets more messages than this be remembered.
+/// Maximum number of unacknowledged messages to remember, whatever window a peer announces.
 const MOST_MESSAGES: u64 = 1 << 16;
 
-/// What a receiving end announces.
+/// Returns what a receiving end announces.
 pub(super) fn receiving(endpoint: &Endpoint) -> SclReady {
     SclReady { window: Some(window(endpoint)), newest_only: endpoint.newest_only, ..SclReady::default() }
 }
@@ -63,7 +63,8 @@ impl SendCredit {
         self.sent - self.received
     }
 
-    /// Handles an acknowledgement of all messages up to a number, of which the peer's program has received so many.
+    /// Handles an acknowledgement: of all messages sent so far, the peer's gate has taken the first `acknowledged`, and
+    /// its program has received `received`.
     pub(super) fn acknowledge(&mut self, acknowledged: u64, received: u64) -> Result<(), ProtocolError> {
         let remaining = self
             .sent
@@ -83,16 +84,16 @@ impl SendCredit {
 pub(super) struct ReceiveCredit {
     window: Window,
     taken: u64,
-    /// Number of messages among them that the program has received, or its gate has dropped.
+    /// Number of the taken messages that the program has received, or its gate has dropped.
     received: u64,
-    /// The sender has asked to be told when that number is reached.
+    /// The value of `received` at which the sender has asked to be notified.
     awaited: Option<u64>,
     unacknowledged: u64,
     unacknowledged_bytes: u64,
     deferred: Option<Deferred>,
 }
 
-/// What an end knows whose messages are acknowledged by its caller.
+/// State of an end whose caller acknowledges the messages.
 #[derive(Default)]
 struct Deferred {
     acknowledged: u64,
@@ -145,19 +146,19 @@ impl ReceiveCredit {
     }
 
     /// Notes that the program has received all but the given number of messages. Returns true if the sender is to be
-    /// told.
+    /// notified.
     pub(super) fn note_waiting(&mut self, waiting: u64) -> bool {
         // `waiting` may include messages of an earlier connection.
         self.received = self.received.max(self.taken.saturating_sub(waiting));
         self.awaited.take_if(|awaited| *awaited <= self.received).is_some()
     }
 
-    /// Whether the sender waits to be told.
+    /// Whether the sender waits to be notified.
     pub(super) fn is_awaited(&self) -> bool {
         self.awaited.is_some()
     }
 
-    /// The sender wants to know when the program has received everything taken so far.
+    /// Notes that the sender wants to know when the program has received everything taken so far.
     pub(super) fn await_received(&mut self) {
         self.awaited = (self.received < self.taken).then_some(self.taken);
     }
@@ -171,7 +172,8 @@ impl ReceiveCredit {
 }
 
 impl Deferred {
-    /// What a caller acknowledges that passes messages on, a program has received.
+    /// Notes that the caller has acknowledged `count` more messages, and returns the numbers to acknowledge, if any.
+    /// These messages count as received by a program, too.
     fn advance(&mut self, count: u64) -> Option<(u64, u64)> {
         let before = self.acknowledged;
         self.pass_skipped();

@@ -1,7 +1,7 @@
 //! Connecting to the listening side of an endpoint, again and again.
 //!
-//! A peer that is expected back is tried every 20 ms. One that stays away is tried twice a second, and at the former
-//! pace again as soon as a file arrives in the folder, as a peer that starts puts its socket or address there.
+//! A peer that is expected back soon is tried every 20 ms, one that stays away twice a second. As soon as a file
+//! arrives in the folder, it is tried every 20 ms again, because a peer that starts puts its socket or address there.
 
 use super::acceptor::{HANDSHAKE_LIMIT, is_out_of_descriptors, poll_handshake};
 use super::session::{Closed, Session};
@@ -27,7 +27,7 @@ use tokio::runtime::Handle;
 /// Delay between connection attempts. The jitter keeps components from retrying in lockstep.
 const RETRY: Duration = Duration::from_millis(20);
 const JITTER: Duration = Duration::from_millis(4);
-/// How often a peer that does not listen is checked: every half second.
+/// Number of attempts per check of a peer that does not listen, so that it is checked every half second.
 const ATTEMPTS_PER_CHECK: u32 = 24;
 /// Number of attempts after which a peer counts as one that stays away, if events of the folder tell of its return.
 const QUICK_ATTEMPTS: u32 = ATTEMPTS_PER_CHECK;
@@ -40,7 +40,7 @@ pub(super) struct Dialler {
     socket: SocketType,
     hello: Bytes,
     runtime: Option<Handle>,
-    /// Until the next attempt may be made, counted from the one before.
+    /// Runs from one attempt until the next one may be made.
     pause: Timer,
     handshake: Option<Session>,
     limit: Timer,
@@ -48,7 +48,7 @@ pub(super) struct Dialler {
     attempts: u32,
     /// The same since a file arrived in the folder.
     attempts_since_arrival: u32,
-    /// The files that had arrived then.
+    /// The arrivals of files that this end has seen.
     arrived: Seen,
     refusal: Option<String>,
     /// The last reason that was logged, so that it is logged once.
@@ -56,7 +56,7 @@ pub(super) struct Dialler {
 }
 
 impl Dialler {
-    /// Called inside a runtime.
+    /// Creates a dialler. Called inside a runtime.
     pub(super) fn new(dir: &Arc<SystemDir>, endpoint: &Endpoint, socket: SocketType, scl: SclReady) -> Self {
         let scl = SclReady { shm: ShmReady::of_dialling(socket), ..scl };
         Self {
@@ -90,8 +90,8 @@ impl Dialler {
         self.refusal.clone()
     }
 
-    /// Returns a connection whose handshake is done. After it broke, call this again for the next one: at once if it
-    /// lasted longer than the delay between two attempts.
+    /// Returns a connection whose handshake is done. After it broke, call this again for the next one. If the
+    /// connection lasted longer than the delay between two attempts, the next attempt is made at once.
     pub(super) fn poll_connected(&mut self, cx: &mut Context<'_>) -> Poll<(Session, PeerReady)> {
         loop {
             match ready!(self.poll_attempt(cx)) {
@@ -177,7 +177,7 @@ impl Dialler {
         Ok(Session::new(stream, decoder, &self.hello))
     }
 
-    /// Without a runtime, the socket stays as it is.
+    /// Registers a socket with the runtime. Without a runtime, the socket stays as it is.
     fn adopt(&self, descriptor: OwnedFd, in_runtime: fn(OwnedFd) -> io::Result<Socket>) -> io::Result<Stream> {
         let Some(runtime) = &self.runtime else { return Ok(Stream::new(Socket::Plain(descriptor))) };
         let _inside = runtime.enter();
@@ -219,7 +219,7 @@ fn connect_to_own_user(address: SocketAddr) -> io::Result<OwnedFd> {
     Ok(stream)
 }
 
-/// Starts connecting; reading and writing report how that ends.
+/// Starts connecting; later reads and writes report the outcome.
 fn connect(family: AddressFamily, address: &impl SocketAddrArg) -> io::Result<OwnedFd> {
     let socket = socket_with(family, Kind::STREAM, SocketFlags::CLOEXEC | SocketFlags::NONBLOCK, None)?;
     if family != AddressFamily::UNIX {

@@ -14,9 +14,9 @@ use std::task::{Context, Poll, ready};
 use std::time::{Duration, Instant};
 use tokio::task::coop;
 
-/// How much is read ahead of the caller without a runtime, or a single message that is longer.
+/// How many bytes are read ahead of the caller without a runtime. A single longer message is read to its end.
 const READ_AHEAD: usize = 256 << 10;
-/// After how many messages read ahead no more are fetched.
+/// Number of messages read ahead after which no more are fetched.
 const MOST_AHEAD: usize = 4096;
 
 pub(super) struct Inbound {
@@ -27,21 +27,22 @@ pub(super) struct Inbound {
     newest_only: bool,
     /// Whether the sender waits instead of dropping messages. Then older messages matter, too.
     lossless: bool,
-    /// Whether the sender keeps its last message for those that join.
+    /// Whether the sender keeps its last message for subscribers that join.
     is_latched: bool,
-    /// Number of the last message on this connection that had been sent before, and when.
+    /// Number of the last message on this connection that was published before the connection existed, and when that
+    /// was.
     latched: Option<(u64, Instant)>,
     /// Messages read while looking for the newest.
     ahead: VecDeque<Bytes>,
-    /// Why no more will follow after those read ahead.
+    /// Why no messages follow those read ahead, if the connection is closed.
     closed: Option<Closed>,
     malformed: u64,
-    /// Whether the sender has asked a caller who acknowledges messages to do so.
+    /// Whether the sender has requested an acknowledgement from a caller that acknowledges messages itself.
     acknowledgement_requested: bool,
-    /// Whether the sender was asked to send nothing more, and has sent everything that it had sent before.
+    /// Whether the sender was asked to send nothing more, and whether it has answered that nothing follows.
     finishing: bool,
     finished: bool,
-    /// Whether the socket was empty when `poll_next` last looked, just now.
+    /// Whether `poll_next` has just found the socket empty.
     emptied: bool,
     catch_up: CatchUp,
 }
@@ -80,7 +81,7 @@ impl Inbound {
         self.is_latched
     }
 
-    /// When the message returned last was sent, if that was before this connection.
+    /// Returns when the message returned last was published, if that was before this connection existed.
     pub(super) fn take_latched(&mut self) -> Option<Instant> {
         let returned = self.taken() - self.ahead.len() as u64;
         self.latched.take_if(|(number, _)| *number == returned).map(|(_, sent)| sent)
@@ -184,8 +185,8 @@ impl Inbound {
         self.write_acknowledgement(numbers);
     }
 
-    /// Notes how many of the messages returned wait in the gate, and tells the sender if it waits for that. Returns
-    /// true if it still waits.
+    /// Notes how many of the returned messages wait in the gate, and notifies the sender if it waits for that. Returns
+    /// true if the sender still waits.
     pub(super) fn note_waiting(&mut self, cx: &mut Context<'_>, waiting: u64) -> bool {
         let Some(credit) = &mut self.credit else { return false };
         let is_due = credit.note_waiting(waiting + self.ahead.len() as u64);
@@ -205,7 +206,7 @@ impl Inbound {
         }
     }
 
-    /// Acknowledges the oldest messages that were returned, if the caller does that.
+    /// Acknowledges the oldest `count` messages that were returned, if the caller acknowledges messages itself.
     pub(super) fn acknowledge_deferred(&mut self, count: u64) {
         let numbers = self.credit.as_mut().and_then(|credit| credit.acknowledge_deferred(count));
         self.write_acknowledgement(numbers);
@@ -218,7 +219,7 @@ impl Inbound {
         }
     }
 
-    /// Returns true if nothing more will follow. A plain ZeroMQ program is not waited for.
+    /// Returns true if nothing more will follow, or if the sender is a plain ZeroMQ program, which cannot report that.
     pub(super) fn is_finished(&self) -> bool {
         self.finished || self.credit.is_none()
     }
@@ -234,7 +235,7 @@ impl Inbound {
         }
     }
 
-    /// A call begins: it does not rely on what was said before.
+    /// Marks the start of a call, which does not rely on earlier answers.
     pub(super) fn forget_answer(&mut self) {
         self.catch_up.forget_answer();
     }
@@ -274,8 +275,8 @@ impl Inbound {
         Poll::Ready(())
     }
 
-    /// Fetches what has arrived without the runtime. If only the newest message matters, waits for what the sender
-    /// holds.
+    /// Without the runtime, fetches what has arrived. If only the newest message matters, waits up to `within` for what
+    /// the sender holds back.
     pub(super) fn catch_up(&mut self, within: Duration) {
         let deadline = Instant::now() + within;
         self.fill_raw();

@@ -50,7 +50,7 @@ impl Listener {
         })
     }
 
-    /// The same without a runtime; fails with `WouldBlock` if nobody connects.
+    /// The same without a runtime; fails with `WouldBlock` if no connection is pending.
     pub(super) fn accept_raw(&self) -> io::Result<Accepted> {
         let flags = SocketFlags::CLOEXEC | SocketFlags::NONBLOCK;
         match self {
@@ -63,7 +63,7 @@ impl Listener {
         }
     }
 
-    /// When the users of accepted connections can be checked, unless that is now.
+    /// Returns when the users of accepted connections can be checked, or `None` if they can be checked now.
     pub(super) fn next_check(&self) -> Option<Instant> {
         match self {
             Self::Unix(_) => None,
@@ -75,7 +75,7 @@ impl Listener {
 /// An accepted connection, whose user is not known yet.
 pub(super) struct Accepted {
     stream: Stream,
-    /// Those of the peer and of this end. The folder of Unix sockets keeps other users out.
+    /// The addresses of the peer and of this end. `None` for a Unix socket, whose folder keeps other users out.
     addresses: Option<(SocketAddr, SocketAddr)>,
 }
 
@@ -87,7 +87,7 @@ impl Accepted {
     /// Returns the connection if this program's user has made it.
     ///
     /// # Errors
-    /// As those of [`UserChecks::check_peer`].
+    /// Those of [`UserChecks::check_peer`].
     pub(super) fn check_user(self, checks: &mut UserChecks) -> io::Result<Stream> {
         if let Some((peer, own)) = self.addresses {
             checks.check_peer(peer, own)?;

@@ -13,12 +13,12 @@ use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
 
-/// How many messages one pusher may deliver in a row while others may have some as well.
+/// How many messages one pusher may deliver before the next one gets its turn.
 const IN_A_ROW: usize = 64;
 
 pub(super) struct Puller {
     acceptor: Acceptor,
-    /// For an end whose caller acknowledges messages, those that are not acknowledged wait.
+    /// If the caller acknowledges messages, those that are not acknowledged count as waiting.
     pushers: Senders<Inbound>,
     finishing: bool,
     malformed: u64,

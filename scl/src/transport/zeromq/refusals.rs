@@ -3,13 +3,13 @@
 use std::io;
 use std::time::{Duration, Instant};
 
-/// How often refusals are logged at most, with their number since the last time.
+/// Minimum interval between two log lines; each gives the number of refusals since the one before.
 const PERIOD: Duration = Duration::from_secs(60);
 
 #[derive(Default)]
 pub(super) struct Refusals {
     logged: Option<Instant>,
-    /// Since then.
+    /// Number of refusals since the last log line.
     count: u64,
 }
 

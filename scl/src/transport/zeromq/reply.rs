@@ -1,7 +1,7 @@
 //! The replying end, which accepts any number of requesters: a ROUTER socket to them.
 //!
-//! The connection is the way back, so there is no table of requesters. A request holds its connection's frames up to
-//! the empty one as they came, and the reply repeats them.
+//! A reply goes back over the connection of its request, so there is no table of requesters. A request keeps its frames
+//! up to the empty one as they came, and the reply repeats them.
 
 use super::TransportKind;
 use super::acceptor::Acceptor;
@@ -21,9 +21,9 @@ pub(super) struct ReplyingEnd {
     malformed: u64,
 }
 
-/// What is exchanged with one requester.
+/// The state of the connection to one requester.
 struct Exchange {
-    /// Gone once it broke, or the replying end was dropped.
+    /// `None` once the connection has broken or the replying end was dropped.
     session: Option<Session>,
     /// Whether the requester understands SCL's commands.
     is_scl: bool,
@@ -172,7 +172,7 @@ impl Exchange {
         Ok(())
     }
 
-    /// A plain requester has no way to be told.
+    /// Refuses a request. A plain ZeroMQ requester cannot be told.
     fn refuse(&mut self, envelope: &[u8]) {
         let number = bodies(envelope).next().and_then(|frame| <[u8; 8]>::try_from(frame).ok());
         if let (Some(session), Some(number), true) = (&mut self.session, number, self.is_scl)
@@ -211,7 +211,7 @@ impl ReplyPath for Mutex<Exchange> {
     }
 }
 
-/// Checks that the frames in front of the body end with the only empty one.
+/// Returns envelope and body if the frames in front of the body end with the only empty one.
 fn split(Message { envelope, body }: Message) -> Option<(Bytes, Bytes)> {
     let is_delimited = {
         let mut frames = bodies(&envelope);

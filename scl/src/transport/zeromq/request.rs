@@ -1,7 +1,7 @@
 //! The requesting end: a DEALER socket that numbers its requests.
 //!
-//! A request is `[number, empty, body]`. To any REP or ROUTER socket that is an ordinary requester behind a router: the
-//! frames up to the empty one come back with the reply, so a late reply is never taken for a newer one.
+//! A request is `[number, empty, body]`. To any REP or ROUTER socket this looks like an ordinary requester behind a
+//! router: the frames up to the empty one come back with the reply, so a late reply is never taken for a newer one.
 
 use super::dialler::Dialler;
 use super::session::{Closed, Session};

@@ -13,7 +13,7 @@ use std::time::Duration;
 const COPIED: usize = 128;
 /// How many pieces may wait for a peer that does not read: a batch of messages, and answers to its heartbeats.
 const PIECES: usize = 64;
-/// The pieces in which a request or a reply waits: its envelope, the header of its last frame, and its body.
+/// Number of pieces in which a request or a reply waits: its envelope, the header of its last frame, and its body.
 const PIECES_OF_A_MESSAGE: usize = 3;
 /// How many bytes of requests or replies may wait for a peer that does not read.
 const UNREAD_BYTES: usize = 1 << 20;
@@ -110,7 +110,7 @@ impl Session {
         matches!(poll(&mut descriptors, Some(&timeout)), Ok(1..))
     }
 
-    /// The same, and reads it without the runtime.
+    /// The same, and then reads what has arrived, without the runtime.
     pub(super) fn wait(&mut self, within: Duration) -> bool {
         // A broken connection is also reported by the next poll.
         self.is_written() && self.wait_readable(within) && matches!(self.fill_raw(), Ok(true))
@@ -130,8 +130,8 @@ impl Session {
         self.unwritten.is_empty()
     }
 
-    /// Returns true if too much waits for a requester or replier that does not read: then it is disconnected. There is
-    /// room for this number of messages however long they are.
+    /// Returns true if too much waits for a requester or replier that does not read, which is then disconnected. The
+    /// given number of messages may always wait, however long they are.
     pub(super) fn is_unread(&self, messages: usize) -> bool {
         let has_room = self.unwritten.len() < messages.saturating_mul(PIECES_OF_A_MESSAGE);
         !has_room && (self.unwritten.len() >= PIECES || self.unwritten_bytes >= UNREAD_BYTES)

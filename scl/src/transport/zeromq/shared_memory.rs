@@ -7,7 +7,7 @@
 //! | `listening` | what a listening end checks when it is opened |
 //! | `absent` | the same without the feature `shm`: every message goes through the socket |
 //!
-//! The engine is the crate `scl-shm`. What both sides say is in `docs/zeromq.md`.
+//! The engine is the crate `scl-shm`. The commands of both sides are described in `docs/zeromq.md`.
 
 #[cfg(not(feature = "shm"))]
 mod absent;

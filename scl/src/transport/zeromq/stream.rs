@@ -1,8 +1,8 @@
 //! Connected sockets of both transports.
 //!
-//! Writing goes to the operating system directly and asks the runtime only when that takes no more. Reading goes
-//! through the runtime, which knows without a system call that nothing has arrived; the raw variant is for callers that
-//! cannot wait until the runtime looks.
+//! Writes go to the operating system directly, and involve the runtime only when the socket is full. Reads go through
+//! the runtime, which knows without a system call that nothing has arrived; the raw variant is for callers that cannot
+//! wait until the runtime polls the socket.
 
 use bytes::BytesMut;
 use rustix::net::{RecvFlags, SendAncillaryBuffer, SendFlags};
@@ -14,7 +14,7 @@ use std::task::{Context, Poll, ready};
 use tokio::io::{AsyncReadExt, Interest};
 use tokio::net::{TcpStream, UnixStream};
 
-/// Bytes that one raw read fetches at most; they pass through the stack.
+/// Maximum number of bytes of one raw read; they pass through a buffer on the stack.
 const RAW_READ: usize = 16 << 10;
 /// A closed peer is an error to be returned, not a signal that ends the program.
 const SEND: SendFlags = SendFlags::NOSIGNAL.union(SendFlags::DONTWAIT);
@@ -22,7 +22,7 @@ const SEND: SendFlags = SendFlags::NOSIGNAL.union(SendFlags::DONTWAIT);
 pub(super) enum Socket {
     Unix(UnixStream),
     Tcp(TcpStream),
-    /// Unknown to any runtime.
+    /// Not registered with any runtime.
     Plain(OwnedFd),
 }
 
@@ -38,7 +38,7 @@ impl Stream {
         Self { socket, detached }
     }
 
-    /// From now on, only raw system calls are made.
+    /// Makes only raw system calls from now on.
     pub(super) fn detach(&mut self) {
         self.detached = true;
     }

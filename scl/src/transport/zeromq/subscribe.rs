@@ -15,12 +15,12 @@ pub(super) struct Subscriber {
     dialler: Dialler,
     publisher: Option<Inbound>,
     malformed: u64,
-    /// For an end whose caller acknowledges messages: how many are not acknowledged, of publishers that are lost and of
-    /// the connected one.
+    /// If the caller acknowledges messages: how many are not acknowledged, of lost publishers and of the connected one.
     stale: u64,
     untold: u64,
     finishing: bool,
-    /// What a latched publisher is told: which end this is, and what it has taken over connections that are lost.
+    /// What this end reports to a latched publisher: its number, and how many messages it has taken over lost
+    /// connections.
     resumed: Resumed,
 }
 
@@ -31,7 +31,7 @@ impl Subscriber {
         Self { dialler, publisher: None, malformed: 0, stale: 0, untold: 0, finishing: false, resumed }
     }
 
-    /// Connects to the publisher, while there is none.
+    /// Connects to the publisher. Called while none is connected.
     fn poll_publisher(&mut self, cx: &mut Context<'_>) -> Poll<&mut Inbound> {
         let (mut session, ready) = ready!(self.dialler.poll_connected(cx));
         // Not sent earlier: libzmq closes a connection on which this arrives together with READY.

@@ -16,7 +16,7 @@ pub(super) struct Subscribers {
 pub(super) struct Subscriber {
     pub(super) session: Session,
     pub(super) ready: PeerReady,
-    /// What it says about itself before it subscribes.
+    /// What the subscriber has reported about itself before subscribing.
     pub(super) resumed: Option<Resumed>,
     pub(super) topics: Topics,
 }
@@ -31,7 +31,7 @@ impl Subscribers {
         self.unsubscribed.iter_mut().for_each(|subscriber| subscriber.session.detach());
     }
 
-    /// Ready with the next peer that has subscribed. `open`: how many of them are connected.
+    /// Returns the next peer that has subscribed. `open`: how many peers returned earlier are still connected.
     pub(super) fn poll_next(&mut self, cx: &mut Context<'_>, open: usize) -> Poll<Subscriber> {
         while let Poll::Ready((session, ready)) = self.acceptor.poll_session(cx, open + self.unsubscribed.len()) {
             self.unsubscribed.push(Subscriber { session, ready, resumed: None, topics: Topics::default() });

@@ -13,8 +13,8 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::task::{Context, Poll};
 
-/// How many messages wait for an observer that reads slowly, and how many bytes; one message may always wait. Enough
-/// for a recorder that is held up by its disk for half a second while ten gates at 1 kHz, or one in bursts, go on.
+/// Maximum number of messages that wait for a slow observer, and of bytes; one message may always wait. Enough for a
+/// recorder whose disk blocks it for half a second while ten gates at 1 kHz, or one in bursts, keep sending.
 const MOST_WAITING: usize = 8192;
 const MOST_BYTES: usize = 16 << 20;
 
@@ -55,7 +55,7 @@ impl Tap {
         }
     }
 
-    /// Does something with each observer, and drops those that are gone.
+    /// Calls `act` with each observer, and drops those that are gone.
     fn with_each(&mut self, mut act: impl FnMut(&mut Observer) -> Result<(), Closed>) {
         self.observers.retain_mut(|observer| {
             act(observer).inspect_err(|error| tracing::debug!(%error, "an observer left")).is_ok()

@@ -23,14 +23,14 @@ pub(crate) struct TapReader {
 /// A connection on which everything has been subscribed to.
 struct Subscribed {
     session: Session,
-    /// Whether the tap has shown that it knows the subscription, and the observer was told.
+    /// Whether the tap has confirmed the subscription, and the observer was told.
     is_confirmed: bool,
-    /// A message that has shown it.
+    /// The message that has confirmed the subscription, unless the answer to the heartbeat has.
     first: Option<Observation>,
 }
 
 impl TapReader {
-    /// Called inside a runtime.
+    /// Opens the observing end of a tap. Called inside a runtime.
     pub(crate) fn open(dir: &Arc<SystemDir>, endpoint: String) -> Self {
         let endpoint = Endpoint { max_size: MAX_SIZE, ..Endpoint::new(endpoint) };
         Self { dialler: Dialler::new(dir, &endpoint, SocketType::Sub, SclReady::default()), tap: None, rejected: 0 }
@@ -106,7 +106,7 @@ impl Subscribed {
     }
 }
 
-/// Returns `None` for anything but a payload and what `GateTap` says about it.
+/// Returns the payload with what `GateTap` reports about it, or `None` for any other message.
 fn decode(message: &Message) -> Option<Observation> {
     let mut frames = bodies(&message.envelope);
     let (payload, None) = (frames.next()?, frames.next()) else { return None };

@@ -1,7 +1,7 @@
 //! Which user is at the other end of a loopback TCP connection.
 //!
 //! Every user of a machine can connect to 127.0.0.1, and any of them may listen at a port that a killed component left
-//! behind. The kernel knows whose a socket is.
+//! behind. The kernel knows which user owns a socket.
 
 mod sock_diag;
 mod table;
@@ -15,7 +15,7 @@ use table::Tables;
 /// The kernel's number for the state of a socket that listens.
 const LISTENING: u8 = 10;
 
-/// A socket, by what is known of it from outside.
+/// A socket, identified by what other programs can see of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Socket {
     local: SocketAddr,
@@ -39,12 +39,13 @@ impl Socket {
     }
 }
 
-/// Without the scope of an address and without the mark of an IPv4 address in IPv6: sockets of both families meet.
+/// Removes the scope of an address, and turns an IPv4 address mapped into IPv6 back into IPv4: sockets of both families
+/// can connect to each other.
 fn canonical(address: SocketAddr) -> SocketAddr {
     SocketAddr::new(address.ip().to_canonical(), address.port())
 }
 
-/// Whose a socket is, and which one.
+/// The user who owns a socket, and the socket's inode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Owner {
     user: u32,
@@ -52,7 +53,7 @@ pub(super) struct Owner {
     inode: u32,
 }
 
-/// Checks of users, made together.
+/// Checks the users of several sockets with one connection to the kernel, or one read of its tables.
 #[derive(Default)]
 pub(super) struct UserChecks {
     /// Opened for the first check.
@@ -62,8 +63,8 @@ pub(super) struct UserChecks {
 }
 
 impl UserChecks {
-    /// When checks are possible again, unless that is now. Without the kernel's help they cost so much that they are
-    /// rare.
+    /// Returns when checks are possible again, or `None` if they are possible now. Without the kernel's help they are
+    /// so expensive that their rate is limited.
     pub(super) fn next() -> Option<Instant> {
         table::next_read()
     }
@@ -71,8 +72,8 @@ impl UserChecks {
     /// Checks the user of an accepted connection. It must have been accepted before the first check.
     ///
     /// # Errors
-    /// It belongs to another user ([`io::ErrorKind::PermissionDenied`]), or nobody knows to whom
-    /// ([`io::ErrorKind::ConnectionRefused`]). It cannot be found out now ([`io::ErrorKind::WouldBlock`]).
+    /// The connection belongs to another user ([`io::ErrorKind::PermissionDenied`]) or to an unknown one
+    /// ([`io::ErrorKind::ConnectionRefused`]), or the user cannot be determined now ([`io::ErrorKind::WouldBlock`]).
     pub(super) fn check_peer(&mut self, peer: SocketAddr, own: SocketAddr) -> io::Result<()> {
         self.check(Socket::connected(peer, own)).map(drop)
     }
@@ -80,7 +81,7 @@ impl UserChecks {
     /// Checks the user who listens at an address, before connecting.
     ///
     /// # Errors
-    /// As those of [`check_peer`](Self::check_peer).
+    /// Those of [`check_peer`](Self::check_peer).
     pub(super) fn check_listener(&mut self, address: SocketAddr) -> io::Result<Owner> {
         self.check(Socket::listening(address))
     }
@@ -89,7 +90,7 @@ impl UserChecks {
     /// it for granted, because reading the tables again would take too long.
     ///
     /// # Errors
-    /// As those of [`check_peer`](Self::check_peer).
+    /// Those of [`check_peer`](Self::check_peer).
     pub(super) fn is_same_listener(&mut self, address: SocketAddr, checked: Owner) -> io::Result<bool> {
         Ok(self.tables.is_some() || self.check_listener(address)? == checked)
     }

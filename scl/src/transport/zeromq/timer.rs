@@ -6,14 +6,14 @@ use std::time::Duration;
 use tokio::runtime::Handle;
 use tokio::time::{Instant, Sleep};
 
-/// Wakes the task at a time that was set. The runtime's timer is used only while it is waited for.
+/// Wakes the task at a time that was set. Uses the runtime's timer only while the task waits for it.
 pub(super) struct Timer {
     runtime: Option<Handle>,
     deadline: Option<Instant>,
     sleep: Option<Pin<Box<Sleep>>>,
 }
 
-/// Made inside the runtime; without one, time passes, but nothing is woken.
+/// To be created inside the runtime. Without one, the time passes, but no task is woken.
 impl Default for Timer {
     fn default() -> Self {
         Self { runtime: Handle::try_current().ok(), deadline: None, sleep: None }
@@ -53,7 +53,7 @@ impl Timer {
         self.deadline.is_some()
     }
 
-    /// Ready when the time has come, or if none was set. The timer is not set any more then.
+    /// Ready when the time has come, or if none was set. The timer is no longer set then.
     pub(super) fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         let Some(deadline) = self.deadline else { return Poll::Ready(()) };
         if Instant::now() < deadline {

@@ -3,7 +3,7 @@
 use super::zmtp::{ProtocolError, Subscription};
 use bytes::Bytes;
 
-/// Limits per subscriber. SCL's own subscribe to everything, once.
+/// Limits per subscriber. SCL's own subscribers subscribe to everything, once.
 const MOST_TOPICS: usize = 1024;
 const MOST_BYTES: usize = 64 << 10;
 
@@ -11,7 +11,7 @@ const MOST_BYTES: usize = 64 << 10;
 pub(super) struct Topics {
     topics: Vec<Bytes>,
     bytes: usize,
-    /// Number of subscriptions to everything among them.
+    /// Number of `topics` that match everything.
     everything: usize,
 }
 

@@ -6,7 +6,7 @@ use std::io;
 
 #[derive(Default)]
 pub(super) struct WaitingReport {
-    /// Whether the peer wants to be told when messages wait for its acknowledgement, and has been.
+    /// Whether the peer wants to be told when messages wait for its acknowledgement, and whether it has been told.
     is_wanted: bool,
     is_told: bool,
     /// Number of the peer's last question whether newer messages wait, and of the last that was answered.
@@ -27,7 +27,8 @@ impl WaitingReport {
         self.question = question;
     }
 
-    /// Writes that messages wait, or that none does and none did when the peer asked.
+    /// Tells the peer that messages wait, or that none does, unless it has been told. The latter also answers its last
+    /// question.
     pub(super) fn write(&mut self, session: &mut Session, waiting: bool) -> io::Result<()> {
         if self.is_wanted && waiting && !self.is_told {
             self.is_told = true;

@@ -1,4 +1,4 @@
-//! ZMTP 3.0 (RFC 23) without I/O: what both directions of a connection mean, and SCL's additions to it.
+//! ZMTP 3.0 (RFC 23) without I/O: encoding and decoding both directions of a connection, with SCL's additions.
 //!
 //! Later versions of the protocol fall back to 3.0 towards a peer that announces 3.0. `docs/zeromq.md` describes the
 //! additions exactly.

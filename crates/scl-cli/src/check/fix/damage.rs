@@ -3,8 +3,9 @@
 use scl_loader::Loaded;
 use scl_topology::diagnostic::Severity;
 
-/// Compares by what matters most: whether the file is YAML; up to where it is, or how many of its parts could not be
-/// read; errors; warnings. The number of errors comes late because a part that can be read again may have new ones.
+/// Orders files by how badly they are broken. What matters most comes first: whether the file could be read; whether it
+/// is YAML; where it stops being YAML, or how many of its parts could not be read; the number of errors; the number of
+/// warnings. Errors come late because a part that becomes readable may contain new ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Damage {
     is_unreadable: bool,

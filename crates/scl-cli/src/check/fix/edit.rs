@@ -12,11 +12,12 @@ pub(super) const BYTE_ORDER_MARK: &str = "\u{feff}";
 pub(super) struct FixGroup {
     /// The headline of the problem with its code.
     pub(super) problem: String,
-    /// In the order of their places.
+    /// Replaced ranges with their replacements, sorted by position.
     edits: Vec<(Range<usize>, String)>,
 }
 
-/// The fixes of a file that can be applied at once: of those that overlap, the first; none of the `refused` problems.
+/// Returns the fixes of a file that can be applied together: only the first of those that overlap, and none for
+/// `refused` problems.
 pub(super) fn groups(loaded: &Loaded, refused: &HashSet<String>) -> Vec<FixGroup> {
     let Some(file) = loaded.file else { return Vec::new() };
     let mut taken: BTreeMap<usize, usize> = BTreeMap::new();
@@ -32,7 +33,7 @@ pub(super) fn groups(loaded: &Loaded, refused: &HashSet<String>) -> Vec<FixGroup
         .collect()
 }
 
-/// The text with the fixes applied. Line breaks in them become those of the text.
+/// Returns the text with the fixes applied. Line breaks in the fixes are converted to those of the text.
 pub(super) fn apply(text: &str, groups: &[FixGroup]) -> String {
     let line_break = if is_crlf(text) { "\r\n" } else { "\n" };
     // Spans do not count the byte order mark.

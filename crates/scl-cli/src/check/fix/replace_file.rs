@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use std::path::Path;
 use tempfile::NamedTempFile;
 
-/// Writes `new` in place of `old`, with the permissions of the file. A symbolic link stays, and what it leads to is
-/// replaced.
+/// Replaces a file that contains `old` by one that contains `new`, with the same permissions. If the path is a symbolic
+/// link, its target is replaced and the link stays.
 ///
 /// # Errors
 ///

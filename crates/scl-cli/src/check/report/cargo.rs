@@ -14,7 +14,8 @@ const MOST_LINES: usize = 20;
 /// Maximum length of a line whose text is given, in bytes.
 const LONGEST_LINE: usize = 4_096;
 
-/// What the messages are about. To cargo everything belongs to a package and a target, so a topology file is one.
+/// The package and target that the messages are about. Cargo's format requires both, so a topology file stands for one
+/// of each.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(in crate::check) struct CargoUnit {
     /// The absolute path of the topology file.
@@ -26,7 +27,7 @@ pub(in crate::check) struct CargoUnit {
 }
 
 impl CargoUnit {
-    /// No package of cargo has this name, so that editors keep the problems of the file and of the crate apart.
+    /// Returns an id that no cargo package has, so that editors keep the problems of the file and of the crate apart.
     fn package_id(&self) -> String {
         format!("scl+file://{}", self.file)
     }
@@ -39,8 +40,8 @@ impl CargoUnit {
     }
 }
 
-/// The line before the diagnostics of a file: a `compiler-artifact`, at which editors forget what they were told about
-/// the file before.
+/// Returns the line before the diagnostics of a file: a `compiler-artifact`, at which editors clear the file's earlier
+/// diagnostics.
 pub(in crate::check) fn cargo_start(unit: &CargoUnit) -> String {
     json!({
         "reason": "compiler-artifact", "package_id": unit.package_id(), "manifest_path": unit.manifest,
@@ -57,7 +58,8 @@ pub(in crate::check) fn cargo_start(unit: &CargoUnit) -> String {
 ///
 /// The code is `scl::SCL0502`, in the manner of Clippy's lints, so that editors show `scl` as its source. Lines and
 /// columns count from 1, columns in characters, the end is one past the last one; bytes count from 0, without a byte
-/// order mark. A diagnostic without a place is put at the start of the file, as editors drop what is nowhere.
+/// order mark. A diagnostic without a place is put at the start of the file, because editors drop diagnostics without a
+/// span.
 pub(in crate::check) fn to_cargo(diagnostic: &Diagnostic, sources: &Sources, unit: &CargoUnit) -> String {
     let level = match diagnostic.severity {
         Severity::Error => "error",
@@ -109,8 +111,9 @@ fn span(label: &Label, is_primary: bool, sources: &Sources, unit: &CargoUnit) ->
     })
 }
 
-/// The whole lines that a span touches, each with the columns that it covers: editors count their own columns with
-/// them. Of a long span only the first lines, and no text at all where a line is long, as each span repeats it.
+/// Returns the whole lines that a span touches, each with the columns that it covers; editors compute their own columns
+/// from them. Only the first lines of a long span are included, and none if one of them is too long, because each span
+/// repeats the text.
 fn covered_lines(file: &SourceFile, start: LineColumn, end: LineColumn) -> Vec<Value> {
     let lines = (start.line..=end.line).take(MOST_LINES).map(|number| (number, file.line_text(number)));
     let mut lines: Vec<(u32, &str)> = lines.collect();
@@ -138,10 +141,11 @@ fn start_of_file(unit: &CargoUnit) -> Value {
     })
 }
 
-/// Helps and notes. Editors show no primary label beside them, so it comes first, as a note of its own.
+/// Returns the helps and notes. Editors that show them leave out the primary label, so it comes first, as a separate
+/// note.
 ///
-/// A fix is the span of a help, with the replacement: the sure ones belong to the first help, each of the others has a
-/// help of its own.
+/// A fix is a span with a replacement, in a help: all sure fixes are in the first help, and each of the others is in a
+/// separate one.
 fn children(diagnostic: &Diagnostic, sources: &Sources, unit: &CargoUnit) -> Vec<Value> {
     let (sure, others): (Vec<&Fix>, Vec<&Fix>) = diagnostic.fixes.iter().partition(|fix| fix.sure);
     let mut helps: Vec<Value> = diagnostic.helps.iter().map(|help| child("help", &format!("help: {help}"))).collect();

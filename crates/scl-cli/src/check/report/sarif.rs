@@ -44,7 +44,7 @@ pub(in crate::check) fn to_sarif(files: &[CheckedFile<'_>]) -> String {
     format!("{log:#}")
 }
 
-/// What the catalogue knows of a code.
+/// Returns the SARIF rule of a diagnostic's code, with what the catalogue says about it.
 fn rule(diagnostic: &Diagnostic) -> Value {
     let mut rule = json!({ "id": diagnostic.code(), "defaultConfiguration": { "level": level(diagnostic.severity) } });
     if let Some(known) = all_rules().into_iter().find(|known| *known == diagnostic.rule) {
@@ -82,7 +82,7 @@ fn result(diagnostic: &Diagnostic, file: &CheckedFile<'_>, codes: &[&str]) -> Va
     result
 }
 
-/// The sure fixes as one, each of the others as one of its own.
+/// Returns all sure fixes as a single SARIF fix, and each of the others as a separate one.
 fn fixes(diagnostic: &Diagnostic, sources: &Sources) -> Vec<Value> {
     let (sure, others): (Vec<&Fix>, Vec<&Fix>) = diagnostic.fixes.iter().partition(|fix| fix.sure);
     let sure = (!sure.is_empty()).then_some(sure);
@@ -145,7 +145,7 @@ fn region(span: Span, sources: &Sources) -> Value {
     json!({ "startLine": start.line, "startColumn": start.column, "endLine": end.line, "endColumn": end.column })
 }
 
-/// A path as an URI: what has a meaning there, and what is no ASCII, is escaped by bytes.
+/// Converts a path to a URI. Bytes other than `/` and the unreserved ASCII characters are percent-encoded.
 fn uri(path: &str) -> String {
     let mut uri = String::from(if path.starts_with('/') { "file://" } else { "" });
     for byte in path.bytes() {

@@ -1,4 +1,4 @@
-//! The decisions of a receiving end: what is the next message, what came twice, what is missing.
+//! The decisions of a receiving end: which message is next, which is a duplicate, which is missing.
 
 use std::time::Instant;
 
@@ -31,7 +31,7 @@ struct Partial {
     bytes: BytesMut,
 }
 
-/// What follows from something that arrived.
+/// The result of [`Incoming::accept`].
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(super) struct Outcome {
     pub(super) message: Option<Bytes>,
@@ -39,7 +39,7 @@ pub(super) struct Outcome {
     pub(super) latched: Option<Instant>,
     pub(super) answer: Option<Ack>,
     pub(super) flush: bool,
-    /// The sender does not keep to `max_size`. It gets no further.
+    /// Whether the sender violates `max_size`. The message is not accepted, so the stream gets no further.
     pub(super) too_large: bool,
 }
 
@@ -117,7 +117,7 @@ impl Incoming {
         self.complete(message)
     }
 
-    /// What came twice is acknowledged again, what is missing is reported.
+    /// Acknowledges a duplicate again, or reports a gap.
     fn out_of_order(&mut self, header: &Header) -> Outcome {
         let is_due = match header.sequence <= self.received {
             true => header.sequence == self.received,

@@ -9,8 +9,8 @@
 //!        with the same one
 //! ```
 //!
-//! `waiting` has what is kept and what is on its way, in this order: `emitted` messages on their way, up to `tried`
-//! that were on their way before, and those that never were.
+//! `waiting` holds the messages that are kept or on their way, in this order: the first `emitted` are on their way, the
+//! next ones up to `tried` were on their way before, and the rest never were.
 
 use std::collections::VecDeque;
 use std::time::Instant;
@@ -20,7 +20,7 @@ use bytes::Bytes;
 use crate::wire::header::{Ack, Header, Kind};
 use crate::wire::{WINDOW_BYTES, WINDOW_MESSAGES};
 
-/// Messages that are sent and not acknowledged, and how far they are.
+/// Messages that are sent and not acknowledged, with their progress.
 #[derive(Debug, Default)]
 pub(super) struct Outgoing {
     window: usize,
@@ -40,7 +40,7 @@ pub(super) struct Outgoing {
     /// Messages settled (acknowledged, given up or abandoned) in all, and how many of them before this stream.
     settled: u64,
     base: u64,
-    /// Whether a flush is wanted, and of how many messages in all.
+    /// Whether a flush is requested, and how many messages in all it covers.
     flush: bool,
     flushed: u64,
 }
@@ -61,7 +61,7 @@ impl Outgoing {
         Outgoing { window, stream, latches, ..Outgoing::default() }
     }
 
-    /// Whether this receiving end has got nothing yet.
+    /// Whether this is not the receiving end that was matched last.
     pub(super) fn is_new(&self, epoch: u64) -> bool {
         self.epoch != Some(epoch)
     }
@@ -74,7 +74,7 @@ impl Outgoing {
         self.waiting.len()
     }
 
-    /// Whether an answer is due.
+    /// Whether an acknowledgement is outstanding.
     pub(super) fn awaits_answer(&self) -> bool {
         self.matched && self.emitted > 0
     }
@@ -123,7 +123,7 @@ impl Outgoing {
         (self.emitted, self.tried) = (0, 0);
     }
 
-    /// The next message to put on its way, within the window.
+    /// Returns the next message to send, if the window allows it.
     pub(super) fn emit(&mut self) -> Option<(Header, Bytes)> {
         let next = self.waiting.get(self.emitted).filter(|_| self.matched && self.emitted < self.window)?;
         let (message, latched) = (next.message.clone(), next.sent.filter(|_| next.is_latched));
@@ -133,12 +133,12 @@ impl Outgoing {
         Some((Header { latched, ..self.header(Kind::Whole)? }, message))
     }
 
-    /// A header that asks for an answer.
+    /// Returns a header that asks for an acknowledgement; `None` without a match.
     pub(super) fn probe(&self) -> Option<Header> {
         self.matched.then(|| self.header(Kind::Probe { flush: self.flush })).flatten()
     }
 
-    /// Marks what is on its way to be flushed. Returns false if that was asked for already.
+    /// Requests a flush of the messages in flight. Returns false if it was requested already.
     pub(super) fn request_flush(&mut self) -> bool {
         let last = self.settled + self.emitted as u64;
         let is_news = !self.flush || self.flushed < last;
@@ -206,7 +206,7 @@ impl Outgoing {
 pub(super) struct Progress {
     /// Messages settled in all, if more than before.
     pub(super) settled: Option<u64>,
-    /// Copies of messages that have not left yet are superfluous: all are emitted again.
+    /// Whether messages are emitted again, so that copies which have not left yet are superfluous.
     pub(super) started_over: bool,
 }
 

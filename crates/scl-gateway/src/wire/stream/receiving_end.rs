@@ -1,4 +1,4 @@
-//! A receiving end: its decisions, and the thread that sends its acknowledgements.
+//! A receiving end: applies the decisions, and sends acknowledgements through the thread.
 
 use std::sync::Arc;
 use std::task::{Context, Poll};
@@ -11,8 +11,7 @@ use crate::wire::WINDOW_BYTES;
 use crate::wire::command::{Command, Commands, Declared, EndId};
 use crate::wire::mailbox::{Mailbox, ReceivingMail};
 
-/// What a receiving end tells its owner, and event of
-/// [`WireReceiver::poll_event`](crate::wire::WireReceiver::poll_event).
+/// Event of a receiving end, and of [`WireReceiver::poll_event`](crate::wire::WireReceiver::poll_event).
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ReceiverEvent {
@@ -20,7 +19,7 @@ pub enum ReceiverEvent {
     Matched,
     /// The sending side closed, or the link is lost.
     Unmatched,
-    /// The next message was sent then, before this side was opened.
+    /// The next message was sent at this time, before this side was opened.
     Latched(Instant),
     /// The next message. Messages are numbered 1, 2, 3, ... since the last `set_open(true)`.
     Message(Bytes),
@@ -35,7 +34,7 @@ pub(in crate::wire) struct ReceivingEnd {
     key: String,
     max_size: u64,
     incoming: Option<Incoming>,
-    /// The message to be told next, after its age.
+    /// The message to return next, after its `Latched` event.
     latched: Option<Bytes>,
     is_matched: bool,
     flush: bool,
@@ -43,7 +42,7 @@ pub(in crate::wire) struct ReceivingEnd {
 }
 
 impl ReceivingEnd {
-    /// Receives what `host` sends on `key`. Closed at first.
+    /// Creates an end that receives what `host` sends on `key`. It is closed at first.
     pub(in crate::wire) fn new(commands: &Commands, host: &str, key: &str, max_size: u64) -> Self {
         // Twice what the sender may have in flight, because it may have started over.
         let mail = Arc::new(Mailbox::new(2 * max_size.saturating_add(4 * WINDOW_BYTES)));

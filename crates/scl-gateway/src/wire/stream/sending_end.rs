@@ -1,4 +1,4 @@
-//! A sending end: its decisions, the thread that sends, the timer of its probes.
+//! A sending end: applies the decisions, sends through the thread, and times the probes.
 
 use std::collections::VecDeque;
 use std::pin::Pin;
@@ -19,20 +19,20 @@ use crate::wire::random;
 const FIRST_PROBE: Duration = Duration::from_millis(300);
 const LAST_PROBE: Duration = Duration::from_secs(5);
 
-/// What a sending end tells its owner, and event of [`WireSender::poll_event`](crate::wire::WireSender::poll_event).
+/// Event of a sending end, and of [`WireSender::poll_event`](crate::wire::WireSender::poll_event).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SenderEvent {
-    /// The receiving side is open. What was unacknowledged has been sent again if it is the same one as before.
+    /// The receiving side is open. If it is the same one as before, unacknowledged messages have been sent again.
     Matched,
-    /// On a latched route, after `Matched`: this receiver has got nothing yet, it is not the one before.
+    /// Follows `Matched` on a latched route if the receiver is a new one, which has received nothing yet.
     NewReceiver,
     /// The receiving side closed, or the link is lost. Unacknowledged messages stay here for the next match.
     Unmatched,
     /// All messages up to this number are taken by the receiving component (or were given up before).
     Acknowledged(u64),
-    /// This many of the oldest messages were unacknowledged when another receiver took the place of theirs: whether
-    /// they arrived is unknown, and they are not sent again. Comes after the `Matched` of the new receiver.
+    /// This many of the oldest messages were unacknowledged when another receiver replaced theirs: whether they arrived
+    /// is unknown, and they are not sent again. Follows the `Matched` of the new receiver.
     GivenUp(u64),
 }
 
@@ -48,8 +48,8 @@ pub(in crate::wire) struct SendingEnd {
 }
 
 impl SendingEnd {
-    /// Sends on `key` to `host`. `latches`: the last message of those that wait for a receiver is one that it finds
-    /// there.
+    /// Creates an end that sends on `key` to `host`. With `latches`, a new receiver gets the last waiting message as a
+    /// latched one.
     pub(in crate::wire) fn new(commands: &Commands, host: &str, key: &str, queue: u32, latches: bool) -> Self {
         let mail = Arc::new(Mailbox::new(u64::MAX));
         let (host, key, thread_mail) = (host.to_owned(), key.to_owned(), Arc::clone(&mail));
@@ -174,7 +174,7 @@ impl SendingEnd {
         self.timer = None;
     }
 
-    /// Probes while an answer is due, less and less often.
+    /// Sends probes at increasing intervals while an acknowledgement is outstanding.
     fn poll_timer(&mut self, cx: &mut Context<'_>) {
         while self.outgoing.awaits_answer() {
             let pause = self.pause;

@@ -10,13 +10,13 @@ use scl_loader::walk::map_entry;
 /// A field with its types.
 pub(super) struct Field<'a> {
     pub(super) name: &'a str,
-    /// When it is read.
+    /// The type when it is read.
     read: String,
-    /// What the constructor takes.
+    /// The type that the constructor takes.
     pub(super) given: String,
-    /// Messages, lists and maps are changed in place; assigning them is an error in protobuf.
+    /// Whether it is changed in place, as messages, lists and maps are; assigning them is an error in protobuf.
     is_changed_in_place: bool,
-    /// Whether `HasField` knows it.
+    /// Whether `HasField` accepts it.
     pub(super) has_presence: bool,
     /// The index of its `oneof`.
     pub(super) oneof: Option<usize>,

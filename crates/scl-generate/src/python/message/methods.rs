@@ -72,7 +72,7 @@ pub(super) fn write(
     }
 }
 
-/// `Literal["a", "b"]`; without any name, the type that nothing has.
+/// `Literal["a", "b"]`; without any name, `Never`.
 fn literal<'n>(messages: &Messages<'_>, names: impl Iterator<Item = &'n str>) -> Doc {
     let names: Vec<Doc> = names.map(|name| Doc::text(format!("\"{name}\""))).collect();
     if names.is_empty() {
@@ -81,8 +81,8 @@ fn literal<'n>(messages: &Messages<'_>, names: impl Iterator<Item = &'n str>) ->
     Doc::concat([Doc::text(messages.imports.of("typing", "Literal")), Doc::group("[", names, "]")])
 }
 
-/// Writes the class from which enums are derived: for type checkers, values are instances of their enum. When the
-/// program runs, values are of `int`, and an enum has the methods of `google.protobuf.internal.enum_type_wrapper`.
+/// Writes the class from which enums are derived: for type checkers, values are instances of their enum. At run time,
+/// values are of type `int`, and an enum has the methods of `google.protobuf.internal.enum_type_wrapper`.
 pub(super) fn write_enum_base(messages: &Messages<'_>, out: &mut Writer) {
     let builtin = |name| messages.names.builtin(name, messages.imports);
     let [int, str, list, tuple, classmethod] = ["int", "str", "list", "tuple", "classmethod"].map(builtin);

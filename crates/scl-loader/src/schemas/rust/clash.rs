@@ -9,7 +9,7 @@ use scl_topology::model::Model;
 use scl_topology::source::Span;
 use std::collections::{HashMap, HashSet};
 
-/// Every two declarations whose names meet in one scope, and those that have no name.
+/// Reports declarations whose names clash in one scope, and declarations without a usable name.
 pub(in crate::schemas) fn find_clashes(
     files: &[FileDescriptorProto],
     model: &Model,
@@ -43,8 +43,8 @@ fn is_package(declared: &Declared<'_>) -> bool {
     declared.what.starts_with("package ")
 }
 
-/// prost gives an empty name to what consists of underscores, and its derive macro cannot name the methods of a map of
-/// enums whose field is a keyword.
+/// Whether a name can be used in Rust. prost gives an empty name to a declaration whose name consists of underscores,
+/// and its derive macro cannot name the methods of a map of enums whose field is a keyword.
 fn is_identifier(name: &str) -> bool {
     !name.is_empty() && !name.trim_start_matches("r#").contains('#')
 }

@@ -49,7 +49,7 @@ pub(super) fn of_components(model: &Model) -> impl Iterator<Item = Declared<'sta
     })
 }
 
-/// The names that one schema file leads to.
+/// Returns the names that are generated from one schema file.
 pub(super) fn of_schema(file: &FileDescriptorProto) -> Vec<Declared<'_>> {
     let is_proto3 = file.syntax() == "proto3";
     let mut walk = Walk { file: file.name(), is_proto3, path: Vec::new(), modules: Vec::new(), found: Vec::new() };
@@ -99,7 +99,7 @@ impl<'f> Walk<'f> {
         self.add(scope, name, what, path);
     }
 
-    /// Visits declarations that are a list of the current one.
+    /// Visits the declarations in a list field of the current one; `list` is the number of that field.
     fn inside<T>(&mut self, list: i32, all: &'f [T], mut visit: impl FnMut(&mut Self, &'f T)) {
         for (index, one) in all.iter().enumerate() {
             self.path.extend([list, index as i32]);
@@ -175,7 +175,7 @@ impl<'f> Walk<'f> {
     }
 }
 
-/// The oneofs that the file declares; the others stand for `optional`.
+/// Returns the oneofs that the file declares, without the synthetic ones of `optional` fields.
 fn real_oneofs(message: &DescriptorProto) -> HashSet<&str> {
     message.field.iter().filter_map(|field| oneof_of(message, field)).collect()
 }
@@ -185,7 +185,7 @@ fn oneof_of<'f>(message: &'f DescriptorProto, field: &FieldDescriptorProto) -> O
     message.oneof_decl.get(usize::try_from(index).ok()?).map(|oneof| oneof.name())
 }
 
-/// prost appends `OneOf` to a oneof that would have the type of something nested.
+/// Returns the type of a oneof. prost appends `OneOf` if a nested message or enum has the same name.
 fn oneof_type(message: &DescriptorProto, oneof: &str) -> String {
     let name = upper_camel_case(oneof);
     let nested = message.nested_type.iter().map(DescriptorProto::name);

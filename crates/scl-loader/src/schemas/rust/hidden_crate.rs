@@ -11,8 +11,8 @@ use scl_topology::external::HIDDEN_CRATE;
 use scl_topology::source::Span;
 use std::collections::HashSet;
 
-/// The packages whose outermost module is called like a crate; `entry` gives the entry of `schemas:` that leads to a
-/// file.
+/// Reports the packages whose outermost module has the name of a crate. `entry` returns the entry of `schemas:` that
+/// leads to a file.
 pub(in crate::schemas) fn find_hidden_crates(
     files: &[FileDescriptorProto],
     request: &Request,

@@ -3,15 +3,15 @@
 use heck::{ToSnakeCase, ToUpperCamelCase};
 use scl_topology::rust_name::is_keyword;
 
-/// The module of a part of a package, or of what a message declares inside: `GPSFix` becomes `gps_fix`. Fields have the
-/// same rule. Keywords are raw identifiers, or have a trailing underscore where there is none; empty if the name
-/// consists of underscores.
+/// Returns the name of the module for a part of a package, or for the nested declarations of a message: `GPSFix`
+/// becomes `gps_fix`. The same rule applies to fields. Keywords become raw identifiers, or get a trailing underscore if
+/// they cannot be raw. The result is empty if the name consists of underscores.
 pub fn snake_case(name: &str) -> String {
     identifier(name.to_snake_case())
 }
 
-/// The type of a message, an enum or a oneof, and a variant of a oneof: `GPSFix` becomes `GpsFix`; empty if the name
-/// consists of underscores.
+/// Returns the name of the type of a message, an enum or a oneof, or of a variant of a oneof: `GPSFix` becomes
+/// `GpsFix`. The result is empty if the name consists of underscores.
 pub fn upper_camel_case(name: &str) -> String {
     identifier(name.to_upper_camel_case())
 }

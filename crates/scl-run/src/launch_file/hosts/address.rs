@@ -42,7 +42,7 @@ fn is_address(text: &str) -> bool {
     text.parse::<IpAddr>().is_ok() || is_dns_name(text)
 }
 
-/// A name whose last label is a number would be an IPv4 address with a mistake.
+/// Whether this is a DNS name. Names whose last label is a number are rejected: they are mistyped IPv4 addresses.
 fn is_dns_name(text: &str) -> bool {
     let is_label = |label: &str| {
         let is_allowed = |letter: char| letter.is_ascii_alphanumeric() || letter == '-';
@@ -55,7 +55,7 @@ fn is_dns_name(text: &str) -> bool {
     text.len() <= LONGEST && text.split('.').all(is_label) && !last.chars().all(|letter| letter.is_ascii_digit())
 }
 
-/// What `192.0.2.10:7447` and `tcp/192.0.2.10:7447` were meant to be.
+/// Returns the keys to write in place of an address with a port, such as `192.0.2.10:7447` or `tcp/192.0.2.10:7447`.
 fn with_port(text: &str) -> Option<String> {
     let text = text.rsplit(['/', '@']).next()?;
     let parts = match text.parse::<SocketAddr>() {

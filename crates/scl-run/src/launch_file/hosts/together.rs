@@ -1,4 +1,5 @@
-//! What can be said of all hosts together: each component on one of them, each address once, nothing open to a network.
+//! Checks across all hosts: each component is on one host, each address is used once, and no gateway is open to a
+//! network.
 
 use super::super::reader::Reader;
 use super::super::rules::{HOSTS, MISSING};
@@ -7,7 +8,7 @@ use scl_terminal::quoted_list;
 use scl_topology::source::Span;
 
 impl Reader<'_> {
-    /// Reports a name that is neither in the topology nor, without one, among those that the file starts.
+    /// Reports a name that is not a component of the topology or, without a topology, of the launch file.
     pub(super) fn check_is_component(&mut self, name: &str, at: Span, started: &[String]) {
         let source = if self.known.is_some() { "the topology" } else { "the launch file" };
         let names = self.component_names(started).to_vec();
@@ -16,7 +17,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Every component runs on exactly one host.
+    /// Checks that every component runs on exactly one host.
     pub(super) fn check_placement(&mut self, hosts: &[HostEntry], started: &[String], place: Span) {
         let placed =
             || hosts.iter().flat_map(|host| host.components.iter().map(move |(name, place)| (name, *place, host)));
@@ -49,7 +50,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Every host can be reached, at an address of its own, by nobody but the others.
+    /// Checks that there is a `gateway`, that every host has a port, that no two hosts have the same address, and that
+    /// addresses other than loopback are not used without certificates unless `insecure` allows it.
     pub(super) fn check_addresses(&mut self, hosts: &[HostEntry], gateway: Option<&Gateway>, place: Span) {
         let Some(gateway) = gateway else {
             let problem = MISSING.at("`gateway` is missing, which the hosts need", place, "");

@@ -4,7 +4,7 @@ use super::wrong;
 use crate::error::Mismatch;
 use crate::value::Value;
 
-/// A floating-point number.
+/// Reads a floating-point number; `word` names its type.
 pub(super) fn float(value: &Value, word: &str) -> Result<f64, Mismatch> {
     let wrong = || wrong(&format!("a number ({word})"), value);
     let number = match value {
@@ -27,7 +27,7 @@ pub(super) fn float(value: &Value, word: &str) -> Result<f64, Mismatch> {
     number.ok_or_else(wrong)
 }
 
-/// A whole number of the type `N`, which `word` names.
+/// Reads a whole number of the type `N`, which `word` names.
 pub(super) fn integer<N>(value: &Value, word: &str, least: N, most: N) -> Result<N, Mismatch>
 where
     N: TryFrom<i128> + std::fmt::Display,
@@ -68,7 +68,8 @@ fn whole_number(text: &str) -> Option<i128> {
     digits.parse().ok()
 }
 
-/// The error about a number with leading zeros, which is octal in YAML 1.1 and decimal in YAML 1.2.
+/// Adds to an error a hint on how to write a number with leading zeros, which is octal in YAML 1.1 and decimal in YAML
+/// 1.2.
 fn leading_zeros(text: &str, error: Mismatch) -> Mismatch {
     let (sign, digits) = text.split_at(text.len() - text.trim_start_matches(['-', '+']).len());
     let plain = digits.trim_start_matches('0');

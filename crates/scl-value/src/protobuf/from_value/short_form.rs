@@ -70,7 +70,7 @@ fn expected(message: &MessageDescriptor) -> &'static str {
     }
 }
 
-/// `Struct`, `ListValue` and `Value` from any value.
+/// Builds a `Struct`, `ListValue` or `Value` from any value.
 fn anything(message: &MessageDescriptor, value: &Value) -> Result<DynamicMessage, Mismatch> {
     let nested = |name: &str, value: &Value| {
         let inner = message.parent_pool().get_message_by_name(&format!("google.protobuf.{name}"));

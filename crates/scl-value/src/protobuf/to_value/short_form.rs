@@ -7,7 +7,7 @@ use crate::limits::MAX_DEPTH;
 use crate::value::Value;
 use prost_reflect::{DynamicMessage, ReflectMessage as _};
 
-/// A well-known message in its short form; `None` if it has none, or if this message cannot be told in it.
+/// A well-known message in its short form; `None` if it has none, or if this message cannot be expressed in it.
 pub(super) fn shorten(message: &DynamicMessage, depth: usize) -> Option<Value> {
     // Keep unknown fields, which the short form would lose.
     if message.unknown_fields().next().is_some() {

@@ -47,7 +47,7 @@ impl SendLink {
         Ok(self.session.flush(cx)?)
     }
 
-    /// Looks past what the runtime knows.
+    /// Reads and writes the socket directly, without the runtime.
     pub(super) fn try_drive_raw(&mut self, cx: &Context<'_>) -> Result<(), Closed> {
         let mut reads = RAW_READS;
         while reads > 0 && self.session.fill_raw()? {

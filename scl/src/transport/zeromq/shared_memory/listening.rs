@@ -9,7 +9,8 @@ use std::sync::Arc;
 
 /// Shared memory, offered by a listening end.
 pub(in super::super) struct Offer {
-    /// Open as long as the end, so that what killed programs left is removed once, and when the end is opened.
+    /// Kept open as long as the end, so that leftovers of killed programs are removed only once, when the end is
+    /// opened.
     _memory: Arc<SharedMemory>,
 }
 
@@ -33,7 +34,7 @@ impl Offer {
         Ok(Self { _memory: memory })
     }
 
-    /// What to offer to the next peer: a service of its own.
+    /// Returns what to offer to the next peer: a separate service.
     pub(in super::super) fn next(&self) -> ShmReady {
         ShmReady { service: Some(ServiceName::unique().0) }
     }

@@ -17,7 +17,7 @@ const EXPECTED: usize = 64 << 10;
 /// Shared memory at the sending side.
 pub(in super::super) struct Sharing {
     state: State,
-    /// Number of long messages that went through the socket for want of memory.
+    /// Number of long messages that went through the socket because no shared memory was available.
     inline: u64,
 }
 
@@ -56,7 +56,7 @@ impl Sharing {
         Self { state: peer.service.map_or(State::Off, agreed), inline: 0 }
     }
 
-    /// Opens shared memory; the peer has opened it.
+    /// Opens shared memory, after the peer has opened it.
     pub(in super::super) fn open(&mut self) {
         let State::Agreed { service, folder } = std::mem::replace(&mut self.state, State::Off) else { return };
         match SharedMemory::open(&folder).and_then(|memory| memory.sender(service, EXPECTED)) {

@@ -17,15 +17,15 @@ const BY_FAMILY: u16 = 20;
 const NLM_F_REQUEST: u16 = 1;
 const NLMSG_ERROR: u16 = 2;
 const IPPROTO_TCP: u8 = 6;
-/// `struct nlmsghdr`, and `struct inet_diag_req_v2` or `struct inet_diag_msg` behind it.
+/// Lengths of `struct nlmsghdr`, alone and followed by `struct inet_diag_req_v2` or `struct inet_diag_msg`.
 const HEADER: usize = 16;
 const REQUEST: usize = HEADER + 56;
 const ANSWER: usize = HEADER + 72;
 
-/// Whether the kernel answers such questions. Containers and sandboxes may refuse them.
+/// Whether the kernel answers such queries. Containers and sandboxes may refuse them.
 ///
 /// # Errors
-/// It cannot be found out now, for example without free file descriptors.
+/// This cannot be determined now, for example without free file descriptors.
 pub(super) fn is_available() -> io::Result<bool> {
     static AVAILABLE: OnceLock<bool> = OnceLock::new();
     if let Some(available) = AVAILABLE.get() {
@@ -50,7 +50,7 @@ pub(super) fn is_available() -> io::Result<bool> {
     Ok(*AVAILABLE.get_or_init(|| available))
 }
 
-/// Whether a failure has to do with this moment, and not with what the program may do.
+/// Whether an error is temporary, rather than about what the program is allowed to do.
 fn is_passing(error: &io::Error) -> bool {
     let errors = [Errno::MFILE, Errno::NFILE, Errno::NOMEM, Errno::NOBUFS, Errno::AGAIN, Errno::INTR];
     Errno::from_io_error(error).is_some_and(|error| errors.contains(&error))

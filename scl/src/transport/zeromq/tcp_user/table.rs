@@ -1,7 +1,7 @@
-//! The tables of all TCP sockets, for where the kernel does not answer questions about one.
+//! The tables of all TCP sockets, used where the kernel does not answer queries about a single one.
 //!
-//! The kernel writes a row for every socket of the machine, which takes milliseconds. So reading may take up a
-//! twentieth of a processor at most, and connections that arrive together share one read.
+//! The kernel writes a row for every socket of the machine, which takes milliseconds. So reading may use at most a
+//! twentieth of a processor, and connections that arrive together share one read.
 
 use super::{LISTENING, Owner, Socket};
 use crate::sync::lock;
@@ -11,13 +11,13 @@ use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-/// The pause after a read, in times of what the read took of the processor.
+/// The pause after a read, as a multiple of the processor time that the read took.
 const PAUSE: u32 = 19;
 
 /// When the tables may be read again.
 static NEXT_READ: Mutex<Option<Instant>> = Mutex::new(None);
 
-/// When the tables may be read again, unless that is now.
+/// Returns when the tables may be read again, or `None` if they may be read now.
 pub(super) fn next_read() -> Option<Instant> {
     (*lock(&NEXT_READ)).filter(|next| *next > Instant::now())
 }
@@ -26,6 +26,8 @@ pub(super) fn next_read() -> Option<Instant> {
 pub(super) struct Tables([String; 2]);
 
 impl Tables {
+    /// Reads both tables.
+    ///
     /// # Errors
     /// They were read a moment ago ([`io::ErrorKind::WouldBlock`]), or cannot be read.
     pub(super) fn read() -> io::Result<Self> {
@@ -50,8 +52,8 @@ impl Tables {
     }
 }
 
-/// What this thread has taken of the processor. On a busy machine a read lasts much longer than that, and a pause of 19
-/// times as long would keep peers apart for seconds.
+/// Returns the processor time that this thread has used. On a busy machine a read lasts much longer than its processor
+/// time, and a pause of 19 times that duration would keep peers apart for seconds.
 fn processor_time() -> Duration {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
     Duration::new(time.tv_sec.unsigned_abs(), time.tv_nsec.unsigned_abs() as u32)

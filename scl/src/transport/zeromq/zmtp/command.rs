@@ -11,7 +11,7 @@ const CONTEXT: usize = 16;
 /// The message by which a 3.0 subscriber subscribes to everything.
 pub(in crate::transport::zeromq) const SUBSCRIBE_ALL: &[u8] = b"\0\x01\x01";
 
-/// The same, and a heartbeat whose answer tells that the subscription is in force.
+/// The same, and a heartbeat whose answer confirms that the subscription is in force.
 pub(in crate::transport::zeromq) const SUBSCRIBE_ALL_AND_PING: &[u8] = b"\0\x01\x01\x04\x07\x04PING\0\0";
 
 /// From a sending end: the window is full, and newer messages wait for an acknowledgement.
@@ -26,7 +26,7 @@ pub(in crate::transport::zeromq) const FINISH: &[u8] = b"\x04\x0d\x0cX-SCL-FINIS
 /// From a sending end: nothing more follows.
 pub(in crate::transport::zeromq) const FINISHED: &[u8] = b"\x04\x0f\x0eX-SCL-FINISHED";
 
-/// A command of a peer that has introduced itself.
+/// A command of a peer after the handshake.
 #[derive(Debug, PartialEq, Eq)]
 pub(in crate::transport::zeromq) enum Command {
     Subscription(Subscription),
@@ -37,18 +37,18 @@ pub(in crate::transport::zeromq) enum Command {
     /// The peer closes the connection for this reason.
     Error(String),
     /// Number of messages that the peer's gate has taken so far, and of those among them that no longer wait there. An
-    /// older release does not say the second.
+    /// older release does not send the second number.
     Acknowledged {
         taken: u64,
         received: u64,
     },
     /// Newer messages wait for an acknowledgement.
     Behind,
-    /// The peer wants to be told when no newer message waits, under this number.
+    /// The peer wants to be told when no newer message waits. The answer repeats this number.
     CatchUp(u64),
     /// No newer message waits. The number is that of the last [`CatchUp`](Self::CatchUp), or 0.
     CaughtUp(u64),
-    /// The peer wants everything acknowledged that it has sent.
+    /// The peer requests an acknowledgement of everything that it has sent.
     Flush,
     /// The peer has opened the connection's shared memory, and receives samples from now on.
     ShmOpen,
@@ -65,7 +65,7 @@ pub(in crate::transport::zeromq) enum Command {
     Finished,
     /// The peer does not answer the request of this number.
     Refused(u64),
-    /// The next message was sent so many nanoseconds ago, before this end joined.
+    /// The next message was published this many nanoseconds ago, before this end joined.
     Latched(u64),
     /// Which end the peer is, and what it has taken before.
     Resume(Resumed),
@@ -75,9 +75,9 @@ pub(in crate::transport::zeromq) enum Command {
 /// What a subscriber wants.
 #[derive(Debug, PartialEq, Eq)]
 pub(in crate::transport::zeromq) enum Subscription {
-    /// It wants messages that begin so.
+    /// The subscriber wants messages with this prefix.
     Add(Bytes),
-    /// It no longer wants messages that begin so.
+    /// The subscriber no longer wants messages with this prefix.
     Cancel(Bytes),
 }
 
@@ -126,14 +126,14 @@ impl Command {
     }
 }
 
-/// Reads the reason of an ERROR, which a length precedes.
+/// Reads the reason of an ERROR, which follows its length.
 pub(super) fn error_text(content: &[u8]) -> String {
     let reason = content.get(1..).unwrap_or_default();
     let shown = &reason[..reason.len().min(255)];
     shown.escape_ascii().to_string()
 }
 
-/// The subscription in a message, which is how ZMTP 3.0 carries it.
+/// Returns the subscription in a message, which is how ZMTP 3.0 sends it.
 pub(in crate::transport::zeromq) fn subscription(mut body: Bytes) -> Option<Subscription> {
     match body.try_get_u8() {
         Ok(1) => Some(Subscription::Add(body)),
@@ -167,7 +167,7 @@ pub(in crate::transport::zeromq) fn refused(number: u64) -> [u8; 24] {
     numbered(b"\x0dX-SCL-REFUSED", number)
 }
 
-/// From a sending end: the next message was sent so many nanoseconds ago, before the peer joined.
+/// From a sending end: the next message was published `age_ns` nanoseconds ago, before the peer joined.
 pub(in crate::transport::zeromq) fn latched(age_ns: u64) -> [u8; 24] {
     numbered(b"\x0dX-SCL-LATCHED", age_ns)
 }
@@ -190,7 +190,7 @@ fn numbered_twice<const LENGTH: usize>(name: &[u8], first: u64, second: u64) -> 
     command
 }
 
-/// A command with a number, of known length, so that it takes no memory.
+/// A command with a number. Its length is known, so it needs no allocation.
 fn numbered<const LENGTH: usize>(name: &[u8], number: u64) -> [u8; LENGTH] {
     let mut command = [0; LENGTH];
     command[..2].copy_from_slice(&[COMMAND, (LENGTH - 2) as u8]);
@@ -199,7 +199,7 @@ fn numbered<const LENGTH: usize>(name: &[u8], number: u64) -> [u8; LENGTH] {
     command
 }
 
-/// What follows the number belongs to a later version.
+/// Takes a number from the front. What is left after the last number belongs to a later version and is ignored.
 fn number(content: &mut Bytes) -> Result<u64, ProtocolError> {
     content.try_get_u64().map_err(|_too_short| ProtocolError::MalformedCommand)
 }

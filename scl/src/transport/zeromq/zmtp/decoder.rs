@@ -5,10 +5,10 @@ use super::frame::Head;
 use super::{PeerReady, ProtocolError, SocketType, greeting, ready};
 use bytes::{Buf, Bytes, BytesMut};
 
-/// The most frames that a message may have. SCL's own have three at most.
+/// Maximum number of frames of a message. SCL's own messages have three at most.
 const FRAMES: usize = 16;
-/// The longest command, and the most that the frames of a message may have beyond the limit of one message: more than
-/// any envelope needs.
+/// Maximum length of a command, and maximum by which the frames of a message together may exceed the limit of one
+/// message: more than any envelope needs.
 const COMMAND_LIMIT: usize = 64 << 10;
 
 /// Memory until the handshake is done, and for peers that send only commands.
@@ -17,10 +17,10 @@ const SMALL_CHUNK: usize = 512;
 const CHUNK: usize = 64 << 10;
 /// The same while its messages are long, so that fewer of them are cut in two and copied.
 const LARGE_CHUNK: usize = 256 << 10;
-/// How much is reserved at once for a frame of which less has arrived.
+/// Memory reserved at once for an incomplete frame, unless more of it has arrived.
 const STEP: usize = 1 << 20;
 
-/// Something complete that a peer has sent.
+/// A complete handshake, message or command that a peer has sent.
 #[derive(Debug, PartialEq, Eq)]
 pub(in crate::transport::zeromq) enum Item {
     /// The handshake is done.
@@ -30,7 +30,7 @@ pub(in crate::transport::zeromq) enum Item {
 }
 
 impl Item {
-    /// The subscription that a subscriber has sent, in either dialect.
+    /// Returns the subscription that a subscriber has sent, as a message or as a command.
     pub(in crate::transport::zeromq) fn into_subscription(self) -> Option<Subscription> {
         match self {
             // Multipart messages are not subscriptions; later parts could be mistaken for one.
@@ -70,12 +70,12 @@ pub(in crate::transport::zeromq) struct Decoder {
     parts: usize,
     /// Earlier frames of that message, which a command separated from those in `buffer`.
     earlier_parts: BytesMut,
-    /// Number of frames of that message, and the sum of their bodies.
+    /// Number of frames of that message, and the total length of their bodies.
     frames: usize,
     frame_bytes: u64,
     /// Number of bytes without which the next item cannot be complete.
     missing: usize,
-    /// About the longest message of late.
+    /// Approximate length of the longest recent message.
     typical: usize,
 }
 
@@ -132,7 +132,7 @@ impl Decoder {
         self.earlier_parts.len() + self.buffer.len()
     }
 
-    /// Returns true if a frame has arrived in part only, and no other before it.
+    /// Returns true if the next frame to be decoded has arrived only in part.
     pub(in crate::transport::zeromq) fn is_in_frame(&self) -> bool {
         let rest = &self.buffer[self.parts..];
         match Head::parse(rest) {

@@ -41,7 +41,7 @@ impl Header {
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Head {
     pub(super) flags: u8,
-    /// Length of flags and length.
+    /// Length of the flags and the length field.
     pub(super) header: usize,
     /// Announced length of the body; not to be trusted yet.
     pub(super) body: u64,

@@ -15,7 +15,7 @@ pub(super) fn greeting() -> [u8; LENGTH] {
     greeting
 }
 
-/// Returns true if a greeting has arrived completely.
+/// Checks what has arrived of a greeting. Returns true if it is complete.
 pub(super) fn check(arrived: &[u8]) -> Result<bool, ProtocolError> {
     // Reject early: a peer with a different greeting may never send the rest.
     let wrong = |place: usize, right: fn(u8) -> bool| arrived.get(place).is_some_and(|&byte| !right(byte));

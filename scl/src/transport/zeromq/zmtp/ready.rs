@@ -8,10 +8,11 @@ use bytes::Buf;
 
 /// The property that tells SCL's ends from other ZeroMQ programs.
 const SCL_PROPERTY: &[u8] = b"X-SCL";
-/// The version of SCL's additions. One that differs in it is treated as a plain ZeroMQ program.
+/// The version of SCL's additions. A peer with another version is treated as a plain ZeroMQ program.
 const SCL_VERSION: &str = "1";
 
-/// The most requests without a reply for which a replier keeps room. One that announces more gets as much as for one.
+/// Maximum number of unanswered requests of one requester for which a replier keeps room. A requester that announces
+/// more is treated as if it had announced one.
 const MOST_IN_FLIGHT: usize = 4096;
 
 /// What a peer has said about itself.
@@ -19,8 +20,8 @@ const MOST_IN_FLIGHT: usize = 4096;
 pub(in crate::transport::zeromq) struct PeerReady {
     /// Present if the peer is an SCL end whose version is known.
     pub(in crate::transport::zeromq) scl: Option<SclReady>,
-    /// The service in which both ends share memory, if one offers that and both can. READY has it only if it is the
-    /// peer that offers it.
+    /// The service in which both ends share memory, if one end offers it and both can. READY contains it only if the
+    /// peer is the end that offers it.
     pub(in crate::transport::zeromq) service: Option<u128>,
 }
 
@@ -41,16 +42,16 @@ pub(in crate::transport::zeromq) struct SclReady {
     pub(in crate::transport::zeromq) lossless: bool,
     /// How many requests this requesting end may have sent without a reply, if more than one.
     pub(in crate::transport::zeromq) in_flight: Option<usize>,
-    /// Whether this publishing end keeps its last message for those that join.
+    /// Whether this publishing end keeps its last message for subscribers that join.
     pub(in crate::transport::zeromq) latched: bool,
     /// Present if this end can share memory with one that has the same engine and user.
     pub(in crate::transport::zeromq) shm: Option<ShmReady>,
 }
 
-/// What an end says that can share memory.
+/// What an end that can share memory announces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(in crate::transport::zeromq) struct ShmReady {
-    /// A listening end offers this service.
+    /// The service that a listening end offers.
     pub(in crate::transport::zeromq) service: Option<u128>,
 }
 
@@ -91,7 +92,8 @@ impl SclReady {
 }
 
 impl ShmReady {
-    /// What a connecting end says: that it can share memory, if its messages go one way. The listening end decides.
+    /// Returns what a connecting end announces: that it can share memory, if its messages go one way. The listening end
+    /// decides.
     pub(in crate::transport::zeromq) fn of_dialling(socket: SocketType) -> Option<Self> {
         let goes_one_way = matches!(socket, SocketType::Sub | SocketType::Push);
         memory_format().filter(|_| goes_one_way).map(|_| Self::default())
@@ -103,7 +105,7 @@ impl ShmReady {
         format!(" shm={format}{service}")
     }
 
-    /// Returns `None` if the engine, its version, the width of pointers or the user is another one.
+    /// Returns `None` if the engine, its version, the width of pointers or the user differs from this end's.
     fn parse(text: &str) -> Result<Option<Self>, ProtocolError> {
         let Some(rest) = memory_format().and_then(|format| text.strip_prefix(&*format)) else {
             return Ok(None);
@@ -124,7 +126,7 @@ fn parse_service(text: &str) -> Option<u128> {
     u128::from_str_radix(text, 16).ok().filter(|_| are_digits)
 }
 
-/// A window of nothing would never let a message pass, so it counts as none.
+/// A window of zero messages or bytes would never let a message pass, so it counts as no window.
 fn parse_window(text: &str) -> Option<Window> {
     let (messages, bytes) = text.split_once(',')?;
     let number = |text: &str| text.parse().ok().filter(|&number: &u64| number > 0);

@@ -1,6 +1,6 @@
 //! The types of ZeroMQ sockets.
 
-/// The socket types that SCL's ends are to their peers.
+/// The socket types as which SCL's ends appear to their peers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::transport::zeromq) enum SocketType {
     /// A publishing end.
