@@ -24,18 +24,18 @@ pub struct BenchArguments {
     /// Print the distribution of the durations below each table.
     #[arg(long, global = true, conflicts_with = "json")]
     histogram: bool,
-    /// Where the processes run: placed by the operating system, all on one core, or the two sides on a core each.
+    /// Where the processes run: placed by the operating system, all on one core, or each side on its own core.
     /// Placement matters more than the library, so compare only runs on `one` or `two`.
     #[arg(long, global = true, value_enum, default_value_t)]
     cores: Cores,
-    /// Measure next to nothing, to test that everything runs.
+    /// Measure only briefly, to test that everything runs.
     #[arg(long, global = true, hide = true)]
     quick: bool,
 }
 
-const READING: &str = "A line `SCL pub/sub to libzmq XPUB/SUB` has the first one's value divided by the second one's: \
-1.10 is 10 % more, 0.50 is half. Quartiles tell how much the ratio varies during the run. `docs/bench.md` explains \
-every table.";
+const READING: &str = "A line `SCL pub/sub to libzmq XPUB/SUB` shows the first value divided by the second: 1.10 is \
+10 % more, 0.50 is half. Quartiles show how much the ratio varies during the run. `docs/bench.md` explains every \
+table.";
 
 const EXAMPLES: &str = "Examples:
   scl bench roundtrip --bytes 20 --cores one
@@ -56,7 +56,7 @@ enum Benchmark {
         /// The number of round trips for each size and line; at most 4 GiB are sent.
         #[arg(long, default_value_t = 20_000, value_parser = within(MESSAGES))]
         messages: usize,
-        /// What is under the connections of SCL, which decides what they are compared with.
+        /// The transport of the `SCL` lines, which also determines what they are compared with.
         #[arg(long, value_enum, default_value_t)]
         transport: Transport,
     },
@@ -71,7 +71,7 @@ enum Benchmark {
         /// The number of messages for each size and line; at most 4 GiB are sent.
         #[arg(long, default_value_t = 500_000, value_parser = within(MESSAGES))]
         messages: usize,
-        /// What is under the connections of SCL, which decides what they are compared with.
+        /// The transport of the `SCL` lines, which also determines what they are compared with.
         #[arg(long, value_enum, default_value_t)]
         transport: Transport,
     },
@@ -83,7 +83,7 @@ enum Benchmark {
         /// How often each subscriber pauses.
         #[arg(long, default_value_t = 10, value_parser = within(REPETITIONS))]
         repetitions: usize,
-        /// How long a subscriber does not receive.
+        /// How long each pause is.
         #[arg(long, default_value = "2", value_parser = parse_seconds)]
         pause: Duration,
     },

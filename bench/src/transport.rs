@@ -8,9 +8,9 @@ pub(crate) enum Transport {
     /// Unix sockets, beside other libraries over Unix sockets.
     #[default]
     Ipc,
-    /// Shared memory, beside plain iceoryx2; takes the feature `shm` of this program.
+    /// Shared memory, beside plain iceoryx2; needs the feature `shm` of this program.
     Shm,
-    /// Two gateways on loopback, beside plain zenoh; takes the feature `gateway` of this program.
+    /// Two gateways on loopback, beside plain zenoh; needs the feature `gateway` of this program.
     Gateway,
 }
 

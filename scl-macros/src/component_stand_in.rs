@@ -67,7 +67,7 @@ fn words(name: &str, topologies: &[KnownTopology]) -> (String, Vec<String>) {
     let message = format!("[{code}] cannot find the component `{name}`");
     let names: Vec<&str> = all().filter(|(_, it)| it.included).map(|(_, it)| it.rust_name.as_str()).collect();
     if names.is_empty() {
-        let note = "`scl::topology!` makes one struct of each component: `user_interface` becomes `UserInterface`";
+        let note = "`scl::topology!` generates one struct per component: `user_interface` becomes `UserInterface`";
         return (message, vec![note.to_owned()]);
     }
     let near = similar(name, names.iter().copied()).first().map(|near| format!("did you mean `{near}`?"));
@@ -94,7 +94,7 @@ mod tests {
     #[test]
     fn unknown_components_are_told_with_those_that_exist() {
         let cases: [(&str, &[KnownTopology], &str, &str); 4] = [
-            ("Gps", &[], "cannot find the component `Gps`", "`scl::topology!` makes one struct of each"),
+            ("Gps", &[], "cannot find the component `Gps`", "`scl::topology!` generates one struct per"),
             (
                 "Gsp",
                 &[topology(&[("Gps", true), ("Camera", true)])],

@@ -64,7 +64,7 @@ fn measure_connections(runtime: &Runtime, options: &GatewayGrowthOptions, connec
     let hosts = hosts(connections, &far_names);
     let gateways = start_gateways(folder, &topology(connections, options.hosts)?, &hosts)?;
     let [Some(gateway), Some(far_gateway)] = [0, 1].map(|index| gateways.get(index).map(Worker::id)) else {
-        return Err(scl::Error::message("there are no two gateways"));
+        return Err(scl::Error::message("fewer than two gateways were started"));
     };
     let _far_hosts = start_far_hosts(runtime, folder, &far_names)?;
     let plan = plan(folder)?;

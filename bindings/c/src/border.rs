@@ -170,7 +170,7 @@ pub(crate) unsafe fn store(bytes: &[u8], buffer: *mut c_void, capacity: usize) -
 pub(crate) fn room(buffer: &mut Vec<u8>, len: usize) -> Result<*mut c_void, Failure> {
     check_length(len, "buffer")?;
     let missing = len.saturating_sub(buffer.len());
-    let no_memory = |_| Failure::new(SCL_SYSTEM, format!("there is no memory for {len} bytes"));
+    let no_memory = |_| Failure::new(SCL_SYSTEM, format!("out of memory: cannot allocate {len} bytes"));
     buffer.try_reserve_exact(missing).map_err(no_memory)?;
     // Zero new memory, so a program that writes fewer bytes never sends uninitialized memory.
     buffer.resize(len, 0);

@@ -130,7 +130,7 @@ impl Component {
         self.shared.check()?;
         let gates: Vec<&Gate> = gates.iter().map(|gate| gate.get()).collect();
         if let Some(other) = gates.iter().find(|gate| !Arc::ptr_eq(&gate.shared, &self.shared)) {
-            let text = format!("gate `{}` is not of component `{}`", other.full_name(), self.shared.component);
+            let text = format!("gate `{}` does not belong to component `{}`", other.full_name(), self.shared.component);
             return Err(PyValueError::new_err(text));
         }
         wait_any(py, limit, &self.shared, &gates)

@@ -57,7 +57,7 @@ impl Gate {
         if unusable == Unusable::Closed {
             return self.shared.ended();
         }
-        let text = "is in use by another thread or task; one at a time may use a gate, others may use other gates";
+        let text = "is in use by another thread or task; use each gate from one thread or task at a time";
         Failure::new("Busy", format!("gate `{}` {text}", self.full_name()))
     }
 

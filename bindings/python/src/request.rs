@@ -40,7 +40,7 @@ impl Request {
         if self.shared.is_inherited() {
             self.shared.check_open()?;
         }
-        let request = self.take().ok_or_else(|| Failure::new("Answered", "this request was answered before"))?;
+        let request = self.take().ok_or_else(|| Failure::new("Answered", "this request was already answered"))?;
         Ok(no_panic(|| Ok(request.reply(&Bytes::copy_from_slice(message.as_bytes()))?))?)
     }
 }

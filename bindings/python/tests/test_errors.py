@@ -91,7 +91,7 @@ def test_none_is_a_message(system: System, tmp_path: Path, codec: str) -> None:
     for call in [taker.values.try_recv, taker.values.latest]:
         giver.values.send(None)
         taker.wait(taker.values)
-        text = f"gate `taker.values` received the message `None`, which `{call.__name__}()` returns for no message"
+        text = f"gate `taker.values` received the message `None`, which `{call.__name__}()` also returns when there is "
         assert refused(scl.NoneReceived, call).startswith(text)
         giver.values.send(None)
         taker.wait(taker.values)
@@ -242,7 +242,7 @@ def test_a_request_is_answered_once(system: System) -> None:
     request = sink.answer.recv(60)
     assert "carries `test.Number`, not `int`" in refused(TypeError, request.reply, 7)
     request.reply(sink.answer.reply_type(value=7))
-    assert refused(scl.Answered, request.reply, sink.answer.reply_type()) == "this request was answered before"
+    assert refused(scl.Answered, request.reply, sink.answer.reply_type()) == "this request was already answered"
     asking.join()
     assert answers == [7]
 

@@ -14,10 +14,10 @@ use std::time::Duration;
 /// Timeout for closing the component; nothing is left to be sent by then.
 const CLOSE: Duration = Duration::from_secs(1);
 
-/// Send a request to a `rep` gate, in place of a component that asks there, and print the reply.
+/// Send a request to a `rep` gate, in place of one of its requesters, and print the reply.
 ///
-/// The component must not be running. It is opened as its program would do; its `pull` and `rep` gates stay closed,
-/// because nobody would do their work.
+/// The requester must not be running. It is opened as its program would open it; its `pull` and `rep` gates stay
+/// closed, because nothing would handle their messages.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -30,11 +30,11 @@ wrong or missing.")]
 pub(crate) struct CallArguments {
     /// The `rep` gate, as `component.gate`.
     gate: String,
-    /// The request, as YAML or JSON; `{}` has the default in each field. Without, an example is printed and nothing
-    /// sent.
+    /// The request, as YAML or JSON; `{}` has the default in each field. If omitted, an example is printed and nothing
+    /// is sent.
     #[arg(conflicts_with = "template", allow_hyphen_values = true)]
     request: Option<String>,
-    /// The component that asks [default: the only one that is connected to the gate and not running].
+    /// The requester to stand in for [default: the only one that is connected to the gate and not running].
     #[arg(long = "as", value_name = "COMPONENT")]
     component: Option<String>,
     /// Print an example request with all its fields, as YAML, and send nothing.
@@ -134,8 +134,8 @@ fn without_request(arguments: &CallArguments) -> ExitCode {
 
 fn print_template(arguments: &CallArguments, gate: &GatePlan, requests: &MessageType) -> Result<(), Problem> {
     let Some(template) = requests.template() else {
-        let problem = Problem::new(format!("the type of the requests of `{}` is not known", arguments.gate));
-        return Err(problem.note(format!("they are `{}`, in `{}`, without `schemas:`", gate.payload, gate.codec)));
+        let problem = Problem::new(format!("cannot make an example request for `{}`", arguments.gate));
+        return Err(problem.note(format!("its type `{}`, in `{}`, has no schema", gate.payload, gate.codec)));
     };
     print_out(&match arguments.format {
         ReplyFormat::Yaml => to_yaml(&template),
@@ -155,8 +155,8 @@ fn find_requester<'g>(
     let all = quoted_list(gate.connections.iter().map(|requester| requester.peer_component.as_str()));
     if let Some(component) = &arguments.component {
         return gate.connections.iter().find(|requester| requester.peer_component == *component).ok_or_else(|| {
-            let problem = Problem::new(format!("component `{}` does not ask at `{name}`", escape(component)));
-            problem.note(if all.is_empty() { "no component does".to_owned() } else { format!("those that do: {all}") })
+            let problem = Problem::new(format!("component `{}` is not a requester of `{name}`", escape(component)));
+            problem.note(if all.is_empty() { "it has none".to_owned() } else { format!("its requesters: {all}") })
         });
     }
     let stopped = gate.connections.iter().filter(|requester| !plans.is_running(&requester.peer_component));
@@ -165,10 +165,10 @@ fn find_requester<'g>(
     match stopped[..] {
         [one] => Ok(one),
         [] if gate.connections.is_empty() => Err(Problem::new(format!("no component is connected to `{name}`"))
-            .help("connect one in the topology, to play it here")),
+            .help("connect a requester in the topology; `scl call` then stands in for it")),
         [] => {
-            let problem = Problem::new(format!("every component that asks at `{name}` is running"))
-                .help("stop one of them, to play it here");
+            let problem = Problem::new(format!("every requester of `{name}` is running"))
+                .help("stop one of them; `scl call` then stands in for it");
             let holders = gate.connections.iter().filter_map(|requester| {
                 let holder = plans.holder(&requester.peer_component)?;
                 Some(format!("`{}` is {holder}", requester.peer_component))
@@ -177,7 +177,7 @@ fn find_requester<'g>(
         }
         _ => {
             let names = quoted_list(stopped.iter().map(|requester| requester.peer_component.as_str()));
-            Err(Problem::new(format!("several components that ask at `{name}` are not running"))
+            Err(Problem::new(format!("several requesters of `{name}` are not running"))
                 .help(format!("choose one with `--as {}`", stopped[0].peer_component))
                 .note(format!("not running: {names}")))
         }

@@ -19,20 +19,20 @@ use scl_terminal::print_err;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Check topology files, with the words of the macro, and launch files.
+/// Check topology files, with the same messages as the macro, and launch files.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   scl check                         topology.yaml in the working folder
-  scl check a.yaml b.yaml --lints   two files, and what is off by default
+  scl check a.yaml b.yaml --lints   two files, with the lints that are off by default
   scl check launch.yaml             a launch file, with the names of its topology
-  scl check --deny warnings         for continuous integration: nothing to complain about, or exit code 1
+  scl check --deny warnings         for continuous integration: exit code 1 if there are warnings
   scl check --for cpp --for python  also names that C++ or Python cannot tell apart
   scl check --deny SCL0402          untyped connections are errors here
   scl check --fix --dry-run         what would be fixed, as a diff
-  scl check --fix                   fix what is sure, and say what is left
+  scl check --fix                   apply the certain fixes, and report what is left
   scl check --watch                 again whenever the file, or a schema that it names, changes
-  scl check --format json           for programs: one object a line
+  scl check --format json           for programs: one object per line
   scl check --format sarif > s.json for code hosts
   generate | scl check -            standard input
 
@@ -43,19 +43,19 @@ pub(crate) struct CheckArguments {
     /// The topology and launch files; `-` is a topology from standard input.
     #[arg(value_name = "FILE", default_value = "topology.yaml")]
     files: Vec<PathBuf>,
-    /// How to say it.
+    /// The output format.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     /// Show the lints that are off by default, too.
     #[arg(long)]
     lints: bool,
-    /// Make errors of all warnings (`warnings`), or of those with this code; may be given several times.
+    /// Treat all warnings (`warnings`), or those with this code, as errors; may be repeated.
     #[arg(long, value_name = "warnings|CODE", value_parser = parse_deny)]
     deny: Vec<Deny>,
     /// Check again whenever a file changes, until Ctrl-C; then the exit code is that of the last check.
     #[arg(long)]
     watch: bool,
-    /// Apply every fix that is sure, then check what is left. With `-`, print the fixed text.
+    /// Apply every certain fix, then check what is left. With `-`, print the fixed text.
     #[arg(long, conflicts_with = "watch")]
     fix: bool,
     /// Print the fixes as a unified diff, change no file, and check it as it is.
@@ -73,7 +73,7 @@ pub(crate) struct CheckArguments {
 enum Format {
     /// Like the compiler, with excerpts of the file.
     Text,
-    /// One JSON object a line.
+    /// One JSON object per line.
     Json,
     /// SARIF 2.1.0, one log for all files.
     Sarif,

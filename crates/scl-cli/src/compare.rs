@@ -80,5 +80,5 @@ fn open(path: &Path) -> Result<Recording, Problem> {
 
 fn parse_tolerance(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number >= 0.0);
-    number.ok_or_else(|| "expected a number from 0 on, like `1e-6`".to_owned())
+    number.ok_or_else(|| "expected a number of at least 0, like `1e-6`".to_owned())
 }

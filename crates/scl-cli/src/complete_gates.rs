@@ -5,7 +5,7 @@ use scl_observe::System;
 use scl_terminal::print_out;
 use std::process::ExitCode;
 
-/// Print the names of gates that start with PREFIX, one a line.
+/// Print the names of gates that start with PREFIX, one per line.
 #[derive(Args)]
 pub(crate) struct CompleteGatesArguments {
     /// Names of components instead.

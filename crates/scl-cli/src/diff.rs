@@ -30,7 +30,7 @@ use together::group;
 /// Positions, comments, order and spelling do not count, only what the files mean. A component must be rebuilt if its
 /// plan differs (see `scl plan`): its gates, their options, its connections, and their contracts. Components are
 /// rebuilt together if a connection between them differs in its contract, or is new or gone, or if a message that they
-/// exchange differs in a way that keeps them from understanding each other: one that is left as it was does not connect
+/// exchange differs in a way that keeps them from understanding each other: one that was not rebuilt does not connect
 /// to the others. Fields that are only new or gone are compatible and are not listed.
 #[derive(Args)]
 #[command(after_help = "\
@@ -41,7 +41,7 @@ Examples:
   scl diff old.yaml new.yaml         two files
   scl diff old.yaml new.yaml --format json                 one object
 
-Exit code, as of diff: 0 the same, 1 different, 2 a file or revision has errors or could not be read.")]
+Exit code, like that of diff: 0 the same, 1 different, 2 a file or revision has errors or could not be read.")]
 pub(crate) struct DiffArguments {
     /// The topology as it was; `-` is standard input. Without NEW, a git revision, or two with `..` between them.
     #[arg(value_name = "OLD|REVISION")]
@@ -52,7 +52,7 @@ pub(crate) struct DiffArguments {
     /// The file that is compared with its revision.
     #[arg(last = true, value_name = "FILE", default_value = TOPOLOGY, conflicts_with = "new")]
     file: PathBuf,
-    /// How to say it.
+    /// The output format.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     #[command(flatten)]
@@ -61,7 +61,7 @@ pub(crate) struct DiffArguments {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// A line a difference.
+    /// One line per difference.
     Text,
     /// One JSON object.
     Json,

@@ -22,7 +22,7 @@ use watched::Watched;
 /// Show the messages that pass gates, decoded: messages of `pub` and `push` gates, requests and replies of `rep` gates.
 ///
 /// Nothing is restarted, and no gate is delayed: messages that this program is too slow to read are dropped for it
-/// alone, and are noted on standard error. A component that does not run yet, or stops, is waited for. A
+/// alone, and are noted on standard error. If a component is not running yet, or stops, this command waits for it. A
 /// payload that is not the gate's type is shown as bytes, with the reason.
 ///
 /// At a gate that receives, the messages are shown where they come from; those of a `req` gate at the gate that
@@ -48,8 +48,8 @@ pub(crate) struct EchoArguments {
     /// Show this field only, for example `pose.x`, `joints[0].angle` or `limits."front left"`; may be repeated.
     #[arg(long = "field", value_name = "PATH")]
     fields: Vec<FieldPath>,
-    /// Show messages only for which this holds, for example `speed > 1.5`. There are == != < <= > >= contains, and,
-    /// or, not and parentheses; texts stand in quotes. A comparison of a field that a message does not have is false.
+    /// Show only messages for which this holds, for example `speed > 1.5`. Operators: == != < <= > >= contains, and,
+    /// or, not and parentheses; put texts in quotes. A comparison of a field that a message does not have is false.
     #[arg(long = "where", value_name = "CONDITION")]
     condition: Option<Condition>,
     /// End after one message.
@@ -71,11 +71,11 @@ pub(crate) struct EchoArguments {
 /// How messages are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum MessageFormat {
-    /// A document a message, as `scl pub` reads it.
+    /// One document per message, as `scl pub` reads it.
     Yaml,
-    /// An object a line, with gate, time, sequence, kind and message.
+    /// One object per line, with gate, time, sequence, kind and message.
     Json,
-    /// A row a message, with a column a field; lists and maps as JSON.
+    /// One row per message, one column per field; lists and maps as JSON.
     Csv,
 }
 
@@ -180,7 +180,7 @@ fn note_where_seen(system: &System, selection: &Selection, names: &[String]) {
     for gate in named.filter(|gate| gate.taps.first().is_some_and(|tap| tap.component != gate.component)) {
         let senders: Vec<String> = at_taps(std::slice::from_ref(&gate)).iter().map(ObservedGate::name).collect();
         let senders = quoted_list(&senders);
-        print_err(&format!("note: the messages of `{}` are shown where they are seen: {senders}\n", gate.name()));
+        print_err(&format!("note: the messages of `{}` are observed at {senders}\n", gate.name()));
     }
 }
 

@@ -80,5 +80,5 @@ fn unknown(name: &str, command_line: &CommandLine) -> Problem {
         (None, Some(close)) => problem.help(format!("did you mean `scl {close}`?")),
         (None, None) => problem.help("`scl --help` lists the commands"),
     };
-    problem.note(format!("nor is there a program `scl-{}` beside `scl` or in PATH", escape(name)))
+    problem.note(format!("there is no program `scl-{}` beside `scl` or in PATH either", escape(name)))
 }

@@ -16,7 +16,7 @@ pub(crate) struct FormatArgument {
 pub(crate) enum OutputFormat {
     /// For people.
     Text,
-    /// One JSON value; for streams, one object a line.
+    /// One JSON value; for streams, one object per line.
     Json,
 }
 

@@ -11,7 +11,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Generate code for C, C++ and Python from a topology, or its sockets for any program with a ZeroMQ library.
+/// Generate code for C, C++ and Python from a topology, or list its sockets for programs with a ZeroMQ library.
 ///
 /// A file is written only if its content changes, and replaced as a whole: a build system rebuilds nothing without
 /// need, and any number of programs may generate into one folder at once.

@@ -26,7 +26,7 @@ pub(crate) struct GraphArguments {
     /// The topology file.
     #[arg(default_value = "topology.yaml")]
     file: PathBuf,
-    /// For which program the text is.
+    /// The output format.
     #[arg(long, value_enum, default_value_t = Format::Mermaid)]
     format: Format,
     #[command(flatten)]

@@ -21,7 +21,7 @@ const PATIENCE: Duration = Duration::from_secs(2);
 /// Type, codec, queue, contract and peers are those that the running program was built with. Rates are measured between
 /// two figures that the component writes, half a second apart by default.
 ///
-/// A name with a slash or the ending `.mcap` is that of a recording, for which all of it is read.
+/// A name with a slash or the ending `.mcap` is that of a recording, which is read completely.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

@@ -13,7 +13,7 @@ use std::time::SystemTime;
 /// are listed.
 ///
 /// States: `running`; `waiting` (running, but required peers are not connected); `hangs` (running, but it has not
-/// written its figures for some time); `dead` (killed or crashed); `stopped` (closed in order, or known only as the
+/// written its figures for some time); `dead` (killed or crashed); `stopped` (closed cleanly, or known only as the
 /// peer of another component).
 #[derive(Args)]
 #[command(after_help = "\

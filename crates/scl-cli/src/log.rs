@@ -46,7 +46,7 @@ pub(crate) struct LogArguments {
     /// Show the last lines only.
     #[arg(long, short = 'n', value_name = "LINES")]
     lines: Option<usize>,
-    /// Show lines of this last time only, for example `5min`.
+    /// Show only lines that are at most this old, for example `5min`.
     #[arg(long, value_name = "TIME", value_parser = parse_duration)]
     since: Option<Duration>,
     /// Show lines of this stream only.
@@ -178,7 +178,7 @@ fn find_system(name: Option<&str>) -> Result<String, Problem> {
 }
 
 fn no_folder(system: &str) -> Problem {
-    Problem::new(format!("there are no logs of a system `{}`", escape(system))).help(
+    Problem::new(format!("there are no logs of system `{}`", escape(system))).help(
         "set `HOME` or `XDG_STATE_HOME` to an absolute path, and name a system with letters, digits and underscores",
     )
 }

@@ -26,7 +26,7 @@ const SHORTEST_NAME: usize = 8;
 
 #[derive(Args)]
 pub(crate) struct MeasureArguments {
-    /// Measure for this long and end with a summary: `10s`. Without, until Ctrl-C.
+    /// Measure for this long and end with a summary: `10s` [default: until Ctrl-C].
     #[arg(long = "for", value_name = "DURATION", value_parser = parse_duration)]
     duration: Option<Duration>,
     /// Print only the summary, of one second or of the duration of `--for`.

@@ -15,7 +15,7 @@ use std::process::ExitCode;
 ///
 /// Messages are counted at the gate's tap, and not decoded. Periods are measured by the sender's time stamps, so they
 /// do not contain the delay until a message arrives here. The jitter is the standard deviation of the period. Messages
-/// that this program was too slow to see count as lost; no subscriber loses anything by that.
+/// that this program was too slow to see count as lost; subscribers are not affected.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -120,7 +120,7 @@ impl Shown for DelayMeter {
     fn remark(figures: &DelayFigures) -> Option<String> {
         (figures.negative > 0).then(|| {
             format!(
-                "{} of {} delays are negative: the clock was set meanwhile, or the clocks of two hosts differ",
+                "{} of {} delays are negative: the clock was set while measuring, or the clocks of two hosts differ",
                 figures.negative, figures.messages
             )
         })
@@ -129,7 +129,7 @@ impl Shown for DelayMeter {
 
 /// Show how many bytes gates send in a second, and the sizes of their messages.
 ///
-/// Counted are the bytes of the encoded messages, requests and replies, without those of the protocol. A message to
+/// Counts the bytes of the encoded messages, requests and replies, without those of the protocol. A message to
 /// three subscribers counts once.
 #[derive(Args)]
 #[command(after_help = "\

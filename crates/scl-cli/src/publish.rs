@@ -23,9 +23,9 @@ const DEFAULT_RATE: f64 = 1.0;
 
 /// Send messages at a `pub` or `push` gate, in place of its component, which must not be running.
 ///
-/// The component is opened as its program would do, so its peers cannot tell the difference. Its `pull` and `rep`
-/// gates stay closed, because nobody would do their work. The first message is sent when all required peers of the
-/// gate, and all others that run, are connected; at the end, everything is handed over before the component is
+/// The component is opened as its program would open it, so its peers cannot tell the difference. Its `pull` and `rep`
+/// gates stay closed, because nothing would handle their messages. The first message is sent when all required peers of
+/// the gate, and all others that run, are connected; at the end, everything is handed over before the component is
 /// closed.
 #[derive(Args)]
 #[command(after_help = "\

@@ -17,7 +17,7 @@ use std::time::Duration;
 ///
 /// The gates are observed at their taps; a recorder that cannot keep up never slows them down. Components that start
 /// later or start again are recorded too; a system that is named with `--system` may itself start later. Ctrl-C or
-/// SIGTERM ends the recording; then, and in the file, each gate's messages are counted that were recorded and that were
+/// SIGTERM ends the recording. The final report and the file say how many messages of each gate were recorded and
 /// lost.
 ///
 /// Everything is handed to the operating system each second, so that a crash of the recorder loses at most that second.
@@ -59,7 +59,7 @@ pub(crate) struct RecordArguments {
     /// Force everything to the disk this often, against loss of power.
     #[arg(long, value_name = "TIME", value_parser = parse_duration, conflicts_with = "ring")]
     sync: Option<Duration>,
-    /// Keep only the messages of this last time, in memory, and write them on SIGUSR1 or `--trigger`.
+    /// Keep only messages that are at most this old, in memory, and write them on SIGUSR1 or `--trigger`.
     #[arg(long, value_name = "TIME", value_parser = parse_duration)]
     ring: Option<Duration>,
     /// Write the ring also when the recorder ends.
@@ -68,7 +68,7 @@ pub(crate) struct RecordArguments {
     /// Make the running recorders with a ring write it, and print the files.
     #[arg(long, conflicts_with_all = ["gates", "ring", "split", "output", "run_for"])]
     trigger: bool,
-    /// Memory for messages that wait for the disk; a ring may use the same once more.
+    /// Memory for messages that wait for the disk; a ring may use the same amount again.
     #[arg(long, value_name = "SIZE", value_parser = parse_size, default_value = "256MiB")]
     memory: u64,
     /// The topology file to add to the recording [default: ./topology.yaml, if it describes this system].

@@ -6,10 +6,10 @@ use scl_terminal::{Problem, bytes_text, escape, print_out};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Make a complete recording of one that was cut off, for example by a crash or a full disk.
+/// Repair a recording that was cut off, for example by a crash or a full disk.
 ///
-/// Keeps every message that is there, and writes a new index. Without `-o`, the file is replaced once the new one is
-/// complete, and stays beside it as `flight.mcap.bak`. A file that was closed in order, but is damaged inside, is never
+/// Keeps every intact message, and writes a new index. Without `-o`, the file is replaced once the new one is
+/// complete, and stays beside it as `flight.mcap.bak`. A file that was closed cleanly, but is damaged inside, is never
 /// replaced.
 #[derive(Args)]
 #[command(after_help = "\

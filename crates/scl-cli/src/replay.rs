@@ -14,7 +14,7 @@ use std::time::Duration;
 
 /// Play recorded components in a running system.
 ///
-/// Sends what the played components have sent, at the recorded distances in time; their repliers answer as recorded.
+/// Sends what the played components have sent, with the recorded timing; their `rep` gates answer as recorded.
 /// Peers cannot tell them from the real programs. Without `--as`, plays all recorded components that are not running.
 ///
 /// What a gate receives is recorded without its sender, so a component that is one of several pushers or requesters of
@@ -66,7 +66,7 @@ pub(crate) struct ReplayArguments {
     /// How long to wait for the peers of the played components; `0s`: do not wait.
     #[arg(long, value_name = "TIME", default_value = "10s", value_parser = parse_duration)]
     ready: Duration,
-    /// Play the components of this topology file, not as they were recorded.
+    /// Play the components as declared in this topology file, not as recorded.
     #[arg(long, value_name = "FILE")]
     topology: Option<PathBuf>,
     #[command(flatten)]

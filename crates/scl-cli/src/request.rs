@@ -11,9 +11,9 @@ use std::process::ExitCode;
 
 /// Build components that `scl run` has started and restart them, while the others keep running.
 ///
-/// What `scl run` has built for them is built first, while the old processes run. If that fails, they keep running.
-/// Waits until their new processes run; for components with `ready_within` in the launch file, until they are ready.
-/// Components that have ended are started.
+/// If `scl run` has built their programs, these are rebuilt first, while the old processes run. If that fails, the old
+/// processes keep running. Waits until the new processes run; for components with `ready_within` in the launch file,
+/// until they are ready. Components that have ended are started.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

@@ -66,7 +66,7 @@ Examples:
 
 A launch file (docs/launch.md has all of it):
 {example}
-Exit code: 0 all ended in order or were stopped, 1 a component failed or had to be killed, 2 nothing could be started."
+Exit code: 0 all ended cleanly or were stopped, 1 a component failed or had to be killed, 2 nothing could be started."
     )
 }
 

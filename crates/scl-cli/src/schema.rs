@@ -16,8 +16,8 @@ use std::process::ExitCode;
 
 /// Print the JSON Schema (draft-07) of the topology file, which YAML language servers read.
 ///
-/// With FILE the schema knows the gates and types of that file, so that editors complete them. It refuses no others, as
-/// the file may be ahead of the schema; what is wrong, `scl check` says.
+/// With FILE the schema knows the gates and types of that file, so that editors complete them. It accepts others too,
+/// as the file may be newer than the schema; `scl check` finds the mistakes.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

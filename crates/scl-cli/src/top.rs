@@ -31,10 +31,10 @@ const SHORTEST_PERIOD: Duration = Duration::from_millis(100);
 /// changes the order, space pauses.
 #[derive(Args)]
 #[command(after_help = "\
-Columns: CPU is the part of one processor, MEM the resident memory, RATE the messages per second (each once for all peers),
-SENT counts a message once for each peer, WAIT those that wait in the program, DROP those dropped because a queue was full
-(not those that a newer one has replaced in a `queue: 1`), LOST those on their way when a connection broke, PEERS the connected
-peers of all.
+Columns: CPU is the share of one processor, MEM the resident memory, RATE the messages per second (each counted once
+for all peers), SENT counts a message once for each peer, WAIT those that wait in the program, DROP those dropped
+because a queue was full (not those that a newer one has replaced in a `queue: 1`), LOST those on their way when a
+connection broke, PEERS how many of all peers are connected.
 
 Examples:
   scl top
@@ -49,7 +49,7 @@ pub(crate) struct TopArguments {
     once: bool,
     #[command(flatten)]
     system: SystemArgument,
-    /// The time between two looks, which rates and processor time refer to.
+    /// The time between two updates, over which rates and processor time are measured.
     #[arg(long, value_name = "DURATION", default_value = "1s", value_parser = parse_duration)]
     period: Duration,
     /// The order of the rows.

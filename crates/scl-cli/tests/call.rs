@@ -94,8 +94,8 @@ fn every_requester_runs() {
     let rover = Rover::start();
     let error = rover.error(&["call", "controller.commands", "{}"], 2);
     let expected = format!(
-        "error: every component that asks at `controller.commands` is running\n  \
-           = help: stop one of them, to play it here\n  \
+        "error: every requester of `controller.commands` is running\n  \
+           = help: stop one of them; `scl call` then stands in for it\n  \
            = note: `user_interface` is process {}\n",
         rover.process_id("user_interface")
     );
@@ -120,14 +120,14 @@ connections:
 ";
     let rover = Rover::of(topology);
     expect![[r#"
-        error: several components that ask at `controller.commands` are not running
+        error: several requesters of `controller.commands` are not running
           = help: choose one with `--as screen`
           = note: not running: `screen`, `remote`
     "#]]
     .assert_eq(&rover.error(&["call", "controller.commands", "{}"], 2));
     expect![[r#"
-        error: the type of the requests of `controller.raw` is not known
-          = note: they are `bytes`, in `raw`, without `schemas:`
+        error: cannot make an example request for `controller.raw`
+          = note: its type `bytes`, in `raw`, has no schema
     "#]]
     .assert_eq(&rover.error(&["call", "controller.raw", "--template"], 2));
 }
@@ -149,8 +149,8 @@ fn mistakes_say_what_to_write() {
     check(
         &["controller.commands", "{}", "--as", "sensor"],
         expect![[r#"
-        error: component `sensor` does not ask at `controller.commands`
-          = note: those that do: `user_interface`
+        error: component `sensor` is not a requester of `controller.commands`
+          = note: its requesters: `user_interface`
     "#]],
     );
     check(

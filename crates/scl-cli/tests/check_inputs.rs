@@ -86,8 +86,8 @@ fn odd_paths_are_refused_without_waiting() {
     check(&system, &["folder"], 2, "did you mean `folder/topology.yaml`?");
     check(&system, &["pipe.yaml"], 2, "is a named pipe");
     check(&system, &["/dev/zero"], 2, "is a device");
-    check(&system, &["a.yaml"], 2, "a symbolic link that leads to no file");
-    check(&system, &["dangling.yaml"], 2, "a symbolic link that leads to no file");
+    check(&system, &["a.yaml"], 2, "a symbolic link that cannot be followed");
+    check(&system, &["dangling.yaml"], 2, "a symbolic link that cannot be followed");
     check(&system, &[""], 2, "a value is required");
 }
 

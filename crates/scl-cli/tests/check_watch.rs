@@ -34,11 +34,11 @@ impl Watch {
     /// What the next check says, without the lines around it.
     fn next_check(&mut self) -> String {
         let mut text = String::new();
-        while !text.ends_with("scl: waiting for changes, Ctrl-C ends\n") {
+        while !text.ends_with("scl: waiting for changes; press Ctrl-C to stop\n") {
             assert_ne!(self.lines.read_line(&mut text).unwrap(), 0, "ended after:\n{text}");
         }
         let text = text.trim_start().strip_prefix("scl: checking\n").unwrap();
-        text.strip_suffix("scl: waiting for changes, Ctrl-C ends\n").unwrap().to_owned()
+        text.strip_suffix("scl: waiting for changes; press Ctrl-C to stop\n").unwrap().to_owned()
     }
 
     #[track_caller]

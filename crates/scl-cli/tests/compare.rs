@@ -76,7 +76,7 @@ fn what_cannot_be_compared_is_explained() {
         ),
         (&["first.mcap", "first.mcap", "--field", "throtle"], "error: no compared message has a field `throtle`\n"),
         (&["first.mcap", "first.mcap", "--field", "a..b"], "is not a field path"),
-        (&["first.mcap", "first.mcap", "--within", "-1"], "expected a number from 0 on, like `1e-6`"),
+        (&["first.mcap", "first.mcap", "--within", "-1"], "expected a number of at least 0, like `1e-6`"),
     ] {
         let (code, text, error) = compare(&system, arguments);
         assert_eq!((code, text), (Some(2), String::new()), "{arguments:?}");

@@ -127,7 +127,7 @@ fn a_component_that_needs_more_descriptors_than_it_may_open_is_found() {
         limited.args(["-c", &script]).arg(rover.scl(&[]).get_program());
         let output = limited.env("SCL_RUNTIME_DIR", rover.runtime_dir()).output().unwrap();
         let text = String::from_utf8(output.stdout).unwrap();
-        let needs = "`controller` of system `rover` needs 32 when all its peers are connected, of at most 31\n";
+        let needs = "`controller` of system `rover` needs 32 when all its peers are connected, but may open only 31\n";
         assert_eq!(text.contains(needs), !is_enough, "{text}");
     }
 }

@@ -176,10 +176,7 @@ fn messages_of_several_gates_are_headed_by_their_gate() {
         rover.scl(&["echo", "logger.events", "controller.sensor", "--once", "--format", "json"]).output().unwrap();
     assert_eq!(output.status.code(), Some(0));
     let note = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(
-        note,
-        "note: the messages of `controller.sensor` are shown where they are seen: `sensor.measurements`\n"
-    );
+    assert_eq!(note, "note: the messages of `controller.sensor` are observed at `sensor.measurements`\n");
 }
 
 #[test]
@@ -377,7 +374,7 @@ fn mistakes_say_what_to_write() {
         &["sensor.measurements", "--where", "speed > 'fast'"],
         expect![[r#"
         error: `speed` is a number, and `'fast'` is a text: they cannot be compared
-          = help: only texts stand in quotes
+          = help: put only texts in quotes
     "#]],
     );
     check(

@@ -116,7 +116,7 @@ fn keys_of_launch_files_are_explained() {
     expect![[r#"
         # restart_delay (key of a program)
 
-        Time before a restart. It doubles with each one, and starts again after a minute without one.
+        Time before a restart. It doubles with each restart, and is reset after a minute without one.
 
         Value: a range like `100ms..5s`, or one time
         Default: `100ms..5s`

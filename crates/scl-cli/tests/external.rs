@@ -48,7 +48,7 @@ fn misspelt_commands_get_a_suggestion() {
         &expect![[r#"
             error: there is no command `grph`
               = help: did you mean `scl graph`?
-              = note: nor is there a program `scl-grph` beside `scl` or in PATH
+              = note: there is no program `scl-grph` beside `scl` or in PATH either
         "#]],
     );
     check_error(
@@ -56,7 +56,7 @@ fn misspelt_commands_get_a_suggestion() {
         &expect![[r#"
             error: there is no command `../hello\u{1b}`
               = help: `scl --help` lists the commands
-              = note: nor is there a program `scl-../hello\u{1b}` beside `scl` or in PATH
+              = note: there is no program `scl-../hello\u{1b}` beside `scl` or in PATH either
         "#]],
     );
 }
@@ -69,7 +69,7 @@ fn commands_that_are_not_built_in_name_their_feature() {
         &expect![[r#"
             error: there is no command `bench`
               = help: build `scl` with it, in the repository of SCL: `cargo build --release -p scl-cli --features bench`
-              = note: nor is there a program `scl-bench` beside `scl` or in PATH
+              = note: there is no program `scl-bench` beside `scl` or in PATH either
         "#]],
     );
 }

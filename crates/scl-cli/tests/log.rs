@@ -129,5 +129,5 @@ fn logs_that_do_not_exist_are_errors_with_suggestions() {
     assert!(unknown.contains("  = help: did you mean `sensor`?\n"), "{unknown}");
     assert!(unknown.ends_with("  = note: logs: `logger`, `sensor`\n"), "{unknown}");
     assert!(error(&["sensor", "--system", "other"]).contains("of system `other`"));
-    assert!(error(&["sensor", "--system", "../x"]).contains("there are no logs of a system `../x`"));
+    assert!(error(&["sensor", "--system", "../x"]).contains("there are no logs of system `../x`"));
 }

@@ -168,7 +168,7 @@ fn mistakes_say_what_to_write() {
         &["sensor.measurements", "{speed: 1"],
         expect![[r#"
         error: this message is not valid YAML or JSON: did not find expected ',' or '}' at line 2 column 1, while parsing a flow mapping
-          = help: write for example '{speed: 1.0, unit: m/s}', in quotes of the shell
+          = help: write for example '{speed: 1.0, unit: m/s}', quoted for the shell
     "#]],
     );
     check(

@@ -118,8 +118,8 @@ fn a_part_of_a_recording_is_replayed() {
     assert_eq!([(); 2].map(|()| text(&history.recv_timeout(HANG_LIMIT).unwrap())), ["1", "2"]);
     assert!(replay.wait_with_output().status.success());
     for (arguments, error) in [
-        (["--start", "10min"], "error: `--start 600s` is behind the end of the recording, which is 40.0ms long\n"),
-        (["--end", "0s"], "error: nothing is left to replay: `--end` is not behind `--start`\n"),
+        (["--start", "10min"], "error: `--start 600s` is after the end of the recording, which is 40.0ms long\n"),
+        (["--end", "0s"], "error: nothing is left to replay: `--end` is not after `--start`\n"),
     ] {
         assert_eq!(rover.fails(&[&["flight.mcap"], &arguments[..]].concat()), error);
     }
@@ -245,7 +245,7 @@ fn what_runs_is_not_played() {
         rover.replay_json(&["flight.mcap", "--as", "sensor,controller", "--system", "beside", "--ready", "0s"]);
     assert_eq!(report["sent"], 2, "{report}");
     let report = rover.replay_json(&["flight.mcap", "--as", "sensor", "--only", "controller.actuator"]);
-    assert_eq!((&report["sent"], &report["gates"][0]["reason"]), (&0.into(), &"`--only` names others".into()));
+    assert_eq!((&report["sent"], &report["gates"][0]["reason"]), (&0.into(), &"not selected by `--only`".into()));
 }
 
 #[test]

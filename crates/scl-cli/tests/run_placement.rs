@@ -52,7 +52,7 @@ fn a_program_may_open_as_many_descriptors_as_its_entry_says() {
         let (limit, err) = limit("descriptors: 18446744073709551615");
         assert_eq!(limit, own[1]);
         assert!(
-            err.contains("a | scl: `descriptors: 18446744073709551615` has no full effect: the hard limit is"),
+            err.contains("a | scl: `descriptors: 18446744073709551615` was not fully applied: the hard limit is"),
             "{err}"
         );
     }

@@ -62,7 +62,10 @@ fn a_signal_is_passed_on_and_a_clean_stop_is_success() {
             run.signal(signal);
             run.wait_for_line(&format!("sensor | got {word}"));
             let (status, _, err) = run.finish();
-            assert!(err.contains(&format!("scl: stopping on SIG{word}; once more kills at once\n")), "{err}");
+            assert!(
+                err.contains(&format!("scl: received SIG{word}, stopping; a second signal kills at once\n")),
+                "{err}"
+            );
             assert_eq!(status.code(), Some(0), "{err}");
         }
     }
@@ -124,7 +127,7 @@ fn signals_that_follow_at_once_are_one_request() {
     std::fs::write(pipe, "valves are closed\n").unwrap();
     let (status, _, err) = run.finish();
     assert_eq!(status.code(), Some(0), "{err}");
-    assert_eq!(err.matches("once more kills at once").count(), 1, "{err}");
+    assert_eq!(err.matches("a second signal kills at once").count(), 1, "{err}");
 }
 
 #[test]
@@ -136,7 +139,7 @@ fn the_first_request_kills_nobody_while_all_stop_after_a_failure() {
     std::fs::write(fail, "\n").unwrap();
     run.wait_for_line("sensor     | closing");
     run.signal("-TERM");
-    run.wait_for_error("scl: already stopping; SIGTERM once more kills at once");
+    run.wait_for_error("scl: received SIGTERM, already stopping; a second signal kills at once");
     std::fs::write(pipe, "valves are closed\n").unwrap();
     let (status, _, err) = run.finish();
     assert!(without_times(&err).contains("sensor      ended with exit code 0 after N s\n"), "{err}");
@@ -208,7 +211,7 @@ fn a_stopped_component_is_continued_when_it_has_to_end() {
     while !std::fs::read_to_string(format!("/proc/{process}/stat")).unwrap().contains(") T ") {}
     run.signal("-TERM");
     let (status, _, err) = run.finish();
-    let expected = format!("sensor  process {process} was stopped, as by SIGSTOP; continued, so that it can end\n");
+    let expected = format!("sensor  process {process} was stopped, as by SIGSTOP; sent SIGCONT so that it can end\n");
     assert!(err.contains(&expected), "{err}");
     assert_eq!(status.code(), Some(0), "{err}");
 }

@@ -33,7 +33,7 @@ fn one_component_reads_from_the_terminal_and_ctrl_c_stops_all() {
     run.wait_for_line("keyboard | line hello");
     run.wait_for_line("keyboard | changed");
     run.write_input("\x03");
-    run.wait_for("scl: stopping on SIGINT");
+    run.wait_for("scl: received SIGINT");
     run.wait_for_line("code 0");
     let (_, modes, _) = run.finish();
     assert!(modes.split_whitespace().any(|mode| mode == "icanon"), "{modes}");

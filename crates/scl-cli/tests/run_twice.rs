@@ -43,9 +43,9 @@ fn a_second_run_is_refused_before_it_builds() {
     let system = system();
     let run = start(&system, &[]);
     let pid = run.process_id();
-    let expected = format!("error: system `rover` is already running: `scl run` has process {pid}\n{HELP}");
+    let expected = format!("error: system `rover` is already running: `scl run` is process {pid}\n{HELP}");
     assert_eq!(scl(&system, &["run"]), (Some(2), expected));
-    let expected = format!("error: component `sensor` is already running: `scl run` has process {pid}\n{HELP}");
+    let expected = format!("error: component `sensor` is already running: `scl run` is process {pid}\n{HELP}");
     assert_eq!(scl(&system, &["stop", "controller"]).0, Some(0));
     assert_eq!(scl(&system, &["run"]), (Some(2), expected));
     assert_eq!(builds(&system), 1);
@@ -65,7 +65,7 @@ fn a_run_that_is_stopped_by_a_signal_is_named_and_nobody_waits_for_it() {
     let expected = format!(
         "\
 error: `scl run`, process {pid}, does not answer: it is stopped
-  = help: let it go on: `kill -CONT {pid}`
+  = help: resume it: `kill -CONT {pid}`
   = help: end it and its programs: `kill -KILL {pid}`
 
 "

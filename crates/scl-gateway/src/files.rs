@@ -17,7 +17,7 @@ pub(crate) struct FileArguments {
     /// The launch file with the hosts, or its folder.
     #[arg(long, value_name = "FILE", default_value = ".")]
     pub(crate) launch: PathBuf,
-    /// The topology file, if it is another than the launch file names.
+    /// The topology file, if it is not the one that the launch file names.
     #[arg(long, value_name = "FILE")]
     pub(crate) topology: Option<PathBuf>,
 }
@@ -80,7 +80,7 @@ fn explained(problem: &KeyProblem, host: &str) -> Problem {
         KeyProblem::OtherHost { found, .. } => {
             format!("copy the folder of host `{host}` here, and that of `{found}` to its own host")
         }
-        KeyProblem::Unreadable { .. } => "let the user who runs the gateway own the file".to_owned(),
+        KeyProblem::Unreadable { .. } => "make the user who runs the gateway the owner of the file".to_owned(),
         KeyProblem::Foreign { .. } => {
             "copy all three files of the host from the machine with the authority; `scl gateway keys` made them together"
                 .to_owned()

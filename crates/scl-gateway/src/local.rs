@@ -110,7 +110,7 @@ async fn log_figures_on_signal(routes: Arc<Routes>) {
                 log_figures(&routes);
             }
         }
-        Err(error) => tracing::debug!(%error, "SIGUSR1 will end the gateway"),
+        Err(error) => tracing::debug!(%error, "cannot handle SIGUSR1, so it will end the gateway"),
     }
 }
 

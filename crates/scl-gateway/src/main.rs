@@ -21,7 +21,7 @@ Examples:
   scl gateway check --host board  on the board: see whether its gateway can run
   scl run --host board            on the board: start its components and its gateway
 
-`scl run --host` starts the gateway by itself. docs/deploy.md is about certificates and services.
+`scl run --host` starts the gateway automatically. docs/deploy.md is about certificates and services.
 
 Exit code: 0 fine, 1 something is wrong with the certificates, 2 could not run.")]
 struct CommandLine {

@@ -11,27 +11,27 @@ use std::time::SystemTime;
 
 /// Make a certificate authority, and a certificate for each host.
 ///
-/// Writes them into the folder `certificates` of `gateway` in the launch file: a folder for the authority, which stays
-/// where it is, and one for each host, which is copied there. What exists already is kept, so that hosts can be added
+/// Writes them into the folder that `certificates` of `gateway` names in the launch file: a folder for the authority,
+/// which stays there, and one for each host, to be copied to that host. Existing files are kept, so hosts can be added
 /// later.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   scl gateway keys                          for all hosts that have none
   scl gateway keys --host board --force     a new certificate for the board; the others stay valid
-  scl gateway keys --force                  everything new: all hosts need their new folders
+  scl gateway keys --force                  replace everything: all hosts need their new folders
 
 Exit code: 0 done, 2 could not be made.")]
 pub(crate) struct KeysArguments {
     #[command(flatten)]
     files: FileArguments,
-    /// Only for this host; several: for all of them.
+    /// Only for this host; may be repeated.
     #[arg(long = "host", value_name = "HOST")]
     hosts: Vec<String>,
     /// How many days the certificates of the hosts are valid.
     #[arg(long, value_name = "DAYS", default_value_t = 730, value_parser = clap::value_parser!(u32).range(1..=36500))]
     days: u32,
-    /// Replace what exists: with `--host` the certificates of these hosts, else everything with the authority.
+    /// Replace existing files: with `--host` the certificates of these hosts, otherwise all, including the authority.
     #[arg(long)]
     force: bool,
 }
@@ -90,7 +90,7 @@ fn report(issued: &[Issued], folder: &Path) -> String {
     };
     let lines: String = issued.iter().map(line).collect();
     let folder = folder.display();
-    format!("{lines}\nOn each host, its folder belongs beside the launch file as here: into `{folder}`.\n")
+    format!("{lines}\nOn each host, put its folder beside the launch file as here: into `{folder}`.\n")
 }
 
 fn date(time: SystemTime) -> String {
@@ -102,9 +102,9 @@ fn explained(error: &KeysError) -> Problem {
     match error {
         KeysError::NoAuthorityKey { .. } => problem
             .help("run this where the authority was made")
-            .help("or make everything new: `scl gateway keys --force`"),
+            .help("or replace everything: `scl gateway keys --force`"),
         KeysError::Authority { .. } | KeysError::AuthorityExpired { .. } => {
-            problem.help("make everything new: `scl gateway keys --force`")
+            problem.help("replace everything: `scl gateway keys --force`")
         }
         _ => problem,
     }

@@ -20,12 +20,12 @@ use tokio::signal::unix::{SignalKind, signal};
 
 /// Run the gateway of a host until SIGTERM or SIGINT.
 ///
-/// `scl run --host` starts it by itself.
+/// `scl run --host` starts it automatically.
 #[derive(Args)]
 pub(crate) struct RunArguments {
     #[command(flatten)]
     files: FileArguments,
-    /// The host on which it runs.
+    /// The host whose gateway to run.
     #[arg(long, value_name = "HOST")]
     host: String,
     /// The runtime folder of the components, as in `SCL_RUNTIME_DIR`.

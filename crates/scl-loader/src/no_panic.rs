@@ -3,7 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Note for a problem that only a bug can cause.
-pub const BUG: &str = "this is a bug of SCL; please report it with the topology and its schemas";
+pub const BUG: &str = "this is a bug in SCL; please report it with the topology and its schemas";
 
 /// Runs `work`, which may panic on input that it does not support, and catches the panic: inside the macro, it would
 /// hide every other problem of the file.

@@ -137,7 +137,7 @@ fn bytes_that_are_no_text_are_named() {
           |
           = help: save the file as UTF-8 (without or with a BOM)
           = note: the first invalid byte is byte 0 of the file, counted from 0
-          = note: 0xFF 0xFE is the mark of UTF-16; Windows Notepad writes it as "Unicode"
+          = note: 0xFF 0xFE is the byte order mark of UTF-16, which Windows Notepad calls "Unicode"
     "#]]
     .assert_eq(&rendered(&load_from(&folder, "t.yaml")));
 }
@@ -183,8 +183,8 @@ fn what_is_no_regular_file_is_never_opened() {
     let cases = [
         (path("pipe"), "is a named pipe, not a file"),
         ("/dev/zero".into(), "is a device, not a file"),
-        (path("round"), "is a symbolic link that leads to no file"),
-        (path("dangling"), "is a symbolic link that leads to no file"),
+        (path("round"), "is a symbolic link that cannot be followed"),
+        (path("dangling"), "is a symbolic link that cannot be followed"),
     ];
     for (path, words) in cases {
         let loaded = load(&Request::new(&path));
@@ -206,7 +206,7 @@ fn schemas_need_their_feature() {
              --> t.yaml:1:11
               |
             1 | schemas: [rover.proto]
-              |           ^^^^^^^^^^^ this build of SCL compiles no schemas
+              |           ^^^^^^^^^^^ this build of SCL does not compile schemas
               |
               = help: switch it on in Cargo.toml: scl = { package = "scl-gates", version = "..", features = ["protobuf"] }
               = note: without `schemas`, types are looked up in your Rust code

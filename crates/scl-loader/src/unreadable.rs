@@ -23,8 +23,8 @@ pub(crate) fn diagnose(request: &Request, cause: Unreadable, sources: &mut Sourc
         Unreadable::Missing => missing(request),
         Unreadable::NotAFile(word) => not_a_file(request, word),
         Unreadable::BrokenLink(error) => UNREADABLE_FILE
-            .without_place(format!("the {kind} path `{shown}` is a symbolic link that leads to no file"))
-            .help(format!("let the link point to the {kind} file"))
+            .without_place(format!("the {kind} path `{shown}` is a symbolic link that cannot be followed"))
+            .help(format!("point the link to the {kind} file"))
             .note(error.to_string()),
         Unreadable::Refused(error) => {
             UNREADABLE_FILE.without_place(format!("the {kind} file `{shown}` cannot be read")).note(error.to_string())
@@ -90,7 +90,7 @@ fn not_utf8(request: &Request, bad: BadByte, sources: &mut Sources) -> Diagnosti
         .note(format!("the first invalid byte is byte {offset} of the file, counted from 0"));
     match (offset, value, next) {
         (0, 0xFF, Some(0xFE)) | (0, 0xFE, Some(0xFF)) => problem.note(format!(
-            "{value:#04X} {:#04X} is the mark of UTF-16; Windows Notepad writes it as \"Unicode\"",
+            "{value:#04X} {:#04X} is the byte order mark of UTF-16, which Windows Notepad calls \"Unicode\"",
             next.unwrap_or_default()
         )),
         _ => problem,

@@ -72,7 +72,7 @@ impl Dependency {
                 "it builds on this machine only, because SCL is at `{path}`; `--git URL` names a repository that others can reach"
             )),
             Self::Git(Revision { commit: None, .. }) => {
-                Some("it uses the newest commit of that repository; `--rev COMMIT` keeps to one".to_owned())
+                Some("it uses the newest commit of that repository; `--rev COMMIT` pins one".to_owned())
             }
             Self::Git(_) => None,
             Self::Registry => {

@@ -27,7 +27,7 @@ pub(crate) fn check(name: &str, programs: &[&str]) -> Result<(), Problem> {
     if name.contains('/') {
         let last = name.trim_end_matches('/').rsplit('/').next().unwrap_or_default().escape_debug();
         return Err(Problem::new(format!("`{shown}` is a path, not a name"))
-            .help(format!("change to the folder that is to contain the project, and run `scl new {last}` there")));
+            .help(format!("change to the folder that should contain the project, and run `scl new {last}` there")));
     }
     if name.is_empty() || name.chars().any(char::is_control) {
         return Err(Problem::new(format!("`{shown}` cannot be a name")).help("write letters, digits and `_`"));

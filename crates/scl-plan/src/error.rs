@@ -18,7 +18,7 @@ pub enum PlanError {
     #[cfg(feature = "json")]
     #[error(
         "this plan has version {found} of the format, but this program reads version {VERSION}; \
-         write it anew with `scl plan` of this release"
+         write it again with `scl plan` from this release"
     )]
     Version {
         /// The version of the plan.

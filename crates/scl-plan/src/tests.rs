@@ -185,7 +185,7 @@ fn errors_say_what_is_wrong_and_where() {
     ];
     let told: String = cases.iter().map(|(from, to)| format!("{}\n", error(from, to))).collect();
     expect![[r#"
-        this plan has version 2 of the format, but this program reads version 1; write it anew with `scl plan` of this release
+        this plan has version 2 of the format, but this program reads version 1; write it again with `scl plan` from this release
         `version` must be a whole number, but it is "1"
         field `version` is missing in the document
         unknown field `verson` in the document; did you mean `version`?
@@ -205,8 +205,8 @@ fn errors_say_what_is_wrong_and_where() {
         `components[0].gates[0].payload` must be null, or an object with `message`, or one with `request` and `reply`, but it is {}
         `components[0].gates[0].undecodable` must be one of `skip`, `fail`, but it is "ignore"
         gate `controller.pub_gate` allows no call to be in progress
-        gate `controller.pub_gate` has a timeout of nothing or over a day
-        gate `controller.pub_gate` has a timeout of nothing or over a day
+        gate `controller.pub_gate` has a timeout of zero or of more than a day
+        gate `controller.pub_gate` has a timeout of zero or of more than a day
         `components[0].schema` refers to `1a2c`, which is not in `schemas`
         `schemas.1a2b` must be bytes in Base64, but it is "AP8HCg="
         gate `controller.pub_gate` is declared twice

@@ -52,7 +52,7 @@ fn validate_gate(part: &str, gate: &GatePlan) -> Result<(), PlanError> {
     ensure(
         !gate.options.timeout.is_zero() && gate.options.timeout <= LONGEST_TIMEOUT,
         part,
-        "has a timeout of nothing or over a day",
+        "has a timeout of zero or of more than a day",
     )?;
     let one_replier = kind != crate::GateKind::Req || gate.connections.len() <= 1;
     ensure(one_replier, part, "is a `req` gate with several repliers")?;

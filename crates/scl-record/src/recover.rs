@@ -85,7 +85,7 @@ pub fn recover(input: &Path, output: Option<&Path>) -> Result<Recovered, Problem
         Some(name) => format!("its chunks are compressed with `{}`; scl reads {COMPRESSIONS}", escape(&name)),
         None => format!("{} of it are damaged", bytes_text(dropped as f64)),
     };
-    let unchanged = |message: String| Problem::new(message).note("the file was left as it is");
+    let unchanged = |message: String| Problem::new(message).note("the file was not changed");
     if messages == 0 && !recovered.was_complete {
         let message = format!("no message can be recovered from `{}`", input.display());
         return Err(unchanged(if was_closed(&file, size) { format!("{message}: {reason}") } else { message }));
@@ -95,7 +95,7 @@ pub fn recover(input: &Path, output: Option<&Path>) -> Result<Recovered, Problem
         return Ok(recovered);
     }
     if was_closed(&file, size) {
-        return Err(unchanged(format!("`{}` was closed in order, but {reason}", input.display())).help(format!(
+        return Err(unchanged(format!("`{}` was closed properly, but {reason}", input.display())).help(format!(
             "`scl recover {} -o FILE` writes the {messages} messages that can be read",
             input.display()
         )));

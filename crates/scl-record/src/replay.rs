@@ -216,7 +216,7 @@ impl Stage<'_> {
             if let Route::Send { component, gate } = &route
                 && !self.is_wanted(&recorded, &format!("{component}.{gate}"))
             {
-                route = Route::Skip("`--only` names others".to_owned());
+                route = Route::Skip("not selected by `--only`".to_owned());
             }
             let (sender, reason) = match &route {
                 Route::Send { component, gate } => (Some((component.clone(), gate.clone())), String::new()),
@@ -268,11 +268,11 @@ fn span(recording: &Recording, survey: &Survey, options: &ReplayOptions) -> Resu
     };
     let (length, start, end) = (survey.length, options.start, options.end);
     if start > length {
-        let message = format!("`--start {start:?}` is behind the end of the recording, which is {length:.1?} long");
+        let message = format!("`--start {start:?}` is after the end of the recording, which is {length:.1?} long");
         return Err(Problem::new(message));
     }
     if end.is_some_and(|end| end <= start) {
-        return Err(Problem::new("nothing is left to replay: `--end` is not behind `--start`"));
+        return Err(Problem::new("nothing is left to replay: `--end` is not after `--start`"));
     }
     let at = |position: Duration| first.saturating_add(u64::try_from(position.as_nanos()).unwrap_or(u64::MAX));
     let from = if start.is_zero() { 0 } else { at(start) };

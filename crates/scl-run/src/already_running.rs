@@ -31,7 +31,7 @@ pub(crate) fn check(plan: &RunPlan) -> Result<(), Problem> {
         let running: Vec<&str> = running.map(|it| it.component.as_str()).collect();
         if !running.is_empty() {
             let what = if running.len() == names.len() { format!("system `{system}`") } else { shown(&running) };
-            let problem = Problem::new(format!("{what} is already running: `scl run` has process {}", run.process));
+            let problem = Problem::new(format!("{what} is already running: `scl run` is process {}", run.process));
             return Err(
                 problem.help("stop it with `scl stop`, or choose other components with `--only` or `--without`")
             );

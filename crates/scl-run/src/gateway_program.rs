@@ -43,7 +43,7 @@ pub(crate) fn check(gateway: &Component) -> Result<(), Vec<Problem>> {
 }
 
 fn missing() -> Problem {
-    Problem::new(format!("the program `{PROGRAM}` is not installed, which connects the hosts"))
+    Problem::new(format!("the program `{PROGRAM}`, which connects the hosts, is not installed"))
         .help("install it: `cargo install scl-gateway`; in the repository of SCL: `cargo build -p scl-gateway`")
         .note("it is looked for beside `scl`, then in PATH")
 }

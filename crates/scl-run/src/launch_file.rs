@@ -33,7 +33,7 @@ use scl_topology::yaml::Node;
 pub const EXAMPLE: &str = "\
 components:
   sensor:
-    build: make sensor                 # optional: what makes the program
+    build: make sensor                 # optional: builds the program
     command: [./sensor, --rate, 100]   # a list is executed as it is
     restart: on_failure                # never (default), on_abnormal, on_failure or always
     ready_within: 5s                   # else it has failed

@@ -76,7 +76,7 @@ fn limit_descriptors(most: u64) {
         None if current < most => format!("the hard limit is {current}; `LimitNOFILE=` in a unit raises it"),
         None => return,
     };
-    print_err(&format!("scl: `descriptors: {most}` has no full effect: {why}\n"));
+    print_err(&format!("scl: `descriptors: {most}` was not fully applied: {why}\n"));
 }
 
 fn schedule(priority: u8) -> Result<(), String> {

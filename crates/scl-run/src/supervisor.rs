@@ -190,8 +190,8 @@ impl<'a> Supervisor<'a> {
                 if !run.state.is_requested() {
                     let name = name_of(signal);
                     let text = match run.state.stopping {
-                        None => format!("stopping on {name}; once more kills at once"),
-                        Some(_) => format!("already stopping; {name} once more kills at once"),
+                        None => format!("received {name}, stopping; a second signal kills at once"),
+                        Some(_) => format!("received {name}, already stopping; a second signal kills at once"),
                     };
                     self.surroundings.output.announce(&text);
                 }
@@ -250,7 +250,7 @@ impl<'a> Supervisor<'a> {
                     }
                     for process in running.ask_to_end(signal) {
                         let text =
-                            format!("process {process} was stopped, as by SIGSTOP; continued, so that it can end");
+                            format!("process {process} was stopped, as by SIGSTOP; sent SIGCONT so that it can end");
                         self.report(index, &run.members[index], text);
                     }
                 }

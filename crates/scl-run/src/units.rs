@@ -185,7 +185,7 @@ fn executable(program: &Program, first: &OsString) -> Result<PathBuf, Problem> {
 }
 
 fn without_name() -> Problem {
-    Problem::new("the system has no name, by which its services are called")
+    Problem::new("the system has no name, so its services cannot be named")
         .help("write `topology:` into the launch file, or set `SCL_SYSTEM`")
 }
 

@@ -18,7 +18,7 @@ pub enum ShmError {
         source: io::Error,
     },
     /// A thread could not be started.
-    #[error("cannot start a thread that removes what killed programs have left")]
+    #[error("cannot start the thread that cleans up after killed programs")]
     Thread {
         /// The cause.
         source: io::Error,
@@ -30,7 +30,7 @@ pub enum ShmError {
         path: PathBuf,
     },
     /// Another user has created a file with this system's prefix.
-    #[error("{} belongs to user {owner}; have it removed", path.display())]
+    #[error("{} belongs to user {owner}; remove it as that user or as root", path.display())]
     Foreign {
         /// The file.
         path: PathBuf,

@@ -43,7 +43,7 @@ pub fn named_system(
     }
     let Some(value) = variables("SCL_SYSTEM").filter(|value| !value.is_empty()) else { return Ok(None) };
     let not_text = |value: OsString| {
-        Problem::new(format!("`SCL_SYSTEM` is `{}`, which is not a name in UTF-8", value.to_string_lossy()))
+        Problem::new(format!("`SCL_SYSTEM` is `{}`, which is not valid UTF-8", value.to_string_lossy()))
             .help("name the system with `--system`")
     };
     value.into_string().map(Some).map_err(not_text)

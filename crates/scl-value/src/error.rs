@@ -8,7 +8,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum TypeError {
     /// The codec is `protobuf`, and nothing describes the type.
-    #[error("nothing describes the protobuf message `{name}`: its program was built without `schemas:`")]
+    #[error("there is no schema for the protobuf message `{name}`: its program was built without `schemas:`")]
     Undescribed {
         /// The type.
         name: String,

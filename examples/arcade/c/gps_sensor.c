@@ -24,8 +24,8 @@ typedef struct options {
 } options;
 
 static const char USAGE[] = "usage: gps_sensor [--seed NUMBER] [--outage FROM:UNTIL]\n"
-                            "  --seed NUMBER          of the noise (default 1)\n"
-                            "  --outage FROM:UNTIL    no reception from FROM to UNTIL, s of the vehicle's clock\n";
+                            "  --seed NUMBER          seed of the noise (default 1)\n"
+                            "  --outage FROM:UNTIL    no reception from FROM to UNTIL, in s of the vehicle's clock\n";
 
 static bool read_seed(const char *text, uint64_t *seed) {
     char rest;

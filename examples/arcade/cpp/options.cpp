@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 static const char USAGE[] = "usage: blackbox [--folder PATH] [--size SIZE]\n"
-                            "  --folder PATH   where the two files of the log are, in a folder with the name of the system (default: blackbox)\n"
-                            "  --size SIZE     of each of them, such as 512KiB (default: 4MiB)\n";
+                            "  --folder PATH   folder of the log: two files in a subfolder named after the system (default: blackbox)\n"
+                            "  --size SIZE     size of each file, such as 512KiB (default: 4MiB)\n";
 
 std::optional<std::uint64_t> parse_size(const std::string& text) {
     unsigned long long number = 0;

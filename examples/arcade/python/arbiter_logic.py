@@ -39,7 +39,7 @@ class Waiting:
     request: Requested
     deadline: float
     not_before: float = 0.0
-    problem: str = "nothing was heard of the autopilot"
+    problem: str = "nothing was received from the autopilot"
     tried: bool = False
 
 
@@ -107,7 +107,7 @@ class Arbiter:
         actions: list[Action] = []
         if self._silent:
             self._silent = False
-            actions.append(Say(f"the autopilot is heard again after {silence:.1f} s"))
+            actions.append(Say(f"the autopilot sends again after {silence:.1f} s"))
         if last is None:
             actions += self._resume(flight)
         elif flight.time_us < last.time_us:
@@ -127,7 +127,7 @@ class Arbiter:
         course = resumed(flight)
         self._hand_over(authority, course, course.reason if course else "as before a restart of the arbiter")
         who = request_checks.SOURCES[authority]
-        return [Say(f"the vehicle is in the air, commanded by {who} (command {flight.command_id}); going on with it")]
+        return [Say(f"the vehicle is in the air, commanded by {who} (command {flight.command_id}); continuing")]
 
     def _listen(self, now: float) -> list[Action]:
         """Notices that the autopilot is silent."""

@@ -30,7 +30,7 @@ class BlackBox:
         self._send(text, value)
         now = self.lost
         if now > before and not self._losing:
-            print("the black box takes no records; they get lost until it does", file=sys.stderr, flush=True)
+            print("the black box does not take records; they are lost until it does", file=sys.stderr, flush=True)
         elif now == before and now > self.reported:
             report = f"records lost by {self.component}: {now - self.reported}"
             print(f"the black box takes records again; {report}", file=sys.stderr, flush=True)

@@ -48,5 +48,5 @@ def resumed(flight: Flight) -> Course | None:
         return None
     authority, asked, phase = command_ids.split(flight.command_id)
     if phase or authority == Authority.AUTHORITY_SAFETY:
-        return Course(authority, asked, phase, flight.target.z, "going on after a restart of the arbiter")
+        return Course(authority, asked, phase, flight.target.z, "continuing after a restart of the arbiter")
     return None

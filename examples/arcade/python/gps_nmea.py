@@ -63,7 +63,7 @@ class Reader:
     def report(self) -> None:
         """One line for each kind of useless sentence of the last second."""
         for problem, count in sorted(self.receiver.problems.items()):
-            print(f"{count} sentence{'s' if count > 1 else ''} of no use: {problem}", flush=True)
+            print(f"{count} unusable sentence{'s' if count > 1 else ''}: {problem}", flush=True)
         self.receiver.problems.clear()
         self.reported = time.monotonic()
 

@@ -48,7 +48,7 @@ class Progress:
             decision.exit_code = 1
             return decision
         if others != self.interruption:
-            decision.lines.append(f"waiting: {others}" if others else "going on")
+            decision.lines.append(f"waiting: {others}" if others else "continuing")
             self.interruption = others
             self.repeat_us = flight.time_us  # the command of the step has lost its effect
         if not others:

@@ -69,7 +69,7 @@ class Monitor:
     def _heard(self, now: float, reading: Battery) -> list[Event]:
         last = self._estimate
         self._estimate = update(last, reading, self.values)
-        events = [Event(f"the battery is read again after {now - self._heard_at:.1f} s")] if self._silent else []
+        events = [Event(f"battery readings are back after {now - self._heard_at:.1f} s")] if self._silent else []
         if self._estimate.count_is_wrong != (last is not None and last.count_is_wrong):
             wrong, volts = self._estimate.count_is_wrong, self._estimate.shortfall
             events.append(

@@ -27,7 +27,7 @@ pub async fn run(mut gates: Simulator, settings: Settings, serial: Option<Serial
     let mut receiver = SerialReceiver { port: serial, receiver: Receiver::new(settings.seed) };
     let mut watch = Watch::default();
     if let Err(missing) = gates.ready(PATIENCE).await {
-        println!("beginning without all parts: {missing}");
+        println!("starting without all components: {missing}");
     }
     let mut tick = scl::time::interval(Duration::from_secs(1) / RATE)?;
     loop {

@@ -32,7 +32,7 @@ void StatisticsReader::run() {
         auto failure_before = std::exchange(failure, ask());
         // One line for each change; texts of later failures differ in numbers.
         if (!failure.empty() && failure_before.empty()) {
-            std::printf("decides by its own observations: %s\n", failure.c_str());
+            std::printf("deciding without the resource map: %s\n", failure.c_str());
         } else if (failure.empty() && !failure_before.empty()) {
             std::printf("the resource map answers again\n");
         }

@@ -156,9 +156,11 @@ async def run(required: Requirement) -> None:
 def main() -> int:
     """The program."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--rate", type=positive(1e9), default=20_000, metavar="BYTES", help="per second (20000)")
     parser.add_argument(
-        "--longest-gap", type=positive(60), default=0.2, metavar="SECONDS", help="without a frame (0.2)"
+        "--rate", type=positive(1e9), default=20_000, metavar="BYTES", help="required rate per second (20000)"
+    )
+    parser.add_argument(
+        "--longest-gap", type=positive(60), default=0.2, metavar="SECONDS", help="longest time without a frame (0.2)"
     )
     arguments = parser.parse_args()
     required = Requirement(arguments.rate, arguments.longest_gap)

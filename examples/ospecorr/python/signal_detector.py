@@ -56,7 +56,7 @@ def main() -> None:
         type=probability,
         default=1e-3,
         metavar="PROBABILITY",
-        help="that noise in a channel of a block is taken for a signal (default: %(default)s)",
+        help="probability that noise in a channel of a block is taken for a signal (default: %(default)s)",
     )
     arguments = parser.parse_args()
     with SignalDetector() as detector:

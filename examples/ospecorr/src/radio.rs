@@ -39,7 +39,7 @@ pub async fn run(mut radio: Radio) -> scl::Result<()> {
                 let _gone = request.reply(&configured);
             }
             () = sleep_until(valid_until), if state.transmit => {
-                println!("not configured again for {VALID_FOR:?}");
+                println!("no new configuration for {VALID_FOR:?}");
                 state.transmit = false;
             }
             ticked = tick.tick() => {

@@ -22,13 +22,13 @@ use crate::ospecorr::Statistics;
 /// fifty times, and a crash loses a tenth of a second.
 const FLUSH_PERIOD: Duration = Duration::from_millis(100);
 
-/// Where observations are kept.
+/// Keeps observations in a database and answers queries about them.
 #[derive(Debug, Parser)]
 pub struct Options {
     /// File of the database; the default is resource_map.sqlite in the runtime folder of the system.
     #[arg(long, value_name = "FILE")]
     database: Option<PathBuf>,
-    /// Its largest size in MiB.
+    /// Maximum size of the database in MiB.
     #[arg(long, value_name = "MIB", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     max_size: u64,
 }

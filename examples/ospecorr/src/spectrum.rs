@@ -22,7 +22,7 @@ const RADIO_LOST_AFTER: u32 = 75;
 /// How long the band waits for the other components.
 const START_WITHIN: Duration = Duration::from_secs(10);
 
-/// The band and who uses it.
+/// Simulates the band and its users.
 #[derive(Debug, Parser)]
 pub struct Options {
     /// A primary user that transmits in a channel from one time to another, in seconds (several are allowed).
@@ -31,7 +31,7 @@ pub struct Options {
     /// Primary users that come and go in all channels at random times.
     #[arg(long)]
     random: bool,
-    /// Chooses the random numbers; the same seed gives the same band.
+    /// Seed of the random numbers; the same seed gives the same band.
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     seed: u64,
     /// Power of a primary user above the noise in its channel, in dB.
@@ -55,7 +55,7 @@ pub async fn run(mut spectrum: Spectrum, options: Options) -> scl::Result<()> {
     let mut before = Truth::default();
     // Wait, so time 0 is the same for all components; a missing one only delays the start.
     if let Err(missing) = spectrum.ready(START_WITHIN).await {
-        println!("begins without all components: {missing}");
+        println!("starting without all components: {missing}");
     }
     let mut tick = scl::time::interval(FRAME_TIME)?;
     loop {

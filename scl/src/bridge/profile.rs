@@ -16,7 +16,7 @@ pub struct Profile {
 #[non_exhaustive]
 pub enum ProfileError {
     /// The bytes end too early, or are not an announcement.
-    #[error("what was received is not the announcement of a component; run the same release of SCL on all hosts")]
+    #[error("the received bytes are not the announcement of a component; run the same release of SCL on all hosts")]
     Malformed,
     /// The announcement has no plan, or a plan of another version.
     #[error(
@@ -27,7 +27,7 @@ pub enum ProfileError {
         component: String,
     },
     /// The announcement names messages that did not come with it.
-    #[error("component `{component}` was announced without its messages")]
+    #[error("component `{component}` was announced without the schema of its messages")]
     NoMessages {
         /// The component.
         component: String,

@@ -65,7 +65,7 @@ impl Peers {
 impl fmt::Display for Peers {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.0.is_empty() {
-            return f.write_str("any peer, because it is not connected to one in the topology");
+            return f.write_str("any peer (the topology declares no connection for it)");
         }
         for (index, connection) in self.0.iter().enumerate() {
             let separator = if index == 0 { "" } else { " or " };

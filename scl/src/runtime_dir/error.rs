@@ -197,7 +197,7 @@ fn advice(source: &io::Error) -> &'static str {
             "free some space there, or choose a folder on another disk with `SCL_RUNTIME_DIR`"
         }
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
-            "choose a folder that this user may write to with `SCL_RUNTIME_DIR`"
+            "set `SCL_RUNTIME_DIR` to a folder that this user may write to"
         }
         io::ErrorKind::NotFound => {
             "its folder does not exist or was removed; start the program again to create it, \
@@ -216,8 +216,8 @@ mod tests {
         let cases = [
             (Errno::NOSPC, "free some space there"),
             (Errno::DQUOT, "free some space there"),
-            (Errno::ROFS, "choose a folder that this user may write to"),
-            (Errno::ACCESS, "choose a folder that this user may write to"),
+            (Errno::ROFS, "set `SCL_RUNTIME_DIR` to a folder that this user may write to"),
+            (Errno::ACCESS, "set `SCL_RUNTIME_DIR` to a folder that this user may write to"),
             (Errno::NOENT, "its folder does not exist or was removed"),
             (Errno::MFILE, "the process is out of file descriptors"),
             (Errno::NFILE, "the process is out of file descriptors"),

@@ -46,6 +46,6 @@ fn compare_files(
     let cannot_read = |error: &dyn std::fmt::Display| format!("cannot read `{}`: {error}", path.display());
     let theirs = read_file(&path, SCHEMA_LIMIT).map_err(|error| cannot_read(&error))?;
     let theirs = scl_shape::decode(&theirs).map_err(|error| cannot_read(&error))?;
-    let ours = scl_shape::decode(ours).map_err(|error| format!("cannot read its own schema: {error}"))?;
+    let ours = scl_shape::decode(ours).map_err(|error| format!("cannot read this program's schema: {error}"))?;
     Ok(scl_shape::compare(payload, encoding, &ours, &theirs))
 }

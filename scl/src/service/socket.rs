@@ -25,6 +25,6 @@ impl Socket {
     /// Sends a datagram. Returns false if the manager does not take it now.
     pub(super) fn send(&self, text: &str) -> bool {
         let sent = send(&self.0, text.as_bytes(), SendFlags::NOSIGNAL | SendFlags::DONTWAIT);
-        sent.inspect_err(|error| tracing::debug!(%error, text, "the service manager takes no notification")).is_ok()
+        sent.inspect_err(|error| tracing::debug!(%error, text, "cannot notify the service manager")).is_ok()
     }
 }

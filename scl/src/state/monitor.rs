@@ -124,7 +124,8 @@ pub(crate) fn stats_period(variables: Variables<'_>) -> Result<Option<Duration>,
         "off" => Some(None),
         text => environment::duration(text).filter(|period| *period >= SHORTEST_PERIOD).map(Some),
     };
-    let found = environment::read(variables, "SCL_STATS", "`off` or a period from `10ms` on, such as `500ms`", parse)?;
+    let found =
+        environment::read(variables, "SCL_STATS", "`off` or a period of at least `10ms`, such as `500ms`", parse)?;
     Ok(found.unwrap_or(Some(PERIOD)))
 }
 
@@ -137,7 +138,7 @@ mod tests {
     fn the_period_is_read_or_refused() {
         let millis = |millis| Ok(Some(Duration::from_millis(millis)));
         let refuses =
-            |value: &str| Err(format!("SCL_STATS={value}, not `off` or a period from `10ms` on, such as `500ms`"));
+            |value: &str| Err(format!("SCL_STATS={value}, not `off` or a period of at least `10ms`, such as `500ms`"));
         let cases = [("", millis(500)), ("off", Ok(None)), ("10ms", millis(10)), ("2s", millis(2000))];
         let bad = ["on", "OFF", "9ms", "0s", "500", "-1s", "86401s", "off "].map(|value| (value, refuses(value)));
         for (value, expected) in cases.into_iter().chain(bad) {

@@ -34,7 +34,7 @@ pub enum GateError {
         expected: GateKind,
     },
     /// The gate was taken before.
-    #[error("gate `{gate}` was taken before; a gate can be taken once")]
+    #[error("gate `{gate}` was already taken; a gate can be taken only once")]
     Taken {
         /// The gate.
         gate: GateName,

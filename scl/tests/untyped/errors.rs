@@ -71,7 +71,7 @@ fn each_kind_is_taken_in_one_way() {
 fn a_gate_is_taken_once() {
     let mut sensor = open("sensor");
     let first = sensor.publisher("raw").unwrap();
-    let expected = "gate `sensor.raw` was taken before; a gate can be taken once";
+    let expected = "gate `sensor.raw` was already taken; a gate can be taken only once";
     assert_eq!(sensor.publisher("raw").unwrap_err().to_string(), expected);
     drop(first);
     assert_eq!(sensor.gate("raw").unwrap_err().to_string(), expected);

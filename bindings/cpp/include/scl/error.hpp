@@ -272,8 +272,8 @@ inline void check(scl_status status) {
 inline void check_library() {
     if (scl_abi() != SCL_ABI) {
         raise(Errc::failed, "this program was compiled with version " + std::to_string(SCL_ABI) +
-                                " of the interface of SCL and loaded a library of version " +
-                                std::to_string(scl_abi()) + "; compile it again, or install the other library");
+                                " of SCL's interface but loaded a library of version " +
+                                std::to_string(scl_abi()) + "; recompile it, or install the matching library");
     }
 }
 

@@ -93,7 +93,7 @@ class Gate:
     async def _until(self, poll: Callable[[Readiness], R | None], timeout: float | None, last: Callable[[], R]) -> R:
         """Waits as `Loops.until` does. One task at a time may do so."""
         if self._awaited:
-            raise Busy(f"gate `{self.name}` is awaited by another task; one at a time may use a gate")
+            raise Busy(f"gate `{self.name}` is awaited by another task; use each gate from one task at a time")
         object.__setattr__(self, "_awaited", True)
         try:
             return await self._loops.until(poll, timeout, last)
@@ -262,8 +262,8 @@ class _Receiver(_Receiving[T]):
             return None if default is _NOT_GIVEN else default
         if received is None and default is _NOT_GIVEN:
             raise NoneReceived(
-                f"gate `{self.name}` received the message `None`, which `{call}()` returns for no message; give it another "
-                f"value for that: `{call}(default)`"
+                f"gate `{self.name}` received the message `None`, which `{call}()` also returns when there is no "
+                f"message; pass another default, as in `{call}(default)`"
             )
         return received
 

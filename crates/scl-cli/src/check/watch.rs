@@ -26,7 +26,7 @@ const INTERVAL: Duration = Duration::from_millis(100);
 const BEGIN: &str = "scl: checking\n";
 
 /// The line after a check, which must not change either.
-const END: &str = "scl: waiting for changes, Ctrl-C ends\n";
+const END: &str = "scl: waiting for changes; press Ctrl-C to stop\n";
 
 /// Checks until a signal asks to stop. Returns the exit code of the last check.
 pub(super) fn watch(arguments: &CheckArguments) -> ExitCode {

@@ -79,7 +79,7 @@ fn unknown(top: &Path, name: &str, note: &str) -> Problem {
     let problem = if note.is_empty() { problem } else { problem.note(escape(note)) };
     let is_shallow = git(top, &["rev-parse", "--is-shallow-repository"]).is_ok_and(|text| text == "true");
     match is_shallow {
-        true => problem.help("this clone has a part of the history only: run `git fetch --unshallow`"),
+        true => problem.help("this clone is shallow: run `git fetch --unshallow`"),
         false => problem.help("two files are compared with `scl diff OLD NEW`"),
     }
 }

@@ -40,7 +40,7 @@ fn a_full_disk_ends_the_recording_with_a_complete_file() {
     let (code, out, err) = recorder.finish();
     assert_eq!(code, Some(1), "{err}");
     let expected =
-        "error: recording stopped: the file has the largest size that is allowed (`ulimit -f`)\n --> flight.mcap\n";
+        "error: recording stopped: the file has reached the largest allowed size (`ulimit -f`)\n --> flight.mcap\n";
     assert_eq!(err, expected);
 
     let file = source.rover.path("flight.mcap");
@@ -57,7 +57,7 @@ fn a_disk_without_any_room_is_reported_at_once() {
     let recorder = Recorder::spawn(limited(&source, 8, &["-o", "flight.mcap"]));
     let (code, out, err) = recorder.finish();
     assert_eq!((code, out.as_str()), (Some(2), ""), "{err}");
-    assert!(err.starts_with("error: recording stopped: the file has the largest size"), "{err}");
+    assert!(err.starts_with("error: recording stopped: the file has reached the largest"), "{err}");
     assert!(!source.rover.path("flight.mcap").exists());
 }
 

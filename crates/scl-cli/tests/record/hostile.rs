@@ -71,7 +71,7 @@ fn a_file_is_not_replaced_by_an_empty_recording() {
     for length in [8, 20, chunk.start - 9, chunk.start] {
         fs::write(system.path("stub.mcap"), &sound[..length]).unwrap();
         let output = system.scl(&["recover", "stub.mcap"]).output().unwrap();
-        let error = "error: no message can be recovered from `stub.mcap`\n  = note: the file was left as it is\n";
+        let error = "error: no message can be recovered from `stub.mcap`\n  = note: the file was not changed\n";
         assert_eq!(String::from_utf8_lossy(&output.stderr), error, "{length}");
         assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
         assert_eq!(fs::read(system.path("stub.mcap")).unwrap(), sound[..length]);

@@ -19,14 +19,14 @@ fn after(change: impl Fn(&Path)) -> (Source, String) {
 #[test]
 fn a_removed_file_ends_the_recording() {
     let (_, error) = after(|folder| fs::remove_file(folder.join("flight.mcap")).unwrap());
-    let expected = "error: recording stopped: the file was removed while it was written\n --> flight.mcap\n";
+    let expected = "error: recording stopped: the file was removed while it was being written\n --> flight.mcap\n";
     assert!(error.contains(expected), "{error}");
 }
 
 #[test]
 fn a_renamed_file_ends_the_recording_and_is_complete() {
     let (source, error) = after(|folder| fs::rename(folder.join("flight.mcap"), folder.join("other.mcap")).unwrap());
-    assert!(error.contains("error: recording stopped: the file was renamed while it was written\n"), "{error}");
+    assert!(error.contains("error: recording stopped: the file was renamed while it was being written\n"), "{error}");
     let other = source.rover.path("other.mcap");
     assert_eq!(summary(&other).stats.unwrap().message_count, messages(&other).len() as u64);
 }
@@ -38,7 +38,7 @@ fn a_replaced_file_ends_the_recording() {
         fs::rename(folder.join("precious"), folder.join("flight.mcap")).unwrap();
     });
     assert!(
-        error.contains("error: recording stopped: the file was replaced by another one while it was written\n"),
+        error.contains("error: recording stopped: the file was replaced by another one while it was being written\n"),
         "{error}"
     );
     assert_eq!(fs::read_to_string(source.rover.path("flight.mcap")).unwrap(), "precious");
@@ -53,6 +53,6 @@ fn a_folder_that_vanishes_ends_the_recording() {
     recorder.wait_for("connected to 1 gates");
     fs::remove_dir_all(&folder).unwrap();
     let (code, _, error) = recorder.finish();
-    assert!(error.contains("error: recording stopped: the file was removed while it was written\n"), "{error}");
+    assert!(error.contains("error: recording stopped: the file was removed while it was being written\n"), "{error}");
     assert_eq!(code, Some(1));
 }

@@ -64,6 +64,7 @@ fn a_gate_of_several_senders_is_replayed_only_if_all_are_played() {
     let log = report["gates"].as_array().unwrap().iter().find(|gate| gate["recorded"] == "controller.log").unwrap();
     assert_eq!((&log["sent"], &log["skipped"]), (&0.into(), &1.into()), "{report}");
     let reason = log["reason"].as_str().unwrap();
-    assert!(reason.starts_with("it has several pushers, which are not told apart, and `gps` "), "{reason}");
+    let expected = "it has several pushers, which the recording does not distinguish, and `gps` ";
+    assert!(reason.starts_with(expected), "{reason}");
     assert_eq!(rover.replay_json(&["flight.mcap", "--as", "sensor,gps"])["sent"], 2);
 }

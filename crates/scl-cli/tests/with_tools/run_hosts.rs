@@ -206,7 +206,7 @@ fn a_missing_gateway_program_is_explained() {
     let hosts = Hosts::new(false);
     let output = hosts.command(&["run", "--host", "board"]).env("PATH", "/nowhere").output().unwrap();
     expect![[r#"
-        error: the program `scl-gateway` is not installed, which connects the hosts
+        error: the program `scl-gateway`, which connects the hosts, is not installed
           = help: install it: `cargo install scl-gateway`; in the repository of SCL: `cargo build -p scl-gateway`
           = note: it is looked for beside `scl`, then in PATH
 
@@ -216,7 +216,7 @@ fn a_missing_gateway_program_is_explained() {
     expect![[r#"
         error: there is no command `gateway`
           = help: install it: `cargo install scl-gateway`; in the repository of SCL: `cargo build -p scl-gateway`
-          = note: nor is there a program `scl-gateway` beside `scl` or in PATH
+          = note: there is no program `scl-gateway` beside `scl` or in PATH either
     "#]]
     .assert_eq(&text(&output.stderr));
 }

@@ -39,7 +39,7 @@ pub enum KeyProblem {
     #[error("the certificate of host `{host}` expired on {}", scl_terminal::timestamp(*at))]
     Expired { host: String, at: SystemTime },
     /// The certificate is not valid yet.
-    #[error("the certificate of host `{host}` is valid from {} on, and the clock says {}", scl_terminal::timestamp(*from), scl_terminal::timestamp(*now))]
+    #[error("the certificate of host `{host}` is not valid before {}, and the clock says {}", scl_terminal::timestamp(*from), scl_terminal::timestamp(*now))]
     NotYetValid { host: String, from: SystemTime, now: SystemTime },
     /// Another authority signed the certificate.
     #[error("the certificate of host `{host}` was not signed by the authority `{}`", authority.display())]

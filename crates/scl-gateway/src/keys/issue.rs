@@ -57,7 +57,7 @@ pub enum KeysError {
     #[error("cannot write `{}`", path.display())]
     Write { path: PathBuf, source: io::Error },
     /// The key of the authority is missing; only its certificate exists.
-    #[error("the key of the authority is not here: `{}`", path.display())]
+    #[error("the key of the authority is missing: `{}`", path.display())]
     NoAuthorityKey { path: PathBuf },
     /// The authority has expired, so a new certificate would never be valid.
     #[error("the authority in `{}` expired on {}", folder.display(), scl_terminal::timestamp(*at))]

@@ -144,7 +144,7 @@ fn times_are_checked() {
     keys.expect(
         &keys.hosts[0],
         now() - 2 * DAY,
-        &["the certificate of host `board` is valid from 2024-10-03T00:00:00.000Z on, and the clock says \
+        &["the certificate of host `board` is not valid before 2024-10-03T00:00:00.000Z, and the clock says \
            2024-10-02T00:00:00.000Z"],
     );
 }

@@ -49,7 +49,7 @@ pub(crate) async fn mirror(
                 wanted = match Profile::from_bytes(content) {
                     Ok(profile) => Some((host, profile)),
                     Err(error) => {
-                        tracing::error!(host, "cannot show component `{component}` here: {error}");
+                        tracing::error!(host, "cannot mirror component `{component}` here: {error}");
                         None
                     }
                 };
@@ -71,7 +71,7 @@ pub(crate) async fn mirror(
 
 fn restore(component: &str, slot: &Slot<Mirror>) {
     if let Some(Err(error)) = slot.view().borrow().as_ref().map(|mirror| mirror.restore()) {
-        tracing::error!("cannot show component `{component}` here any longer: {}", text_with_causes(&error));
+        tracing::error!("cannot restore the mirror of component `{component}`: {}", text_with_causes(&error));
     }
 }
 
@@ -89,7 +89,7 @@ fn show(
         Err(error) => {
             let text = text_with_causes(&error);
             if failure.as_ref() != Some(&text) {
-                tracing::error!("cannot show component `{component}` of host `{host}` here: {text}");
+                tracing::error!("cannot mirror component `{component}` of host `{host}` here: {text}");
                 *failure = Some(text);
             }
         }

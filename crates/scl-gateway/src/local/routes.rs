@@ -30,7 +30,7 @@ pub(super) fn start(
         let leaves = route.from.host == options.host;
         let (near, far) = if leaves { (&route.from, &route.to) } else { (&route.to, &route.from) };
         let Some((component, mirror)) = optional(near, runs).zip(optional(far, mirrors)) else {
-            tracing::error!("route `{}` names a component that is not on the host it should be on", route.key);
+            tracing::error!("route `{}` names a component that is not on the host that the route names", route.key);
             continue;
         };
         let ends = Ends { route: route.clone(), mirror, component, transport: Arc::clone(&transport), counts };

@@ -23,7 +23,7 @@ use super::config::LEASE_MS;
 /// outage.
 pub(super) fn set() {
     if let Err(error) = try_set() {
-        tracing::debug!("cannot limit how long TCP repeats what gets no answer: {error}");
+        tracing::debug!("cannot limit how long TCP retransmits unacknowledged data: {error}");
     }
 }
 

@@ -25,7 +25,7 @@ pub(super) fn component_functions(system: &System, component: &Component) -> Vec
         "int64_t timeout_ns",
         "return scl_ready(self == NULL ? NULL : self->component, timeout_ns);".to_owned(),
     );
-    let doc = "Hands over what was sent, and closes the component, see scl_close.";
+    let doc = "Waits until running peers have taken all messages, then closes the component, see scl_close.";
     let close = function("close", doc, "int64_t timeout_ns", close_body());
     open.into_iter().chain(test).chain([ready, close]).collect()
 }

@@ -103,7 +103,7 @@ fn write_wait(prefix: &str, component: &Component, out: &mut Writer) {
 }
 
 fn write_checks(system: &System, out: &mut Writer) {
-    out.line("/* Compilers without an option for it, or with -w, take pointers of another type in silence; these macros do not. */");
+    out.line("/* Compilers without such an option, or with -w, silently accept pointers of another type; these macros do not. */");
     out.line(format!("#if defined(SCL_POINTER) && !defined({})", source::own_macro(system)));
     for component in system.components_and_counterparts() {
         functions(system, component).iter().for_each(|function| function.check(out));

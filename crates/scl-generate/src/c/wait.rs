@@ -34,7 +34,7 @@ pub(super) fn function(prefix: &str, component: &Component) -> Option<Function> 
          return wait_for(self->component, all, sizeof all / sizeof *all, gates, timeout_ns, ready);"
     );
     let doc =
-        "Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells where.";
+        "Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` says at which.";
     let parameters = format!("{prefix} *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready");
     Some(Function::new(prefix, "wait", doc, parameters, body))
 }

@@ -142,7 +142,7 @@ impl Messages<'_> {
         for (index, value) in declared.value.iter().enumerate() {
             if !names::is_value_attribute(value.name()) {
                 // Only reachable through `getattr` or `Value`.
-                out.line(format!("# {}: no attribute of Python", value.name()));
+                out.line(format!("# {}: not usable as an attribute name", value.name()));
                 continue;
             }
             out.line(format!("{}: {class_var}[{reference}]", value.name()));

@@ -162,8 +162,8 @@ static const char plan[] =
 static scl_status check_library(void)
 {
     if (scl_abi() != SCL_ABI) {
-        return scl_fail(SCL_FAILED, "the library has another version than the `scl.h` that this program was compiled "
-                                    "with; compile it again");
+        return scl_fail(SCL_FAILED, "the library and the `scl.h` that this program was compiled with have different "
+                                    "versions; recompile the program");
     }
     return SCL_OK;
 }

@@ -55,7 +55,7 @@ typedef struct every_kind_left {
 scl_status every_kind_left_open(every_kind_left *self, const char *options_json);
 /* Waits until all required peers are connected, see scl_ready. */
 scl_status every_kind_left_ready(every_kind_left *self, int64_t timeout_ns);
-/* Hands over what was sent, and closes the component, see scl_close. */
+/* Waits until running peers have taken all messages, then closes the component, see scl_close. */
 scl_status every_kind_left_close(every_kind_left *self, int64_t timeout_ns);
 
 /*
@@ -127,7 +127,7 @@ typedef struct every_kind_right_side {
 scl_status every_kind_right_side_open(every_kind_right_side *self, const char *options_json);
 /* Waits until all required peers are connected, see scl_ready. */
 scl_status every_kind_right_side_ready(every_kind_right_side *self, int64_t timeout_ns);
-/* Hands over what was sent, and closes the component, see scl_close. */
+/* Waits until running peers have taken all messages, then closes the component, see scl_close. */
 scl_status every_kind_right_side_close(every_kind_right_side *self, int64_t timeout_ns);
 
 /* Gate `right-side.values` (every_kind.yaml:23:9): sub, kinds.Value in protobuf */
@@ -225,7 +225,7 @@ void every_kind_right_side_trees_free(Kinds__Tree *message);
 #define EVERY_KIND_RIGHT_SIDE_JSON_ANSWER (UINT64_C(1) << 6)
 #define EVERY_KIND_RIGHT_SIDE_PACKED (UINT64_C(1) << 7)
 #define EVERY_KIND_RIGHT_SIDE_TREES (UINT64_C(1) << 8)
-/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells where. */
+/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` says at which. */
 scl_status every_kind_right_side_wait(every_kind_right_side *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready);
 
 /* Component `lonely` (every_kind.yaml:32:11) */
@@ -243,7 +243,7 @@ typedef struct every_kind_lonely {
 scl_status every_kind_lonely_open(every_kind_lonely *self, const char *options_json);
 /* Waits until all required peers are connected, see scl_ready. */
 scl_status every_kind_lonely_ready(every_kind_lonely *self, int64_t timeout_ns);
-/* Hands over what was sent, and closes the component, see scl_close. */
+/* Waits until running peers have taken all messages, then closes the component, see scl_close. */
 scl_status every_kind_lonely_close(every_kind_lonely *self, int64_t timeout_ns);
 
 /* Gate `lonely.close` (every_kind.yaml:34:9): pub, kinds.Value in protobuf */
@@ -274,7 +274,7 @@ void every_kind_lonely_component_free(Kinds__Value *message);
 
 #define EVERY_KIND_LONELY_READY (UINT64_C(1) << 0)
 #define EVERY_KIND_LONELY_COMPONENT (UINT64_C(1) << 1)
-/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells where. */
+/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` says at which. */
 scl_status every_kind_lonely_wait(every_kind_lonely *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready);
 
 /* Component `empty` (every_kind.yaml:38:11) */
@@ -286,14 +286,14 @@ typedef struct every_kind_empty {
 scl_status every_kind_empty_open(every_kind_empty *self, const char *options_json);
 /* Waits until all required peers are connected, see scl_ready. */
 scl_status every_kind_empty_ready(every_kind_empty *self, int64_t timeout_ns);
-/* Hands over what was sent, and closes the component, see scl_close. */
+/* Waits until running peers have taken all messages, then closes the component, see scl_close. */
 scl_status every_kind_empty_close(every_kind_empty *self, int64_t timeout_ns);
 
 #ifdef __cplusplus
 }
 #endif
 
-/* Compilers without an option for it, or with -w, take pointers of another type in silence; these macros do not. */
+/* Compilers without such an option, or with -w, silently accept pointers of another type; these macros do not. */
 #if defined(SCL_POINTER) && !defined(EVERY_KIND_SCL_SOURCE)
 #define every_kind_left_open(self, options_json) \
     every_kind_left_open(SCL_POINTER(every_kind_left, self), (options_json))

@@ -44,7 +44,7 @@ typedef struct testable_controller_peer {
 
 /* Waits until all required peers are connected, see scl_ready. */
 scl_status testable_controller_peer_ready(testable_controller_peer *self, int64_t timeout_ns);
-/* Hands over what was sent, and closes the component, see scl_close. */
+/* Waits until running peers have taken all messages, then closes the component, see scl_close. */
 scl_status testable_controller_peer_close(testable_controller_peer *self, int64_t timeout_ns);
 
 /* The other end of `controller.readings`: pub, testable.Reading in protobuf */
@@ -115,7 +115,7 @@ void testable_controller_peer_spare_free(Testable__Reading *message);
 #define TESTABLE_CONTROLLER_PEER_LIMITS (UINT64_C(1) << 1)
 #define TESTABLE_CONTROLLER_PEER_LOG (UINT64_C(1) << 2)
 #define TESTABLE_CONTROLLER_PEER_SPARE (UINT64_C(1) << 3)
-/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells where. */
+/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` says at which. */
 scl_status testable_controller_peer_wait(testable_controller_peer *self,
                                          uint64_t gates,
                                          int64_t timeout_ns,
@@ -146,7 +146,7 @@ scl_status testable_controller_open(testable_controller *self, const char *optio
 scl_status testable_controller_test(testable_controller *self, testable_controller_peer *peer);
 /* Waits until all required peers are connected, see scl_ready. */
 scl_status testable_controller_ready(testable_controller *self, int64_t timeout_ns);
-/* Hands over what was sent, and closes the component, see scl_close. */
+/* Waits until running peers have taken all messages, then closes the component, see scl_close. */
 scl_status testable_controller_close(testable_controller *self, int64_t timeout_ns);
 
 /*
@@ -213,7 +213,7 @@ scl_status testable_controller_spare_send(testable_controller *self,
 #define TESTABLE_CONTROLLER_COMMANDS (UINT64_C(1) << 1)
 #define TESTABLE_CONTROLLER_JOBS (UINT64_C(1) << 2)
 #define TESTABLE_CONTROLLER_CLASS (UINT64_C(1) << 3)
-/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells where. */
+/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` says at which. */
 scl_status testable_controller_wait(testable_controller *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready);
 
 /* The other ends of all gates of `empty`, for its unit tests. */
@@ -223,7 +223,7 @@ typedef struct testable_empty_peer {
 
 /* Waits until all required peers are connected, see scl_ready. */
 scl_status testable_empty_peer_ready(testable_empty_peer *self, int64_t timeout_ns);
-/* Hands over what was sent, and closes the component, see scl_close. */
+/* Waits until running peers have taken all messages, then closes the component, see scl_close. */
 scl_status testable_empty_peer_close(testable_empty_peer *self, int64_t timeout_ns);
 
 /* Component `empty` (testable.yaml:19:11) */
@@ -237,7 +237,7 @@ scl_status testable_empty_open(testable_empty *self, const char *options_json);
 scl_status testable_empty_test(testable_empty *self, testable_empty_peer *peer);
 /* Waits until all required peers are connected, see scl_ready. */
 scl_status testable_empty_ready(testable_empty *self, int64_t timeout_ns);
-/* Hands over what was sent, and closes the component, see scl_close. */
+/* Waits until running peers have taken all messages, then closes the component, see scl_close. */
 scl_status testable_empty_close(testable_empty *self, int64_t timeout_ns);
 
 /* The other ends of all gates of `world`, for its unit tests. */
@@ -256,7 +256,7 @@ typedef struct testable_world_peer {
 
 /* Waits until all required peers are connected, see scl_ready. */
 scl_status testable_world_peer_ready(testable_world_peer *self, int64_t timeout_ns);
-/* Hands over what was sent, and closes the component, see scl_close. */
+/* Waits until running peers have taken all messages, then closes the component, see scl_close. */
 scl_status testable_world_peer_close(testable_world_peer *self, int64_t timeout_ns);
 
 /* The other end of `world.readings`: sub, testable.Reading in protobuf */
@@ -314,7 +314,7 @@ scl_status testable_world_peer_notes_latest(testable_world_peer *self, scl_messa
 #define TESTABLE_WORLD_PEER_COMMANDS (UINT64_C(1) << 1)
 #define TESTABLE_WORLD_PEER_JOBS (UINT64_C(1) << 2)
 #define TESTABLE_WORLD_PEER_NOTES (UINT64_C(1) << 3)
-/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells where. */
+/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` says at which. */
 scl_status testable_world_peer_wait(testable_world_peer *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready);
 
 /* Component `world` (testable.yaml:21:11) */
@@ -337,7 +337,7 @@ scl_status testable_world_open(testable_world *self, const char *options_json);
 scl_status testable_world_test(testable_world *self, testable_world_peer *peer);
 /* Waits until all required peers are connected, see scl_ready. */
 scl_status testable_world_ready(testable_world *self, int64_t timeout_ns);
-/* Hands over what was sent, and closes the component, see scl_close. */
+/* Waits until running peers have taken all messages, then closes the component, see scl_close. */
 scl_status testable_world_close(testable_world *self, int64_t timeout_ns);
 
 /* Gate `world.readings` (testable.yaml:23:9): pub, testable.Reading in protobuf */
@@ -387,7 +387,7 @@ scl_status testable_world_notes_send(testable_world *self, const void *data, siz
 #define TESTABLE_WORLD_SETPOINTS (UINT64_C(1) << 0)
 #define TESTABLE_WORLD_LIMITS (UINT64_C(1) << 1)
 #define TESTABLE_WORLD_LOG (UINT64_C(1) << 2)
-/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells where. */
+/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` says at which. */
 scl_status testable_world_wait(testable_world *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready);
 
 /* The other ends of all gates of `recorder`, for its unit tests. */
@@ -400,7 +400,7 @@ typedef struct testable_recorder_peer {
 
 /* Waits until all required peers are connected, see scl_ready. */
 scl_status testable_recorder_peer_ready(testable_recorder_peer *self, int64_t timeout_ns);
-/* Hands over what was sent, and closes the component, see scl_close. */
+/* Waits until running peers have taken all messages, then closes the component, see scl_close. */
 scl_status testable_recorder_peer_close(testable_recorder_peer *self, int64_t timeout_ns);
 
 /* The other end of `recorder.setpoints`: pub, testable.Setpoint in protobuf */
@@ -422,7 +422,7 @@ scl_status testable_recorder_open(testable_recorder *self, const char *options_j
 scl_status testable_recorder_test(testable_recorder *self, testable_recorder_peer *peer);
 /* Waits until all required peers are connected, see scl_ready. */
 scl_status testable_recorder_ready(testable_recorder *self, int64_t timeout_ns);
-/* Hands over what was sent, and closes the component, see scl_close. */
+/* Waits until running peers have taken all messages, then closes the component, see scl_close. */
 scl_status testable_recorder_close(testable_recorder *self, int64_t timeout_ns);
 
 /* Gate `recorder.setpoints` (testable.yaml:32:9): sub, testable.Setpoint in protobuf */
@@ -433,14 +433,14 @@ scl_status testable_recorder_setpoints_latest(testable_recorder *self, Testable_
 void testable_recorder_setpoints_free(Testable__Setpoint *message);
 
 #define TESTABLE_RECORDER_SETPOINTS (UINT64_C(1) << 0)
-/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` tells where. */
+/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` says at which. */
 scl_status testable_recorder_wait(testable_recorder *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready);
 
 #ifdef __cplusplus
 }
 #endif
 
-/* Compilers without an option for it, or with -w, take pointers of another type in silence; these macros do not. */
+/* Compilers without such an option, or with -w, silently accept pointers of another type; these macros do not. */
 #if defined(SCL_POINTER) && !defined(TESTABLE_SCL_SOURCE)
 #define testable_controller_peer_ready(self, timeout_ns) \
     testable_controller_peer_ready(SCL_POINTER(testable_controller_peer, self), (timeout_ns))

@@ -101,6 +101,6 @@ fn messages_by_entry(compiler: &Compiler, model: &Model, folders: &Folders) -> V
 }
 
 fn panicked(schema: &Spanned<String>, text: &str) -> Diagnostic {
-    let message = format!("the schema file `{}` makes the compiler of schemas panic: {text}", schema.value);
+    let message = format!("the schema file `{}` makes the schema compiler panic: {text}", schema.value);
     SCHEMA.at(message, schema.span, "").note(BUG)
 }

@@ -85,7 +85,7 @@ pub(super) fn misplaced(schema: &Spanned<String>, folders: &Folders) -> Option<D
         Found::Two(one, other) if folders.are_roots => {
             let [one, other] = [&one, &other].map(|path| folders.relative(path).display());
             let message = format!("the schema `{entry}` has the same path in its root as another file");
-            let problem = SCHEMA.at(message, schema.span, format!("`{name}` can mean `{one}` and `{other}`"));
+            let problem = SCHEMA.at(message, schema.span, format!("`{name}` can mean `{one}` or `{other}`"));
             Some(problem.help("rename one of the files, or remove its folder from `schema_roots`"))
         }
         _ => None,

@@ -82,7 +82,7 @@ impl Importer<'_> {
         let meant = self.file.parent().unwrap_or(Path::new("")).join(import.name.replace('\\', "/"));
         let meant = self.folders.path(&meant);
         let help = meant.canonicalize().ok().and_then(|_| self.folders.import_name(&meant)).map(write_import);
-        self.mistake(import, message, help, "protobuf allows no `.`, `..`, `\\` and absolute paths in imports")
+        self.mistake(import, message, help, "protobuf does not allow `.`, `..`, `\\` or absolute paths in imports")
     }
 
     fn missing(&self, import: &Import<'_>) -> Mistake {

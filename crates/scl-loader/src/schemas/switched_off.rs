@@ -12,7 +12,7 @@ pub(crate) fn compile(_: &Request, model: &Model, _: &mut Sources, problems: &mu
     if let Some(schema) = model.schemas.first() {
         let message = format!("the schema file `{}` needs the feature `protobuf`", schema.value);
         let problem = SCHEMA
-            .at(message, schema.span, "this build of SCL compiles no schemas")
+            .at(message, schema.span, "this build of SCL does not compile schemas")
             .help("switch it on in Cargo.toml: scl = { package = \"scl-gates\", version = \"..\", features = [\"protobuf\"] }")
             .note("without `schemas`, types are looked up in your Rust code");
         problems.push(problem);

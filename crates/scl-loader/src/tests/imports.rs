@@ -158,7 +158,7 @@ fn an_import_with_dots_is_refused_with_the_path_to_write() {
               |           ------------------- compiled because of this line
               |
               = help: write `import "proto/common/header.proto";`
-              = note: protobuf allows no `.`, `..`, `\` and absolute paths in imports
+              = note: protobuf does not allow `.`, `..`, `\` or absolute paths in imports
         "#]],
     );
     let mut written = String::new();

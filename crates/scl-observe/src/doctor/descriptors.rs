@@ -75,7 +75,7 @@ fn needed_by(plan: &Plan) -> u64 {
 
 fn judge_use(component: &str, open: Option<u64>, needed: Option<u64>, limit: u64) -> Option<Finding> {
     if let Some(needed) = needed.filter(|needed| *needed > limit) {
-        let text = format!("{component} needs {needed} when all its peers are connected, of at most {limit}");
+        let text = format!("{component} needs {needed} when all its peers are connected, but may open only {limit}");
         return Some(
             Finding::warning(CHECK, text)
                 .help("raise the limit before it starts: `descriptors` in the launch file, `ulimit -n`, or `LimitNOFILE=` in a unit of systemd"),
@@ -114,8 +114,8 @@ mod tests {
             (Some(80), Some(100), None),
             (Some(81), Some(100), Some("`x` has 81 open, of at most 100")),
             (Some(81), None, Some("`x` has 81 open, of at most 100")),
-            (Some(20), Some(101), Some("`x` needs 101 when all its peers are connected, of at most 100")),
-            (None, Some(101), Some("`x` needs 101 when all its peers are connected, of at most 100")),
+            (Some(20), Some(101), Some("`x` needs 101 when all its peers are connected, but may open only 100")),
+            (None, Some(101), Some("`x` needs 101 when all its peers are connected, but may open only 100")),
             (None, None, None),
         ] {
             let finding = judge_use("`x`", open, needed, 100);

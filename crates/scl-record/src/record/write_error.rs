@@ -25,13 +25,15 @@ impl WriteError {
             Self::Full(error) => {
                 let reason = match Errno::from_io_error(error) {
                     Some(Errno::DQUOT) => "the disk quota is used up".to_owned(),
-                    Some(Errno::FBIG) => "the file has the largest size that is allowed (`ulimit -f`)".to_owned(),
+                    Some(Errno::FBIG) => "the file has reached the largest allowed size (`ulimit -f`)".to_owned(),
                     Some(Errno::NOSPC) => "the disk is full".to_owned(),
                     _ => error.to_string(),
                 };
                 Problem::new(format!("{what}: {reason}")).at(path.to_string())
             }
-            Self::Moved(fault) => Problem::new(format!("{what}: {fault} while it was written")).at(path.to_string()),
+            Self::Moved(fault) => {
+                Problem::new(format!("{what}: {fault} while it was being written")).at(path.to_string())
+            }
             Self::Failed(error) => Problem::new(format!("{what}: cannot write: {}", text_of(error)))
                 .at(path.to_string())
                 .help(format!("`scl recover {path}` rebuilds the index of what was written")),

@@ -188,7 +188,8 @@ impl Fault {
         match self {
             Self::Unusable(reason) => records.problem(header.offset, reason),
             Self::Damaged(reason) => {
-                let help = format!("`scl recover {}` writes what is sound into a new file", records.path().display());
+                let path = records.path().display();
+                let help = format!("`scl recover {path} -o FILE` writes the undamaged messages into a new file");
                 records.problem(header.offset, reason).help(help)
             }
         }

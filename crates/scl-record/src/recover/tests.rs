@@ -107,7 +107,7 @@ fn a_closed_file_with_damage_is_never_replaced() {
         damaged[at] = byte;
         let path = write_file(folder.path(), "flight.mcap", &damaged);
         let problem = recover(&path, None).unwrap_err().to_string();
-        assert!(problem.contains("was closed in order, but"), "{at}: {problem}");
+        assert!(problem.contains("was closed properly, but"), "{at}: {problem}");
         assert_eq!((fs::read(&path).unwrap(), files(folder.path())), (damaged, 1), "{at}");
         let output = folder.path().join("whole.mcap");
         assert_eq!(recover(&path, Some(&output)).unwrap().messages, 2, "{at}");

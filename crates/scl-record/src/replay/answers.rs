@@ -113,7 +113,7 @@ pub(super) fn read_answers(recording: &Recording, wanted: &[GateId]) -> Result<H
         }
         if bytes > LIMIT {
             let message = format!("the recorded requests and replies need more than {} MiB of memory", LIMIT >> 20);
-            return Err(Problem::new(message).help("do not play the replier: name the components with `--as`"));
+            return Err(Problem::new(message).help("leave out the replier: name the components to play with `--as`"));
         }
     }
     Ok(answers)

@@ -50,7 +50,7 @@ impl Participants {
         };
         if played.is_empty() {
             return Err(Problem::new("nothing can be replayed: all recorded components are running")
-                .help("stop those that the replay is to replace, or replay into another system with `--system`")
+                .help("stop the components to be replayed, or replay into another system with `--system`")
                 .note(recorded()));
         }
         let cast = Self { system, played, running };

@@ -296,7 +296,8 @@ async fn answer(mut gate: Rep<Bytes, Bytes>, name: String, mut answers: Option<A
                     && let Some(answers) = &answers
                 {
                     print_err(&format!(
-                        "note: `{name}` is asked what was not recorded, and gives the oldest replies left: {}\n",
+                        "note: `{name}` received a request that was not recorded: {}; \
+                         such requests get the oldest unused replies\n",
                         shorten(&answers.shown(request.message()), SHOWN)
                     ));
                 }

@@ -104,7 +104,7 @@ impl ReplayReport {
         for gate in &self.answers {
             let _ = write!(text, "  {} answered {}", gate.gate, count(gate.answered, "request"));
             if gate.in_order > 0 {
-                let _ = write!(text, "; {} of them were never recorded and got the oldest replies left", gate.in_order);
+                let _ = write!(text, "; {} of them were not recorded and got the oldest unused replies", gate.in_order);
             }
             if gate.unanswered > 0 {
                 let _ = write!(text, "; the recording has no reply to {} more", gate.unanswered);

@@ -55,7 +55,7 @@ pub(super) fn route(plan: &SystemPlan, cast: &Participants, channel: &RecordedCh
         (Some(_), Some(absent)) => {
             let sender = if topic.part == Part::Request { "requesters" } else { "pushers" };
             let why = cast.why_not(&absent.peer_component);
-            Route::Skip(format!("it has several {sender}, which are not told apart, and {why}"))
+            Route::Skip(format!("it has several {sender}, which the recording does not distinguish, and {why}"))
         }
     })
 }

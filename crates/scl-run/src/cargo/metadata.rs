@@ -94,7 +94,7 @@ fn artifact(package: &Package, target: &Target, folder: &Path) -> Option<Artifac
 
 fn read(command: &mut Command) -> Result<Metadata, Problem> {
     command.args(["--no-deps", "--format-version", "1"]).stdin(Stdio::null());
-    let failed = |text: &str| Problem::new(format!("cannot find the programs of cargo: {text}"));
+    let failed = |text: &str| Problem::new(format!("cannot list the programs of the cargo package: {text}"));
     let output = command.output().map_err(|error| failed(&error.to_string()))?;
     if !output.status.success() {
         return Err(failed(String::from_utf8_lossy(&output.stderr).trim()));

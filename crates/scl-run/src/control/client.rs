@@ -88,7 +88,7 @@ impl ControlledRun {
         match error {
             NoAnswer::Ended => Problem::new(format!("`scl run`, process {process}, ended before it answered")),
             NoAnswer::Stopped => Problem::new(format!("`scl run`, process {process}, does not answer: it is stopped"))
-                .help(format!("let it go on: `kill -CONT {process}`"))
+                .help(format!("resume it: `kill -CONT {process}`"))
                 .help(kill),
             NoAnswer::Silent => {
                 let text = format!("`scl run`, process {process}, has not answered for {} s", PATIENCE.as_secs());
@@ -104,8 +104,8 @@ impl ControlledRun {
         let (running, meant) = running.zip(meant).filter(|(running, meant)| running != meant)?;
         let (running, meant, process) = (running.display(), meant.display(), self.process);
         let text = format!("`scl run`, process {process}, runs the system of `{running}`, not that of `{meant}`");
-        let problem = Problem::new(text).note("neither file has a `system`, so each system is called like its file");
-        Some(problem.help(format!("give it a name of its own: `system: ...` in `{meant}`")))
+        let problem = Problem::new(text).note("neither file has a `system`, so each system is named after its file");
+        Some(problem.help(format!("name it: `system: ...` in `{meant}`")))
     }
 
     fn try_ask(&self, command: Command, line: &str) -> Result<Response, NoAnswer> {

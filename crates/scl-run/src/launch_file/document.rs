@@ -127,7 +127,7 @@ pub fn check_launch_file(
     let of_topology = match (&found, document.topology()) {
         (LaunchTopology::Missing, Some((path, field))) => {
             let message = format!("the topology file does not exist: `{path}`");
-            Some(WRONG_VALUE.at(message, field.span, "").note("paths are from the folder of the launch file"))
+            Some(WRONG_VALUE.at(message, field.span, "").note("paths are relative to the folder of the launch file"))
         }
         (LaunchTopology::Wrong(path), _) => {
             let problem =

@@ -122,7 +122,9 @@ impl Reader<'_> {
         let note = match name {
             Deployment::AUTHORITY => "this is the folder of the authority that signs the certificates".to_owned(),
             _ if starts_well && name.len() <= LONGEST_NAME && name.chars().all(is_allowed) => return Some(()),
-            _ => format!("it has up to {LONGEST_NAME} letters, digits, `_` and `-`, and starts with a letter or digit"),
+            _ => format!(
+                "a host name has up to {LONGEST_NAME} letters, digits, `_` and `-`, and starts with a letter or digit"
+            ),
         };
         self.report(WRONG_NAME.at(format!("`{name}` cannot be the name of a host"), field.key_span, "").note(note));
         None

@@ -106,7 +106,7 @@ pub(super) const TOP: &[Key] = &[
     Key {
         name: "gateway",
         also: &["gateways", "bridge"],
-        form: Form::Other("a mapping with [keys of its own](#hosts)"),
+        form: Form::Other("a mapping with [its own keys](#hosts)"),
         default: "required with `hosts`",
         meaning: "How the gateways of the hosts reach each other. See [Hosts](#hosts).",
         ..KEY
@@ -130,7 +130,7 @@ pub(super) const TOP: &[Key] = &[
         name: "topology",
         form: PATH,
         default: "`topology.yaml`, if there is one",
-        meaning: "The topology file, from the folder of the launch file.",
+        meaning: "The topology file, relative to the folder of the launch file.",
         ..KEY
     },
     Key {
@@ -162,7 +162,7 @@ pub(super) const COMPONENT: &[Key] = &[
     Key {
         name: "build",
         default: "nothing",
-        meaning: "Makes the program. Runs before any component starts, in the component's folder.",
+        meaning: "Builds the program. Runs before any component starts, in the component's folder.",
         ..KEY
     },
     Key {
@@ -257,7 +257,7 @@ pub(super) const COMPONENT: &[Key] = &[
         also: &["respawn_delay", "restart_sec", "backoff"],
         form: Form::DelayRange,
         default: "`100ms..5s`",
-        meaning: "Time before a restart. It doubles with each one, and starts again after a minute without one.",
+        meaning: "Time before a restart. It doubles with each restart, and is reset after a minute without one.",
         in_defaults: true,
     },
     Key {
@@ -281,7 +281,7 @@ pub(super) const COMPONENT: &[Key] = &[
         also: &["folder", "directory", "cwd", "working_dir", "dir"],
         form: PATH,
         default: "the folder of the launch file",
-        meaning: "Where the program and its build run, from the folder of the launch file.",
+        meaning: "Where the program and its build run, relative to the folder of the launch file.",
         in_defaults: true,
     },
 ];
@@ -320,7 +320,7 @@ pub(super) const GATEWAY: &[Key] = &[
         also: &["keys", "certs", "tls"],
         form: PATH,
         default: "required, unless all hosts are on loopback",
-        meaning: "The folder with the certificates, from the folder of the launch file. `scl gateway keys` makes it.",
+        meaning: "The folder with the certificates, relative to the folder of the launch file. `scl gateway keys` makes it.",
         ..KEY
     },
     Key {

@@ -46,10 +46,10 @@ impl Operand {
     }
 }
 
-/// Adds to an error the hint that texts stand in quotes: `mode == AUTO`.
+/// Adds to an error the hint to put a text in quotes: `mode == AUTO`.
 fn or_a_text(error: Mismatch, operand: &Operand) -> Mismatch {
     let Operand::Field(path) = operand else { return error };
-    Mismatch { help: error.help.or_else(|| Some(format!("texts stand in quotes: `'{path}'`"))), ..error }
+    Mismatch { help: error.help.or_else(|| Some(format!("put a text in quotes: `'{path}'`"))), ..error }
 }
 
 /// The error about a field that stands alone, but is not a boolean.
@@ -100,7 +100,7 @@ fn check_comparison(
             format!("{}: they cannot be compared", kinds()),
             match (left_kind, right_kind) {
                 (FieldKind::Text | FieldKind::Enum(_), _) => Some("put a text in quotes: `'text'`"),
-                (_, FieldKind::Text | FieldKind::Enum(_)) => Some("only texts stand in quotes"),
+                (_, FieldKind::Text | FieldKind::Enum(_)) => Some("put only texts in quotes"),
                 (FieldKind::List(_), _) => Some("look for a value with `contains`, or name an element: `[0]`"),
                 _ => None,
             },

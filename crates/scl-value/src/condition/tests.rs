@@ -146,7 +146,7 @@ fn conditions_are_checked_against_the_type() {
         error: `mode` is the name of an enum value, which is neither true nor false
           = help: compare it, for example `mode == 'IDLE'`
         error: `speed` is a number, and `'fast'` is a text: they cannot be compared
-          = help: only texts stand in quotes
+          = help: put only texts in quotes
         error: `unit` is a text, and `3` is a number: they cannot be compared
           = help: put a text in quotes: `'text'`
         error: `mode` is the name of an enum value, and `1` is a number: they cannot be compared
@@ -155,7 +155,7 @@ fn conditions_are_checked_against_the_type() {
           = help: did you mean `'AUTO'`?
           = note: its names: `IDLE`, `AUTO`, `MANUAL`
         error: message `rover.Measurement` has no field `AUTO`
-          = help: texts stand in quotes: `'AUTO'`
+          = help: put a text in quotes: `'AUTO'`
           = note: its fields: `speed`, `position`, `i32`, `i64`, `u32`, `u64`, `s32`, `s64`, `f32`, `f64`, `sf32`, `sf64`, `on`, `unit`, `raw_data`, `mode`, `pose`, `samples`, `track`, `counts` and 8 more
         error: `on` is a boolean, which has no order
           = help: compare it with `==`

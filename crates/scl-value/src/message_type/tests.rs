@@ -279,7 +279,7 @@ fn a_wrong_value_is_named_with_its_field_and_type() {
     check_encode_error(
         "{raw_data: AA==, rawData: AA==}",
         expect![[r#"
-        error: the field `raw_data` is there twice
+        error: the field `raw_data` is given twice
     "#]],
     );
     check_encode_error(
@@ -382,7 +382,7 @@ fn payloads_without_a_known_type_are_shown_as_bytes() {
 fn a_protobuf_type_needs_its_description() {
     let new = |name, descriptors| MessageType::new(Some(name), "protobuf", descriptors).unwrap_err().to_string();
     assert_eq!(new("rover.Nothing", Some(descriptors())), "the schema has no message `rover.Nothing`");
-    assert!(new("rover.Point", None).starts_with("nothing describes the protobuf message `rover.Point`"));
+    assert!(new("rover.Point", None).starts_with("there is no schema for the protobuf message `rover.Point`"));
     assert!(new("rover.Point", Some(&[1, 2, 3])).starts_with("the schema cannot be read: "));
 }
 

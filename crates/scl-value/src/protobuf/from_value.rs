@@ -89,7 +89,7 @@ pub(super) fn unknown_field(message: &MessageDescriptor, name: &str) -> Mismatch
 /// Checks that a field is given only once, and only one field of a oneof.
 fn check_given(field: &FieldDescriptor, given: &[FieldDescriptor]) -> Result<(), Mismatch> {
     if given.contains(field) {
-        return Err(Mismatch::new(format!("the field `{}` is there twice", field.name())));
+        return Err(Mismatch::new(format!("the field `{}` is given twice", field.name())));
     }
     let Some(oneof) = field.containing_oneof() else { return Ok(()) };
     match given.iter().find(|other| other.containing_oneof().as_ref() == Some(&oneof)) {
@@ -122,7 +122,7 @@ fn read_field(field: &FieldDescriptor, value: &Value, unknown: &mut Unknown) -> 
             let key = map_key(&key_kind, key).map_err(|error| error.below(&name))?;
             let value = read_value(&value_kind, value, unknown).map_err(|error| error.below(&name))?;
             if map.insert(key, value).is_some() {
-                return Err(Mismatch::new("the key is there twice").below(&name));
+                return Err(Mismatch::new("the key is given twice").below(&name));
             }
         }
         return Ok(Field::Map(map));

@@ -20,7 +20,7 @@ pub struct ReadError {
 
 impl From<ReadError> for Problem {
     fn from(error: ReadError) -> Self {
-        Problem::new(error.to_string()).help("write for example '{speed: 1.0, unit: m/s}', in quotes of the shell")
+        Problem::new(error.to_string()).help("write for example '{speed: 1.0, unit: m/s}', quoted for the shell")
     }
 }
 

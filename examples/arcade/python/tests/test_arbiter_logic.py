@@ -243,7 +243,7 @@ def test_a_request_waits_for_the_first_word_of_the_autopilot() -> None:
     silent = World(heard=False)
     number = silent.request(MISSION, command(Order.ACTION_TAKE_OFF, 100, 0, 0, 5))
     silent.pass_time(1.1)
-    assert silent.replies[number].reason == "nothing was heard of the autopilot"
+    assert silent.replies[number].reason == "nothing was received from the autopilot"
 
 
 def test_a_silent_autopilot_is_reported_once() -> None:
@@ -252,7 +252,7 @@ def test_a_silent_autopilot_is_reported_once() -> None:
     assert world.said == ["no word from the autopilot for 1 s"]
     assert world.state == (MISSION, "the autopilot is silent (take off to 5.0 m)")
     world.fly()
-    assert world.said[1:] == ["the autopilot is heard again after 3.0 s"]
+    assert world.said[1:] == ["the autopilot sends again after 3.0 s"]
     assert world.state == (MISSION, "take off to 5.0 m")
 
 
@@ -285,10 +285,10 @@ def test_a_restarted_arbiter_goes_on() -> None:
     cases = [
         (100, (MISSION, "as before a restart of the arbiter"), []),
         (10_000, (GROUND, "as before a restart of the arbiter"), []),
-        (HOME + 1_000_003, (SAFETY, "going on after a restart of the arbiter"), [LANDING + 1_000_003]),
-        (HOME + 10_003, (GROUND, "going on after a restart of the arbiter"), [LANDING + 10_003]),
-        (LANDING + 10_003, (GROUND, "going on after a restart of the arbiter"), []),
-        (1_000_003, (SAFETY, "going on after a restart of the arbiter"), []),
+        (HOME + 1_000_003, (SAFETY, "continuing after a restart of the arbiter"), [LANDING + 1_000_003]),
+        (HOME + 10_003, (GROUND, "continuing after a restart of the arbiter"), [LANDING + 10_003]),
+        (LANDING + 10_003, (GROUND, "continuing after a restart of the arbiter"), []),
+        (1_000_003, (SAFETY, "continuing after a restart of the arbiter"), []),
         (0, (NOBODY, ""), []),
     ]
     for command_id, state, asked in cases:

@@ -160,7 +160,7 @@ def test_bad_readings_are_reported_once_and_do_not_count() -> None:
     ]
     assert monitor.power is not None
     assert math.isfinite(monitor.power.charge_left) and math.isfinite(monitor.power.voltage)
-    assert texts(monitor.update(2.0, reading(2.0, 0.49))) == ["the battery is read again after 1.9 s"]
+    assert texts(monitor.update(2.0, reading(2.0, 0.49))) == ["battery readings are back after 1.9 s"]
 
 
 def test_a_silent_sensor_is_extrapolated_down_to_the_landing() -> None:

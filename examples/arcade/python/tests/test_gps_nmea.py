@@ -110,5 +110,5 @@ def test_problems_are_reported_once_a_second(bench: Bench, capsys: pytest.Captur
     bench.reader.report()
     bench.reader.report()
     said = capsys.readouterr().out.splitlines()
-    assert said[2:] == ["3 sentences of no use: not a sentence", "1 sentence of no use: wrong checksum"]
+    assert said[2:] == ["3 unusable sentences: not a sentence", "1 unusable sentence: wrong checksum"]
     bench.disconnect(ends)

@@ -125,7 +125,7 @@ def test_a_mission_waits_while_others_command(others: Arbitration, line: str) ->
     # Even where its own waypoint is.
     assert progress.update(flight(112, 10_000, 3, 4, 5), others) == Decision()
     again = progress.update(flight(113, 10_000, 3, 4, 5), Arbitration())
-    assert again.lines == ["going on"]
+    assert again.lines == ["continuing"]
     assert again.command is not None
     assert again.command.id == 101
 

@@ -86,7 +86,7 @@ def test_a_black_box_that_is_stuck_delays_nobody(capsys: pytest.CaptureFixture[s
             assert report.text == f"records lost by power_management: {report.value:g}"
             found += report.value
         assert found == black_box.lost
-    assert capsys.readouterr().err.startswith("the black box takes no records; they get lost until it does")
+    assert capsys.readouterr().err.startswith("the black box does not take records; they are lost until it does")
 
 
 @pytest.mark.usefixtures("own_system")
@@ -95,7 +95,7 @@ def test_a_black_box_that_is_away_delays_nobody(capsys: pytest.CaptureFixture[st
         black_box = BlackBox(component.records, "power_management")
         for number in range(110):
             black_box.note(f"{number}")
-        assert capsys.readouterr().err == "the black box takes no records; they get lost until it does\n"
+        assert capsys.readouterr().err == "the black box does not take records; they are lost until it does\n"
         with Blackbox(signals=False) as restarted:
             assert restarted.records.recv(timeout=HANG_LIMIT).text == "10"
             black_box.note("again")

@@ -208,7 +208,7 @@ impl Recorder {
         }
         fs::rename(path, &moved).map_err(|error| self.refused(&cannot_move(&moved, &error)))?;
         let error = result.as_ref().err().map(ToString::to_string).unwrap_or_default();
-        self.say(&format!("is corrupt ({error}); it is now `{}`, and a new one begins", moved.display()));
+        self.say(&format!("is corrupt ({error}); it was moved to `{}`, and a new one begins", moved.display()));
         Ok(())
     }
 
@@ -236,7 +236,7 @@ impl Recorder {
     fn end_trouble(&mut self) {
         let lost = mem::take(&mut self.lost);
         if self.trouble.take().is_some() {
-            self.say(&format!("is written again; {lost} blocks were lost"));
+            self.say(&format!("can be written again; {lost} blocks were lost"));
         }
     }
 

@@ -12,7 +12,7 @@ pub fn declares(transport: &dyn Transport, tested: &[Guarantee]) {
     assert_eq!(
         transport.guarantees(),
         tested,
-        "the transport declares the left set, and the tests are for the right one"
+        "the transport declares the guarantees on the left, but is tested for those on the right"
     );
 }
 

@@ -32,7 +32,7 @@ pub async fn accepts_peers_when_detached(transport: &dyn Transport) {
     for pattern in PATTERNS {
         let mut sender = pattern.sender(transport);
         sender.detach();
-        assert!(!sender.turn_detached(), "{pattern:?}: connected to nobody");
+        assert!(!sender.turn_detached(), "{pattern:?}: connected without a receiver");
         sender.queue(numbered(20));
         let mut receiver = pattern.receiver(transport);
         for expected in numbered(20) {

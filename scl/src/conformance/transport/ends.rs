@@ -83,7 +83,7 @@ impl TestSender {
         self.watched.poll_with(test, |end, cx| end.poll_peer(cx)).map(|peer| {
             assert_eq!(peer.kind, PeerKind::Component, "an end of this transport is taken for a foreign program");
             self.peers += 1;
-            assert!(self.peers < MOST_PEERS, "a sending end returns peers without end");
+            assert!(self.peers < MOST_PEERS, "a sending end never stops returning peers");
             TestLink::new(peer.link)
         })
     }
@@ -170,7 +170,7 @@ impl TestLink {
         let result = self.watched.end.send(&mut Context::from_waker(&self.watched.waker), message);
         self.is_gone |= matches!(result, Sent::Gone(_));
         if let Some(returned) = result.returned() {
-            assert!(returned.as_slice() == sent, "`send` returned another message than the one it refused");
+            assert!(returned.as_slice() == sent, "`send` returned a different message from the one it refused");
             queue.push_front(returned);
             return false;
         }
@@ -188,7 +188,7 @@ impl TestLink {
             "`send_all` changed messages that it left in the queue"
         );
         let expected = before[..sent].iter().map(Bytes::len);
-        assert!(expected.eq(lengths), "`send_all` reported other lengths than those of the messages it sent");
+        assert!(expected.eq(lengths), "`send_all` reported lengths that differ from those of the messages it sent");
         self.refused = !queue.is_empty();
     }
 

@@ -134,7 +134,7 @@ fn give_up(pattern: Pattern, mut receiver: TestReceiver) -> TestReceiver {
         returned.send(receiver)
     });
     let receiver = gave_up.recv_timeout(PATIENCE);
-    receiver.unwrap_or_else(|_| panic!("{pattern:?}: `catch_up` waits longer than it was told to"))
+    receiver.unwrap_or_else(|_| panic!("{pattern:?}: `catch_up` waits longer than `within`"))
 }
 
 async fn connected(pattern: Pattern, transport: &dyn Transport) -> (TestSender, TestReceiver) {

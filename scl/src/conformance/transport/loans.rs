@@ -92,7 +92,7 @@ pub async fn takes_dropped_loans_back(transport: &dyn Transport) {
         let message = numbered_content(LENGTH, 7);
         let frame = filled(&mut sender, &mut receiver, &message).await;
         sender.queue_frame(frame);
-        assert!(receiver.next(&mut [&mut sender]).await == message, "{pattern:?}: another message than the last");
+        assert!(receiver.next(&mut [&mut sender]).await == message, "{pattern:?}: did not receive the last message");
     }
 }
 
@@ -144,7 +144,7 @@ async fn lent(sender: &mut TestSender, receiver: &mut TestReceiver, length: usiz
         }
     });
     let loan = loan.await;
-    assert_eq!(loan.len(), length, "lent another length than was asked for");
+    assert_eq!(loan.len(), length, "lent a different length from the requested one");
     loan
 }
 

@@ -65,7 +65,7 @@ pub async fn keeps_subscribers_independent(transport: &dyn Transport) {
             assert!(to_stalled.poll(cx, &mut waiting) && to_reading.poll(cx, &mut queue), "a link is broken");
             reading.poll(cx)
         });
-        assert_eq!(received.await, expected, "received something else beside a subscriber that does not read");
+        assert_eq!(received.await, expected, "received a wrong message while another subscriber does not read");
     }
     assert_eq!(waiting.len(), blocked_at, "messages were sent to a subscriber that does not read");
     assert_eq!(publisher.peers(), 2, "number of links for two subscribers");

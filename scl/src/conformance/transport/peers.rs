@@ -15,7 +15,7 @@ use std::task::{Context, Poll};
 pub async fn waits_for_a_late_peer(transport: &dyn Transport) {
     for pattern in PATTERNS {
         let mut sender = pattern.sender(transport);
-        turns(20, |cx| assert!(!sender.poll(cx), "{pattern:?}: connected to nobody")).await;
+        turns(20, |cx| assert!(!sender.poll(cx), "{pattern:?}: connected without a receiver")).await;
         let mut receiver = pattern.receiver(transport);
         connect(&mut sender, &mut receiver).await;
         check_carried(pattern, &mut sender, &mut receiver, &numbered(3)).await;
@@ -25,7 +25,7 @@ pub async fn waits_for_a_late_peer(transport: &dyn Transport) {
         drop(sender);
 
         let mut receiver = pattern.receiver(transport);
-        turns(20, |cx| assert!(receiver.poll(cx).is_pending(), "{pattern:?}: received from nobody")).await;
+        turns(20, |cx| assert!(receiver.poll(cx).is_pending(), "{pattern:?}: received without a sender")).await;
         let mut sender = pattern.sender(transport);
         check_carried(pattern, &mut sender, &mut receiver, &numbered(3)).await;
     }

@@ -206,7 +206,7 @@ impl Acceptor {
             match accepted.check_user(&mut checks) {
                 Ok(stream) if open + self.handshakes.len() < MOST_CONNECTIONS => self.start(stream),
                 Ok(_one_too_many) => {
-                    let reason = format!("{MOST_CONNECTIONS} peers are connected, which is the most for one gate");
+                    let reason = format!("{MOST_CONNECTIONS} peers are connected, the maximum for one gate");
                     self.crowd.log(&self.endpoint.name, &io::Error::other(reason));
                 }
                 Err(error) if error.kind() == io::ErrorKind::PermissionDenied => {

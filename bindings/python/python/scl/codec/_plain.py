@@ -33,11 +33,11 @@ def raise_refusal(gate: str, name: str, format: str, value: object, refused: tup
             if isinstance(part, int) and not _LEAST <= part <= _GREATEST:
                 raise EncodeError(f"{prefix}: the integer{place} is not between -2**63 and 2**64 - 1")
             if format == "JSON" and isinstance(part, float) and not math.isfinite(part):
-                raise EncodeError(f"{prefix}: `{part}`{place} is not a number of JSON")
+                raise EncodeError(f"{prefix}: `{part}`{place} is not a JSON number")
             if format == "JSON" and isinstance(part, dict):
                 for key in part:
                     if not isinstance(key, str | int):
-                        raise TypeError(f"{prefix}: a key{place} is {kind_of(key)}; JSON has `str` and `int` as keys")
+                        raise TypeError(f"{prefix}: a key{place} is {kind_of(key)}; JSON keys must be `str` or `int`")
     except RecursionError as error:
         raise EncodeError(f"{prefix}: it contains itself, or is nested too deeply") from error
 

@@ -150,7 +150,7 @@ fn children(diagnostic: &Diagnostic, sources: &Sources, unit: &CargoUnit) -> Vec
     let (sure, others): (Vec<&Fix>, Vec<&Fix>) = diagnostic.fixes.iter().partition(|fix| fix.sure);
     let mut helps: Vec<Value> = diagnostic.helps.iter().map(|help| child("help", &format!("help: {help}"))).collect();
     if helps.is_empty() && !sure.is_empty() {
-        helps.push(child("help", "help: this is certainly meant"));
+        helps.push(child("help", "help: apply this fix"));
     }
     if let Some(first) = helps.first_mut() {
         first["spans"] = sure.into_iter().map(|fix| replacement(fix, sources, unit)).collect();

@@ -76,7 +76,7 @@ gateway: {prt: 7447, insecure: yes}
             6 |   a b: {address: 192.0.2.30, components: [sensor]}
               |   ^^^
               |
-              = note: it has up to 63 letters, digits, `_` and `-`, and starts with a letter or digit
+              = note: a host name has up to 63 letters, digits, `_` and `-`, and starts with a letter or digit
 
             error: [SCL1207] `authority` cannot be the name of a host
              --> ./launch.yaml:7:3
@@ -171,7 +171,7 @@ gateway: {port: 7447}
             5 |   ground: {address: 192.0.2.10, components: [sensor, sensor]}
               |                     ^^^^^^^^^^
               |
-              = help: on one machine, give each a `port` of its own
+              = help: on one machine, give each its own `port`
 
             error: [SCL1208] component `sensor` is on two hosts, `board` and `ground`
              --> ./launch.yaml:5:46
@@ -200,7 +200,7 @@ gateway: {port: 7447}
         &[("launch.yaml", one)],
         &["run"],
         &expect![[r#"
-            error: [SCL1204] `gateway` is missing, which the hosts need
+            error: [SCL1204] `gateway` is missing, but `hosts` needs it
              --> ./launch.yaml:2:1
               |
             2 | hosts: {a: {address: 0.0.0.0, components: [sensor, display]}}

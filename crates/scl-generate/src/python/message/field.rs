@@ -64,7 +64,7 @@ impl<'a> Field<'a> {
     pub(super) fn write(&self, messages: &Messages<'_>, comment: Option<&str>, is_first: &mut bool, out: &mut Writer) {
         separate(is_first, out);
         if !names::is_attribute(self.name) {
-            out.line(format!("# {0}: no attribute of Python, so `getattr(message, \"{0}\")`", self.name));
+            out.line(format!("# {0}: not usable as an attribute name; use `getattr(message, \"{0}\")`", self.name));
         } else if self.is_changed_in_place {
             out.line(format!("@{}", messages.names.builtin("property", messages.imports)));
             match comment {

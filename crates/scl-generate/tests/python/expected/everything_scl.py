@@ -671,7 +671,7 @@ if TYPE_CHECKING:
         @_builtins.property
         def any_object(self) -> _struct_pb2.Struct: ...
 
-        # from: no attribute of Python, so `getattr(message, "from")`
+        # from: not usable as an attribute name; use `getattr(message, "from")`
 
         self: _builtins.str
 
@@ -822,7 +822,7 @@ if TYPE_CHECKING:
     class Word(_Enum):
         """Names of Python and of protobuf."""
 
-        # None: no attribute of Python
+        # None: not usable as an attribute name
         Nothing: _ClassVar[_type_Word]
         MINUS: _ClassVar[_type_Word]
         """Less than that."""
@@ -888,15 +888,15 @@ if TYPE_CHECKING:
 
         property: _builtins.str
 
-        # DESCRIPTOR: no attribute of Python, so `getattr(message, "DESCRIPTOR")`
+        # DESCRIPTOR: not usable as an attribute name; use `getattr(message, "DESCRIPTOR")`
 
-        # __hidden: no attribute of Python, so `getattr(message, "__hidden")`
+        # __hidden: not usable as an attribute name; use `getattr(message, "__hidden")`
 
-        # HasField: no attribute of Python, so `getattr(message, "HasField")`
+        # HasField: not usable as an attribute name; use `getattr(message, "HasField")`
 
         word: _type_Word
 
-        # class: no attribute of Python, so `getattr(message, "class")`
+        # class: not usable as an attribute name; use `getattr(message, "class")`
 
         @_builtins.property
         def inner_word(self) -> Old.Word: ...
@@ -955,7 +955,7 @@ if TYPE_CHECKING:
 
     @_final
     class class_(_Message):
-        # else: no attribute of Python, so `getattr(message, "else")`
+        # else: not usable as an attribute name; use `getattr(message, "else")`
 
         otherwise: _builtins.bool
 

@@ -214,7 +214,7 @@ if TYPE_CHECKING:
 
     @_final
     class Setpoint(_Message):
-        """What the motors shall do."""
+        """What the motors should do."""
 
         throttle: float
         """From -1 (full back) to 1 (full ahead)."""
@@ -229,7 +229,7 @@ if TYPE_CHECKING:
 
     @_final
     class Event(_Message):
-        """Something worth telling."""
+        """Something worth reporting."""
 
         text: str
 
@@ -243,7 +243,7 @@ if TYPE_CHECKING:
 
     @_final
     class Command(_Message):
-        """A wish of the user."""
+        """A request from the user."""
 
         target_speed: float
         """Metres a second."""
@@ -258,7 +258,7 @@ if TYPE_CHECKING:
 
     @_final
     class Status(_Message):
-        """What became of it."""
+        """The result of a command."""
 
         accepted: bool
 

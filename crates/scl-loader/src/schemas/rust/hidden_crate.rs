@@ -38,7 +38,7 @@ pub(in crate::schemas) fn find_hidden_crates(
             HIDDEN_CRATE
                 .at(headline, entry, "declared because of this line")
                 .labels(place.map(|span| (span, format!("becomes `{module}`"))))
-                .help(format!("call the macro in a module of its own: `{call}`; or choose another package"))
+                .help(format!("call the macro in a separate module: `{call}`; or choose another package"))
                 .note(format!("if it is in one already, allow this: `# scl: allow({})`", HIDDEN_CRATE.code)),
         );
     }

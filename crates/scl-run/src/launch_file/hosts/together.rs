@@ -54,7 +54,7 @@ impl Reader<'_> {
     /// addresses other than loopback are not used without certificates unless `insecure` allows it.
     pub(super) fn check_addresses(&mut self, hosts: &[HostEntry], gateway: Option<&Gateway>, place: Span) {
         let Some(gateway) = gateway else {
-            let problem = MISSING.at("`gateway` is missing, which the hosts need", place, "");
+            let problem = MISSING.at("`gateway` is missing, but `hosts` needs it", place, "");
             return self.report(problem.help(GATEWAY_EXAMPLE));
         };
         if !gateway.has_port && hosts.iter().any(|host| !host.has_port) {
@@ -71,7 +71,7 @@ impl Reader<'_> {
                 let message =
                     format!("the hosts `{}` and `{}` have the same address, `{address}`", known.name, host.name);
                 let problem = HOSTS.at(message, place, "").label(*first, "first here");
-                self.report(problem.help("on one machine, give each a `port` of its own"));
+                self.report(problem.help("on one machine, give each its own `port`"));
             }
             seen.push((host, place));
         }

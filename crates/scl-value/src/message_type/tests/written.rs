@@ -111,7 +111,7 @@ fn texts_names_and_keys_are_taken_as_they_are_written() {
         {raw_data: 0x10} -> field `raw_data`: expected bytes as base64, found 0x10 (as base64, these bytes are 'EA==')
         {counts: {0x10: 1, 1.10: 2, ~: 3, True: 4, 1e3: 5, 017: 6}} -> {"counts":{"017":6,"0x10":1,"1.10":2,"1e3":5,"True":4,"~":3}}
         {points: {0x10: {x: 1}}} -> {"points":{"16":{"x":1.0,"y":0.0}}}
-        {points: {16: {}, 0x10: {}}} -> field `points[0x10]`: the key is there twice
+        {points: {16: {}, 0x10: {}}} -> field `points[0x10]`: the key is given twice
         {flags: {True: a}} -> {"flags":{"true":"a"}}
         {0x10: 1} -> message `rover.Measurement` has no field `0x10`
         {mode: 0x2} -> {"mode":"MANUAL"}

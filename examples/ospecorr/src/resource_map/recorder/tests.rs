@@ -180,7 +180,7 @@ fn while_another_process_writes_observations_wait_and_queries_are_answered() {
 
     other.execute_batch("COMMIT").unwrap();
     bench.record(115..116);
-    assert_eq!(bench.reported(), ["the database `map.sqlite` is written again; 0 blocks were lost"]);
+    assert_eq!(bench.reported(), ["the database `map.sqlite` can be written again; 0 blocks were lost"]);
     bench.restart();
     bench.record(116..117);
     assert_eq!(bench.count(60.0, 116), Ok(17));
@@ -198,7 +198,7 @@ fn what_waits_in_memory_is_bounded() {
     bench.recorder.flush(201 * SECOND).unwrap();
     other.execute_batch("COMMIT").unwrap();
     bench.recorder.flush(201 * SECOND).unwrap();
-    assert_eq!(bench.reported()[1], "the database `map.sqlite` is written again; 7 blocks were lost");
+    assert_eq!(bench.reported()[1], "the database `map.sqlite` can be written again; 7 blocks were lost");
     assert_eq!(bench.count(2.0, 201), Ok(MOST_HELD as u32));
 }
 
@@ -278,7 +278,7 @@ fn a_text_file_is_moved_aside() {
     bench.record(0..1);
     assert_eq!(
         bench.reported(),
-        ["the database `map.sqlite` is corrupt (file is not a database); it is now `map.sqlite.corrupt-1`, \
+        ["the database `map.sqlite` is corrupt (file is not a database); it was moved to `map.sqlite.corrupt-1`, \
           and a new one begins"]
     );
     assert_eq!(bench.count(1.0, 0), Ok(1));

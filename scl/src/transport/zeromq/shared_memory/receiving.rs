@@ -54,7 +54,7 @@ impl Arriving {
         let message = receiver.receive(length).map_err(|error| wrong(&error))?;
         if receiver.copied() > copied && receiver.copied().is_power_of_two() {
             let count = receiver.copied();
-            tracing::warn!("copying messages from shared memory, {count} so far: too many are kept by the program");
+            tracing::warn!("copying messages from shared memory, {count} so far: the program holds too many of them");
         }
         self.unacknowledged += 1;
         Ok((message, 2 * self.unacknowledged >= receiver.in_flight()))

@@ -71,5 +71,5 @@ async fn connections_beyond_the_limit_are_closed_and_logged_once() {
     assert_eq!(greeting, [1, 0, 0]);
     let warnings = warnings.0.lock().unwrap();
     let [warning] = &warnings[..] else { panic!("{warnings:?}") };
-    assert!(warning.contains("error=1024 peers are connected, which is the most for one gate"), "{warning}");
+    assert!(warning.contains("error=1024 peers are connected, the maximum for one gate"), "{warning}");
 }
