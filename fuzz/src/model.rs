@@ -60,7 +60,7 @@ impl Reader<'_, '_> {
         let payload = if self.bytes.ratio(1, 2)? { Some(self.one_of(&TYPES)?) } else { None };
         let mut gate = GateModel { name, kind, payload, options: Vec::new(), span: self.span()? };
         for _ in 0..self.bytes.int_in_range(0..=3)? {
-            let option = self.bytes.choose(&OPTIONS)?;
+            let option = self.bytes.choose(OPTIONS)?;
             let value = if self.bytes.ratio(1, 2)? { option.example() } else { *self.bytes.choose(&VALUES)? };
             let (key, value) = (self.spanned(option.key.to_owned())?, self.spanned(value.to_owned())?);
             gate.options.push(OptionModel { key, value, quoted: false });

@@ -83,7 +83,7 @@ fn unknown_word(written: &str, word: &str) -> String {
 /// The rules about topologies, and those about launch files if this program reads such files.
 pub(crate) fn all_rules() -> Vec<&'static Rule> {
     #[cfg(feature = "run")]
-    let of_launch_files = &scl_run::LAUNCH_RULES[..];
+    let of_launch_files = scl_run::LAUNCH_RULES;
     #[cfg(not(feature = "run"))]
     let of_launch_files = &[][..];
     [&ALL[..], of_launch_files].concat()

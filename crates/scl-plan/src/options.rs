@@ -52,14 +52,14 @@ impl GateOptions {
         queue: u32::MAX,
         when_full: WhenFull::Wait,
         backpressure: true,
-        latched: false,
         timeout: Duration::from_secs(10),
         in_flight: 64,
         undecodable: Undecodable::Fail,
+        ..Self::DEFAULT
     };
 
     /// All of them, in the order of the JSON text.
-    pub const ALL: [OptionField; 8] = [
+    pub const ALL: &[OptionField] = &[
         field("max_size", OptionAccess::Size(|options| &mut options.max_size)),
         field("queue", OptionAccess::Number(|options| &mut options.queue)),
         field("when_full", OptionAccess::Policy(|options| &mut options.when_full)),
@@ -119,6 +119,6 @@ mod tests {
         let debug = format!("{:?}", GateOptions::DEFAULT);
         let fields: Vec<&str> =
             debug.split([',', '{']).filter_map(|part| part.split_once(": ")).map(|it| it.0.trim()).collect();
-        assert_eq!(fields, GateOptions::ALL.map(|option| option.key));
+        assert_eq!(fields, GateOptions::ALL.iter().map(|option| option.key).collect::<Vec<_>>());
     }
 }

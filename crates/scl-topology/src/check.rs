@@ -61,7 +61,7 @@ pub use all_rules::{ALL, find};
 pub use unknown_component::UNKNOWN as UNKNOWN_COMPONENT;
 
 /// The rules of this stage, by their codes.
-pub(crate) const RULES: [&Rule; 63] = [
+pub(crate) const RULES: &[&Rule] = &[
     &duplicate_name::COMPONENT,
     &duplicate_name::GATE,
     &name_spelling::CHARACTERS,

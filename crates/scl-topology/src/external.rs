@@ -4,7 +4,7 @@
 use crate::diagnostic::{Rule, Severity};
 
 /// All of them, by their codes.
-pub(crate) const RULES: [&Rule; 21] = [
+pub(crate) const RULES: &[&Rule] = &[
     &FILE_NOT_FOUND,
     &UNREADABLE_FILE,
     &NOT_UTF8,

@@ -40,7 +40,7 @@ fn expand_gate(private: &TokenStream, gate: &GatePlan) -> TokenStream {
 
 /// The options that differ from their defaults.
 fn expand_options(private: &TokenStream, options: &GateOptions) -> TokenStream {
-    let fields = GateOptions::ALL.into_iter().filter_map(|option| {
+    let fields = GateOptions::ALL.iter().filter_map(|option| {
         let [ours, default] =
             [options, &GateOptions::DEFAULT].map(|it| expand_option(private, it.clone(), option.access));
         let name = format_ident!("{}", option.key);

@@ -97,11 +97,11 @@ fn component(at: &At<'_>, system: &str, schemas: &[Schema]) -> Result<Plan, Plan
 
 fn gate(at: &At<'_>) -> Result<GatePlan, PlanError> {
     let own = ["name", "kind", "payload", "codec", "declared_at", "endpoint", "tap", "contract", "connections"];
-    let known: Vec<&str> = own.into_iter().chain(GateOptions::ALL.map(|option| option.json)).collect();
+    let known: Vec<&str> = own.into_iter().chain(GateOptions::ALL.iter().map(|option| option.json)).collect();
     let fields = at.object(&known)?;
     let mut options = GateOptions::DEFAULT;
     // An option that is missing, as in a recording made with an earlier release, keeps its default.
-    for option in GateOptions::ALL.into_iter().filter(|option| fields.has(option.json)) {
+    for option in GateOptions::ALL.iter().filter(|option| fields.has(option.json)) {
         read_option(&fields.field(option.json)?, option.access, &mut options)?;
     }
     Ok(GatePlan {

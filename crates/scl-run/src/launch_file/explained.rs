@@ -52,7 +52,7 @@ fn without_links(text: &str) -> String {
 
 /// Returns the explanation of a rule about launch files as Markdown, or `None` if no rule has this code.
 pub fn explain_launch_rule(code: &str) -> Option<String> {
-    let rule = LAUNCH_RULES.into_iter().find(|rule| rule.code == code)?;
+    let rule = LAUNCH_RULES.iter().find(|rule| rule.code == code)?;
     Some(format!("# {}", entry(rule, "yaml", told)))
 }
 

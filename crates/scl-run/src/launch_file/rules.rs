@@ -131,7 +131,7 @@ pub(super) const UNCHECKED: Rule = Rule {
 };
 
 /// All rules, in the order of their codes.
-pub const LAUNCH_RULES: [&Rule; 9] = [
+pub const LAUNCH_RULES: &[&Rule] = &[
     &UNKNOWN_KEY,
     &WRONG_VALUE,
     &WRONG_SHAPE,

@@ -23,8 +23,7 @@ fn topologies() -> impl Iterator<Item = &'static Rule> {
 }
 
 #[test]
-fn every_code_of_the_design_is_there_once() {
-    assert_eq!(ALL.len(), 130);
+fn every_rule_has_a_code_of_its_own_and_an_explanation() {
     assert!(ALL.windows(2).all(|pair| pair[0].code < pair[1].code));
     for rule in ALL.iter() {
         let sentences = rule.explanation.matches(['.', '?']).count();

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 /// All rules, sorted by code.
 pub static ALL: LazyLock<Vec<&'static Rule>> = LazyLock::new(|| {
-    let groups = [&parse::PITFALLS[..], &parse::SHAPES, &RULES, &[&diagnostic::TOO_MANY], &external::RULES];
+    let groups = [parse::PITFALLS, parse::SHAPES, RULES, &[&diagnostic::TOO_MANY], external::RULES];
     let mut all = groups.concat();
     all.sort_by_key(|rule| rule.code);
     all

@@ -1,6 +1,6 @@
 //! Helpers for the tests of the rules: a text goes in, the messages that users read come out.
 
-use super::{Facts, SchemaMessages, check};
+use super::{Facts, SchemaMessages, check, find};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity, render};
 use crate::parse::parse;
 use crate::socket_paths::SocketPaths;
@@ -96,5 +96,8 @@ fn run(yaml: &str, messages: Option<&[&str]>) -> (Option<Topology>, Vec<Diagnost
         problems.has_errors(),
         "a topology comes out exactly when there is no error: {yaml}"
     );
-    (topology, problems.into_sorted(), sources)
+    let found = problems.into_sorted();
+    let unlisted = found.iter().find(|found| find(found.code()).is_none());
+    assert!(unlisted.is_none(), "the rule of this problem is missing from the list of its stage: {unlisted:?}");
+    (topology, found, sources)
 }

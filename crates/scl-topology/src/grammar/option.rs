@@ -52,7 +52,7 @@ const NO_QUEUE: &[(&[GateKind], &str)] = &[
 ];
 
 /// All options, in the order in which messages list them.
-pub static OPTIONS: [GateOption; 12] = [
+pub static OPTIONS: &[GateOption] = &[
     GateOption {
         key: "doc",
         shape: Shape::Text,
@@ -293,7 +293,7 @@ impl GateOption {
     }
 
     fn home(&self) -> Home {
-        match scl_plan::GateOptions::ALL.into_iter().find(|field| field.key == self.key) {
+        match scl_plan::GateOptions::ALL.iter().find(|field| field.key == self.key) {
             Some(field) => Home::Program(field.access),
             None if self.key == "share" => Home::Share,
             None if self.key == "unconnected" => Home::Unconnected,
@@ -326,7 +326,7 @@ mod tests {
 
     #[test]
     fn values_are_read_back_as_they_were_stored() {
-        for option in &OPTIONS {
+        for option in OPTIONS {
             let key = option.key;
             assert!(option.shape.fits(option.example(), true), "{key}: {}", option.example());
             let mut options = DeclaredOptions::default();
@@ -360,7 +360,7 @@ mod tests {
 
     #[test]
     fn a_kind_has_an_option_or_a_reason_not_to() {
-        for option in &OPTIONS {
+        for option in OPTIONS {
             for kind in GateKind::ALL {
                 assert!(!option.fits(kind) || option.reason(kind).is_none(), "{} of {}", option.key, kind.word());
             }

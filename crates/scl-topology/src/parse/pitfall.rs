@@ -28,7 +28,7 @@ use crate::source::SourceFile;
 use crate::yaml::Tree;
 
 /// All of them, by their codes.
-pub(crate) const RULES: [&Rule; 29] = [
+pub(crate) const RULES: &[&Rule] = &[
     &tab::INDENT,
     &bracket::RULE,
     &missing_space::RULE,

@@ -18,7 +18,7 @@ use crate::suggest::similar;
 use scl_text::list::quoted_list;
 
 /// All of them, by their codes.
-pub(crate) const RULES: [&Rule; 16] = [
+pub(crate) const RULES: &[&Rule] = &[
     &top_level::RULE,
     &unknown_key::SECTION,
     &missing::SECTION,

@@ -94,7 +94,7 @@ fn the_schema_accepts_every_valid_topology_of_the_project() {
 fn variants() -> Vec<String> {
     let mut texts = Vec::new();
     for value in VALUES {
-        for option in &OPTIONS {
+        for option in OPTIONS {
             let other = GateKind::ALL.into_iter().find(|&kind| !option.fits(kind));
             for kind in option.kinds.iter().take(1).copied().chain(other) {
                 let payload = if kind.exchanges() { "A -> B" } else { "T" };
