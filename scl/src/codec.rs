@@ -30,34 +30,18 @@ mod protobuf;
 #[cfg(feature = "raw")]
 mod raw;
 
-#[cfg(any(feature = "json", feature = "cbor", feature = "msgpack", feature = "postcard"))]
-use bytes::BufMut;
-use bytes::{Bytes, BytesMut};
+use bytes::{BufMut, Bytes, BytesMut};
 
-#[cfg(feature = "postcard")]
-pub use self::postcard::Postcard;
-#[cfg(feature = "cbor")]
-pub use cbor::Cbor;
 pub use error::{DecodeError, EncodeError};
-#[cfg(feature = "json")]
-pub use json::Json;
-#[cfg(feature = "msgpack")]
-pub use msgpack::Msgpack;
 pub use opaque::Opaque;
-#[cfg(feature = "protobuf")]
-pub use protobuf::Protobuf;
-#[cfg(feature = "raw")]
-pub use raw::Raw;
 
-/// The codecs under the names that generated code uses, including those whose cargo feature is off.
-#[doc(hidden)]
-pub mod by_name {
-    codec!("protobuf" Protobuf protobuf_is_on protobuf_stand_in protobuf_off);
-    codec!("json" Json json_is_on json_stand_in json_off);
-    codec!("cbor" Cbor cbor_is_on cbor_stand_in cbor_off);
-    codec!("msgpack" Msgpack msgpack_is_on msgpack_stand_in msgpack_off);
-    codec!("postcard" Postcard postcard_is_on postcard_stand_in postcard_off);
-    codec!("raw" Raw raw_is_on raw_stand_in raw_off);
+codecs! {
+    "protobuf" protobuf Protobuf
+    "json" json Json
+    "cbor" cbor Cbor
+    "msgpack" msgpack Msgpack
+    "postcard" postcard Postcard
+    "raw" raw Raw
 }
 
 /// Encodes messages of type `T` into bytes and decodes them.
@@ -148,7 +132,7 @@ pub trait Codec<T>: Send + Sync + 'static {
 }
 
 /// Appends an encoding to the buffer, or leaves the buffer as it was.
-#[cfg(any(feature = "json", feature = "cbor", feature = "msgpack", feature = "postcard"))]
+#[allow(dead_code, reason = "the codecs that use it may be off")]
 fn encode_with<E>(
     buffer: &mut BytesMut,
     encode: impl FnOnce(bytes::buf::Writer<&mut BytesMut>) -> Result<(), E>,

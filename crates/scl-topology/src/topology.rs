@@ -162,7 +162,7 @@ impl Gate {
     pub fn payload(&self) -> &Payload {
         &self.payload
     }
-    /// How messages become bytes; [`Codec::Raw`] for a gate without a type.
+    /// How messages become bytes; [`Codec::RAW`] for a gate without a type.
     pub fn codec(&self) -> &Codec {
         &self.codec
     }

@@ -83,8 +83,8 @@ impl<'a> CodecTraits<'a> {
             self.all.iter().filter(|it| !matches!(it.codec, Codec::Path(_))).map(|it| it.codec.word()).collect();
         let private = &context.private;
         let checks = built_in.into_iter().map(|word| {
-            let check = format_ident!("{word}_is_on");
-            quote_spanned!(context.span => const _: () = #private::codecs::#check();)
+            let codec = format_ident!("{word}");
+            quote_spanned!(context.span => const _: () = #private::codecs::#codec::is_on();)
         });
         quote!(#(#traits)* #stand_ins #(#checks)*)
     }

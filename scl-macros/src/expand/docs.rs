@@ -121,7 +121,7 @@ fn summary(doc: Option<&str>, gates: &[GateDoc]) -> String {
 }
 
 fn options(gate: &Gate) -> Vec<String> {
-    let default_codec = if *gate.payload() == Payload::Bytes { Codec::Raw } else { Codec::DEFAULT };
+    let default_codec = if *gate.payload() == Payload::Bytes { Codec::RAW } else { Codec::DEFAULT };
     let codec = (*gate.codec() != default_codec).then(|| ("codec", gate.codec().word().to_owned()));
     let others = OPTIONS.iter().filter_map(|option| {
         let value = option.get(gate.options()).filter(|value| option.default().as_ref() != Some(value))?;

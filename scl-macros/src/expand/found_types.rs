@@ -185,8 +185,8 @@ pub(super) fn expand_stand_in_codecs<'t>(
         .collect();
     let not_found = &lookups.not_found;
     let codecs = codecs.into_iter().map(|(word, codec)| {
-        let stand_in = format_ident!("{word}_stand_in");
-        quote_spanned!(context.span => #private::codecs::#stand_in!(#codec, #not_found);)
+        let module = format_ident!("{word}");
+        quote_spanned!(context.span => #private::codecs::#module::stand_in!(#codec, #not_found);)
     });
     quote!(#(#codecs)*)
 }

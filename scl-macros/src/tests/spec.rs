@@ -43,8 +43,8 @@ connections:
         fn subscriber (__opener : & mut scl :: private :: Opener , __index : usize ,) -> :: core :: result :: Result < scl :: private :: Sub < Self > , scl :: private :: OpenError > {
         __opener . subscriber :: < Message , scl :: private :: codecs :: Protobuf > (__index) }
         }
-        scl :: private :: codecs :: protobuf_stand_in ! (scl :: private :: codecs :: Protobuf , __scl_type_not_found_t_yaml_sensor) ;
-        const _ : () = scl :: private :: codecs :: protobuf_is_on () ;
+        scl :: private :: codecs :: protobuf :: stand_in ! (scl :: private :: codecs :: Protobuf , __scl_type_not_found_t_yaml_sensor) ;
+        const _ : () = scl :: private :: codecs :: protobuf :: is_on () ;
         # [diagnostic :: on_unimplemented (message = "[SCL0609] cannot find the Rust type `rover::Measurement`" , label = "used by the gate `sensor.measurements`" , note = "add the crate `rover` to the dependencies, or bring a module `rover` into scope with `use`" , note = "the type is named here\n --> t.yaml:5:29\n  |\n5 |       - measurements: {{pub: rover.Measurement, doc: One reading per period.}}\n  |                             ^^^^^^^^^^^^^^^^^")] trait TypeIsFound_0 {
         }
         # [diagnostic :: do_not_recommend] impl < Type : :: core :: marker :: Unpin > TypeIsFound_0 for (Type ,) {

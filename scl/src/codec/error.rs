@@ -55,7 +55,7 @@ macro_rules! codec_error {
 codec_error!(EncodeError);
 codec_error!(DecodeError);
 
-#[cfg(any(feature = "json", feature = "cbor", feature = "msgpack", feature = "postcard", feature = "protobuf"))]
+#[allow(dead_code, reason = "the codecs that use it may be off")]
 impl DecodeError {
     /// Creates the error for a frame of `length` bytes that does not decode as `what`.
     pub(crate) fn not_a(what: &str, codec: &'static str, length: usize, source: impl Into<Cause>) -> Self {

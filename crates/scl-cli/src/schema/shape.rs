@@ -1,7 +1,7 @@
 //! The schema of a single value.
 
 use scl_text::{duration, size};
-use scl_topology::grammar::{Codec, CodecRow, Shape};
+use scl_topology::grammar::{Codec, Shape};
 use serde_json::{Value, json};
 
 /// Pattern of a Rust path with at least one `::`.
@@ -37,9 +37,8 @@ pub(super) fn shape_schema(shape: Shape) -> Value {
 
 /// A codec of the framework, or a Rust path to one of the user's own.
 fn codec_schema() -> Value {
-    let rows: Vec<&CodecRow> = Codec::BUILT_IN.iter().filter_map(Codec::row).collect();
-    let words: Vec<&str> = rows.iter().map(|row| row.word).collect();
-    let summaries: Vec<&str> = rows.iter().map(|row| row.summary).collect();
+    let words: Vec<&str> = Codec::words().collect();
+    let summaries: Vec<&str> = Codec::BUILT_IN.iter().map(|row| row.summary).collect();
     json!({
         "anyOf": [
             { "type": "string", "enum": words, "enumDescriptions": summaries },

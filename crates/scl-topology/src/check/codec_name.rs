@@ -67,7 +67,7 @@ fn report(written: &Spanned<String>) -> Diagnostic {
     let label = keyword.map_or_else(String::new, |word| format!("`{word}` is a keyword of Rust"));
     let found = RULE.at(headline, written.span, label);
     let lower = written.value.to_lowercase();
-    let mut rows = Codec::BUILT_IN.iter().filter_map(Codec::row);
+    let mut rows = Codec::BUILT_IN.iter();
     let synonym = rows.find(|row| row.synonyms.contains(&lower.as_str())).map(|row| vec![row.word]);
     let meant = synonym.unwrap_or_else(|| similar(&written.value, Codec::words()));
     let path = written.value.contains('.').then(|| written.value.replace('.', "::"));

@@ -32,7 +32,7 @@ fn connection(link: &super::draft::Link<'_>) -> Option<Connection> {
 fn finish_gate(gate: &DraftGate<'_>, default_codec: &Codec) -> Option<Gate> {
     let payload = gate.payload.clone()?;
     let codec = match (&payload, &gate.codec) {
-        (Payload::Bytes, _) => Codec::Raw,
+        (Payload::Bytes, _) => Codec::RAW,
         (_, Some(codec)) => codec.value.clone(),
         (_, None) => default_codec.clone(),
     };

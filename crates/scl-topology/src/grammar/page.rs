@@ -25,7 +25,7 @@ pub fn entries() -> Vec<Entry> {
     all.extend(GateKind::ALL.map(of_kind));
     all.extend(OPTIONS.iter().map(of_option));
     all.extend(POLICIES.iter().map(of_policy));
-    all.extend(Codec::BUILT_IN.iter().filter_map(Codec::row).map(of_codec));
+    all.extend(Codec::BUILT_IN.iter().map(of_codec));
     all
 }
 
@@ -157,7 +157,7 @@ fn policy_table() -> String {
 }
 
 fn codec_table() -> String {
-    let rows = Codec::BUILT_IN.iter().filter_map(Codec::row).map(|codec| {
+    let rows = Codec::BUILT_IN.iter().map(|codec| {
         let mark = if codec.is_default_feature { " *" } else { "" };
         row(&[&format!("`{}`{mark}", codec.word), codec.messages, codec.summary])
     });
