@@ -146,7 +146,7 @@ impl OpenOptions {
         let mut choice = match self.transport_kind {
             Some(default) => TransportChoice { default, ..TransportChoice::default() },
             None => {
-                environment::read(variables, "SCL_TRANSPORT", TransportChoice::EXPECTED, parse)?.unwrap_or_default()
+                environment::read(variables, "SCL_TRANSPORT", TransportChoice::expected(), parse)?.unwrap_or_default()
             }
         };
         choice.of_gates.extend(self.transport_of.iter().cloned());
@@ -218,7 +218,7 @@ mod tests {
             let found = refused(options.transport_choice(&table("SCL_TRANSPORT", value)));
             let expected = match expected {
                 Ok(text) => Ok(text.parse().unwrap()),
-                Err(value) => Err(format!("{value}, not {}", TransportChoice::EXPECTED)),
+                Err(value) => Err(format!("{value}, not {}", TransportChoice::expected())),
             };
             assert_eq!(found, expected, "{options:?} {value:?}");
         }

@@ -2,7 +2,9 @@
 
 use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::transport_kind::TransportKind;
+use scl_text::list::either;
 use std::str::FromStr;
+use std::sync::LazyLock;
 
 /// The transports of a system's connections, as in `SCL_TRANSPORT`: one for all, then exceptions by gate.
 ///
@@ -25,7 +27,7 @@ pub struct TransportChoice {
 
 /// A text is not a [`TransportChoice`].
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{part}` is not understood; expected {}", TransportChoice::EXPECTED)]
+#[error("`{part}` is not understood; expected {}", TransportChoice::expected())]
 pub struct TransportChoiceError {
     /// The part of the text that is wrong.
     part: String,
@@ -53,8 +55,13 @@ impl FromStr for TransportChoice {
 }
 
 impl TransportChoice {
-    /// The values of `SCL_TRANSPORT`, for messages.
-    pub(crate) const EXPECTED: &str = "`ipc`, `tcp` or `shm`, or with exceptions like `ipc,camera.frames=shm`";
+    /// Returns the values of `SCL_TRANSPORT`, for messages.
+    pub(crate) fn expected() -> &'static str {
+        static EXPECTED: LazyLock<String> = LazyLock::new(|| {
+            format!("{}, or with exceptions like `ipc,camera.frames=shm`", either(TransportKind::WORDS))
+        });
+        &EXPECTED
+    }
 
     /// Returns the transport of all connections without an exception.
     pub fn default_kind(&self) -> TransportKind {

@@ -14,21 +14,27 @@ pub enum TransportKind {
 }
 
 impl TransportKind {
-    const ALL: [(Self, &str); 3] = [(Self::Ipc, "ipc"), (Self::Tcp, "tcp"), (Self::Shm, "shm")];
+    /// In the order of the variants.
+    const ALL: &[(Self, &str)] = &[(Self::Ipc, "ipc"), (Self::Tcp, "tcp"), (Self::Shm, "shm")];
 
     /// The words of `SCL_TRANSPORT` and of launch files.
-    pub const WORDS: [&str; 3] = {
-        let [(_, ipc), (_, tcp), (_, shm)] = Self::ALL;
-        [ipc, tcp, shm]
+    pub const WORDS: &[&str] = &{
+        let mut words = [""; Self::ALL.len()];
+        let mut index = 0;
+        while index < words.len() {
+            words[index] = Self::ALL[index].1;
+            index += 1;
+        }
+        words
     };
 
     /// Returns the transport that a word names.
     pub(crate) fn parse(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|(_, it)| *it == word).map(|(kind, _)| kind)
+        Self::ALL.iter().find(|(_, it)| *it == word).map(|(kind, _)| *kind)
     }
 
-    /// Returns the word for this transport.
-    pub(crate) fn word(self) -> &'static str {
+    /// Returns the word of `SCL_TRANSPORT` and of launch files.
+    pub fn word(self) -> &'static str {
         Self::WORDS[self as usize]
     }
 }

@@ -65,14 +65,9 @@ impl System {
 
     /// Starts a program in this runtime folder with more environment variables.
     pub fn start_with(&self, program: &str, arguments: &[&str], more: &[(&str, &str)]) -> Process {
-        let kind = match self.kind {
-            TransportKind::Ipc => "ipc",
-            TransportKind::Tcp => "tcp",
-            TransportKind::Shm => "shm",
-        };
         let mut environment = vec![
             ("SCL_RUNTIME_DIR", self.folder.path().as_os_str()),
-            ("SCL_TRANSPORT", OsStr::new(kind)),
+            ("SCL_TRANSPORT", OsStr::new(self.kind.word())),
             ("SCL_STOP_WITHIN", OsStr::new(NEVER)),
         ];
         environment.extend(more.iter().map(|(name, value)| (*name, OsStr::new(value))));

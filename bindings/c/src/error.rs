@@ -89,7 +89,7 @@ fn opening(error: &OpenError) -> scl_status {
         OpenError::Plan { .. } | OpenError::TooManyPlans { .. } => SCL_PLAN,
         OpenError::Environment { .. }
         | OpenError::NoSuchGate { .. }
-        | OpenError::NoSharedMemory { .. }
+        | OpenError::TransportOff { .. }
         | OpenError::Unexpected { .. } => SCL_ENVIRONMENT,
         OpenError::Gate { .. } | OpenError::Timer { .. } | OpenError::Runtime { .. } => SCL_SYSTEM,
         _ => SCL_FAILED,

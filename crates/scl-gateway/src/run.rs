@@ -126,7 +126,7 @@ fn transport_kind() -> Result<TransportKind, Problem> {
     };
     match choice.default_kind() {
         TransportKind::Tcp => Ok(TransportKind::Tcp),
-        TransportKind::Ipc | TransportKind::Shm => Ok(TransportKind::Ipc),
+        _ => Ok(TransportKind::Ipc),
     }
 }
 

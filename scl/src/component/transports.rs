@@ -76,10 +76,14 @@ fn listening(spec: &'static ComponentSpec, choice: &TransportChoice) -> impl Ite
 
 #[cfg(feature = "zeromq")]
 fn transport(spec: &ComponentSpec, dir: &SystemDir, kind: TransportKind) -> Result<Arc<dyn Transport>, OpenError> {
-    if kind == TransportKind::Shm && !cfg!(feature = "shm") {
-        return Err(OpenError::NoSharedMemory { component: spec.name });
+    match kind {
+        TransportKind::Shm if !cfg!(feature = "shm") => {
+            Err(OpenError::TransportOff { component: spec.name, transport: kind.word() })
+        }
+        TransportKind::Ipc | TransportKind::Tcp | TransportKind::Shm => {
+            Ok(Arc::new(crate::transport::zeromq::ZeroMq::new(dir.clone(), kind)))
+        }
     }
-    Ok(Arc::new(crate::transport::zeromq::ZeroMq::new(dir.clone(), kind)))
 }
 
 #[cfg(not(feature = "zeromq"))]

@@ -106,13 +106,15 @@ pub enum OpenError {
         /// What is missing.
         missing: Vec<MissingGuarantee>,
     },
-    /// Shared memory was chosen, and the `scl` crate was built without it.
+    /// A transport is chosen without which the `scl` crate was built.
     #[error(
-        "component `{component}` cannot use shared memory: enable the feature `shm` of the crate `scl`, or choose the transport `ipc`"
+        "component `{component}` cannot use the transport `{transport}`: enable the feature `{transport}` of the crate          `scl`, or choose the transport `ipc`"
     )]
-    NoSharedMemory {
+    TransportOff {
         /// The component.
         component: &'static str,
+        /// The transport, as `SCL_TRANSPORT` names it, which is also its feature.
+        transport: &'static str,
     },
     /// The plan of an untyped component contradicts itself.
     #[error("component `{component}` cannot be opened: its plan is wrong")]

@@ -80,7 +80,7 @@ fn texts_are_understood_or_refused_with_their_wrong_part() {
         assert_eq!(found, expected, "{text}");
     }
     let error = "ipc,a=shm".parse::<TransportChoice>().unwrap_err().to_string();
-    assert_eq!(error, format!("`a=shm` is not understood; expected {}", TransportChoice::EXPECTED));
+    assert_eq!(error, format!("`a=shm` is not understood; expected {}", TransportChoice::expected()));
 }
 
 #[test]

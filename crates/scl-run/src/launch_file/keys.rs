@@ -57,7 +57,7 @@ impl Form {
 }
 
 /// The values of `transport`.
-const TRANSPORTS: &[&str] = &scl::TransportKind::WORDS;
+const TRANSPORTS: &[&str] = scl::TransportKind::WORDS;
 
 const RESTARTS: &[&str] = &{
     let [(never, _), (on_abnormal, _), (on_failure, _), (always, _)] = Restart::WORDS;

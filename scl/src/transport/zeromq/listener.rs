@@ -25,15 +25,12 @@ impl Listener {
         endpoint: &str,
     ) -> Result<(Self, OwnedPath), TransportError> {
         let refused = |error| TransportError::refused(endpoint, &error);
-        match kind {
-            TransportKind::Ipc | TransportKind::Shm => {
-                let bound = runtime_dir::bind_ipc(dir, endpoint)?;
-                Ok((Self::Unix(UnixListener::from_std(bound.listener).map_err(refused)?), bound.guard))
-            }
-            TransportKind::Tcp => {
-                let bound = runtime_dir::bind_tcp(dir, endpoint)?;
-                Ok((Self::Tcp(TcpListener::from_std(bound.listener).map_err(refused)?), bound.guard))
-            }
+        if kind == TransportKind::Tcp {
+            let bound = runtime_dir::bind_tcp(dir, endpoint)?;
+            Ok((Self::Tcp(TcpListener::from_std(bound.listener).map_err(refused)?), bound.guard))
+        } else {
+            let bound = runtime_dir::bind_ipc(dir, endpoint)?;
+            Ok((Self::Unix(UnixListener::from_std(bound.listener).map_err(refused)?), bound.guard))
         }
     }
 
