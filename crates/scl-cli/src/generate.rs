@@ -129,7 +129,7 @@ impl GenerateArguments {
                 Some("`--format` is for `--for zmq` only")
             }
             Self { target: Language::Zmq, testable: true, .. } => {
-                Some("`--testable` is for `--for c`, `--for cpp` and `--for python` only")
+                Some("`--testable` does not go with `--for zmq`, which generates no code")
             }
             Self { depfile: Some(_), .. } if self.is_printed() => Some("`--depfile` needs a folder: add `-o DIR`"),
             _ => None,

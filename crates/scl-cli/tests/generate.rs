@@ -89,7 +89,7 @@ fn counterparts_are_generated_if_asked_for() {
         &["--for", "zmq", "--testable"],
         2,
         expect![[r#"
-            error: `--testable` is for `--for c`, `--for cpp` and `--for python` only
+            error: `--testable` does not go with `--for zmq`, which generates no code
         "#]],
     );
 }

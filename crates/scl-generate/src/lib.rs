@@ -24,6 +24,7 @@ pub use output::{File, Outcome, OutputError, is_current, write};
 pub use system::{Component, Gate, MessageUse, System};
 pub use zmq::Format;
 
+use clash::Declaration;
 use scl_topology::diagnostic::Diagnostic;
 
 /// What to generate.
@@ -39,33 +40,42 @@ pub enum Target {
     Python,
 }
 
+/// What the module of a language provides.
+struct Language {
+    /// The names that its files declare, so that clashes are reported.
+    declarations: fn(&System) -> Vec<Declaration>,
+    /// The contents of its files.
+    files: fn(&System) -> Vec<File>,
+}
+
+impl Target {
+    fn language(self) -> Language {
+        let sockets = |files| Language { declarations: |_| Vec::new(), files };
+        match self {
+            Target::Zmq(Format::Json) => sockets(zmq::json),
+            Target::Zmq(Format::Yaml) => sockets(zmq::yaml),
+            Target::C => Language { declarations: c::declarations, files: c::files },
+            Target::Cpp => Language { declarations: cpp::declarations, files: cpp::files },
+            Target::Python => Language { declarations: python::declarations, files: python::files },
+        }
+    }
+}
+
 /// Makes the files for one language.
 ///
 /// # Errors
 /// What [`find_clashes`] finds.
 pub fn generate(system: &System, target: Target) -> Result<Vec<File>, Vec<Diagnostic>> {
-    let clashes = find_clashes(system, target);
-    if !clashes.is_empty() {
-        return Err(clashes);
+    match find_clashes(system, target) {
+        clashes if clashes.is_empty() => Ok((target.language().files)(system)),
+        clashes => Err(clashes),
     }
-    Ok(match target {
-        Target::Zmq(format) => zmq::files(system, format),
-        Target::C => c::files(system),
-        Target::Cpp => cpp::files(system),
-        Target::Python => python::files(system),
-    })
 }
 
 /// Finds names of the topology that would clash or be invalid in that language, each with its places in the topology
 /// file.
 pub fn find_clashes(system: &System, target: Target) -> Vec<Diagnostic> {
-    let declarations = match target {
-        Target::Zmq(_) => Vec::new(),
-        Target::C => c::declarations(system),
-        Target::Cpp => cpp::declarations(system),
-        Target::Python => python::declarations(system),
-    };
-    let mut clashes = clash::find(&declarations);
+    let mut clashes = clash::find(&(target.language().declarations)(system));
     if target == Target::Cpp {
         clashes.extend(cpp::unwritable(system));
     }

@@ -18,19 +18,18 @@ pub enum Format {
     Yaml,
 }
 
-/// `<system>.zmq.json` or `<system>.zmq.yaml`.
-pub(crate) fn files(system: &System, format: Format) -> Vec<File> {
-    let document = Document::of(system);
-    let (ending, text) = match format {
-        Format::Json => ("json", serde_json::to_string_pretty(&document).map(|text| text + "\n").map_err(drop)),
-        Format::Yaml => {
-            let text = serde_yaml::to_string(&document).map(|text| format!("# {}\n{text}", system.header()));
-            ("yaml", text.map_err(drop))
-        }
-    };
+/// `<system>.zmq.json`.
+pub(crate) fn json(system: &System) -> Vec<File> {
     // Cannot fail: only maps with keys other than strings cannot be serialized.
-    let text = text.unwrap_or_default();
-    vec![File { name: format!("{}.zmq.{ending}", system.snake_name()), text }]
+    let text = serde_json::to_string_pretty(&Document::of(system)).unwrap_or_default();
+    vec![File { name: format!("{}.zmq.json", system.snake_name()), text: text + "\n" }]
+}
+
+/// `<system>.zmq.yaml`.
+pub(crate) fn yaml(system: &System) -> Vec<File> {
+    // Cannot fail, as above.
+    let text = serde_yaml::to_string(&Document::of(system)).unwrap_or_default();
+    vec![File { name: format!("{}.zmq.yaml", system.snake_name()), text: format!("# {}\n{text}", system.header()) }]
 }
 
 #[derive(Serialize)]
