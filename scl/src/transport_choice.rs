@@ -42,11 +42,11 @@ impl FromStr for TransportChoice {
         for (index, part) in text.split(',').map(str::trim).enumerate() {
             let wrong = || TransportChoiceError { part: part.to_owned() };
             match part.split_once('=') {
-                None if index == 0 => choice.default = TransportKind::parse(part).ok_or_else(wrong)?,
+                None if index == 0 => choice.default = TransportKind::of(part).ok_or_else(wrong)?,
                 None => return Err(wrong()),
                 Some((gate, word)) => {
                     let gate = Some(gate.trim()).filter(|gate| is_gate(gate)).ok_or_else(wrong)?;
-                    choice.of_gates.push((gate.to_owned(), TransportKind::parse(word.trim()).ok_or_else(wrong)?));
+                    choice.of_gates.push((gate.to_owned(), TransportKind::of(word.trim()).ok_or_else(wrong)?));
                 }
             }
         }
@@ -58,7 +58,7 @@ impl TransportChoice {
     /// Returns the values of `SCL_TRANSPORT`, for messages.
     pub(crate) fn expected() -> &'static str {
         static EXPECTED: LazyLock<String> = LazyLock::new(|| {
-            format!("{}, or with exceptions like `ipc,camera.frames=shm`", either(TransportKind::WORDS))
+            format!("{}, or with exceptions like `ipc,camera.frames=shm`", either(&TransportKind::WORDS))
         });
         &EXPECTED
     }

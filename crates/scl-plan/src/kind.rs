@@ -1,27 +1,27 @@
 //! The six kinds of gate, and what a full queue does.
 
-/// What a gate does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum GateKind {
-    /// Sends to any number of subscribers.
-    Pub,
-    /// Receives from one or several publishers.
-    Sub,
-    /// Asks one replier.
-    Req,
-    /// Answers any number of requesters.
-    Rep,
-    /// Hands work to a puller.
-    Push,
-    /// Takes work from any number of pushers.
-    Pull,
+use scl_text::words;
+
+words! {
+    /// What a gate does.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum GateKind {
+        /// Sends to any number of subscribers.
+        Pub = "pub",
+        /// Receives from one or several publishers.
+        Sub = "sub",
+        /// Asks one replier.
+        Req = "req",
+        /// Answers any number of requesters.
+        Rep = "rep",
+        /// Hands work to a puller.
+        Push = "push",
+        /// Takes work from any number of pushers.
+        Pull = "pull",
+    }
 }
 
 impl GateKind {
-    /// All kinds, in the order in which messages list them.
-    pub const ALL: [GateKind; 6] =
-        [GateKind::Pub, GateKind::Sub, GateKind::Req, GateKind::Rep, GateKind::Push, GateKind::Pull];
-
     /// What a gate of this kind does, for its documentation: `publishes rover.Measurement to controller.sensor`.
     pub fn sentence(self, message: &str, peers: &str) -> String {
         match self {
@@ -32,23 +32,6 @@ impl GateKind {
             GateKind::Push => format!("pushes {message} to {peers}"),
             GateKind::Pull => format!("pulls {message} from {peers}"),
         }
-    }
-
-    /// The word in topology files and plans.
-    pub const fn word(self) -> &'static str {
-        match self {
-            GateKind::Pub => "pub",
-            GateKind::Sub => "sub",
-            GateKind::Req => "req",
-            GateKind::Rep => "rep",
-            GateKind::Push => "push",
-            GateKind::Pull => "pull",
-        }
-    }
-
-    /// The kind with this word.
-    pub fn of(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.word() == word)
     }
 
     /// Returns true if messages start here: `pub`, `push` and `req`.
@@ -84,61 +67,28 @@ impl GateKind {
     }
 }
 
-/// What a receiving call does with a message that its codec cannot read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Undecodable {
-    /// The message is counted, logged and skipped; the call goes on with the next one.
-    #[default]
-    Skip,
-    /// The call fails.
-    Fail,
-}
-
-impl Undecodable {
-    /// All of them, in the order in which messages list them.
-    pub const ALL: [Undecodable; 2] = [Undecodable::Skip, Undecodable::Fail];
-
-    /// The word in topology files and plans.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Undecodable::Skip => "skip",
-            Undecodable::Fail => "fail",
-        }
-    }
-
-    /// The choice with this word.
-    pub fn of(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|choice| choice.word() == word)
+words! {
+    /// What a receiving call does with a message that its codec cannot read.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+    pub enum Undecodable {
+        /// The message is counted, logged and skipped; the call goes on with the next one.
+        #[default]
+        Skip = "skip",
+        /// The call fails.
+        Fail = "fail",
     }
 }
 
-/// What a full queue does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum WhenFull {
-    /// The oldest waiting message is dropped.
-    #[default]
-    DropOldest,
-    /// The new message is dropped.
-    DropNewest,
-    /// The sender waits, if it allows that.
-    Wait,
-}
-
-impl WhenFull {
-    /// All of them, in the order in which messages list them.
-    pub const ALL: [WhenFull; 3] = [WhenFull::DropOldest, WhenFull::DropNewest, WhenFull::Wait];
-
-    /// The word in topology files and plans.
-    pub const fn word(self) -> &'static str {
-        match self {
-            WhenFull::DropOldest => "drop_oldest",
-            WhenFull::DropNewest => "drop_newest",
-            WhenFull::Wait => "wait",
-        }
-    }
-
-    /// The policy with this word.
-    pub fn of(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|policy| policy.word() == word)
+words! {
+    /// What a full queue does.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+    pub enum WhenFull {
+        /// The oldest waiting message is dropped.
+        #[default]
+        DropOldest = "drop_oldest",
+        /// The new message is dropped.
+        DropNewest = "drop_newest",
+        /// The sender waits, if it allows that.
+        Wait = "wait",
     }
 }

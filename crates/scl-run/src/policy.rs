@@ -1,5 +1,6 @@
 //! How a component is treated when it fails, hangs or has to stop.
 
+use scl_text::words;
 use std::time::Duration;
 
 /// The settings of a component, with a value for each.
@@ -18,18 +19,20 @@ pub(crate) struct Policy {
     pub(crate) alive_within: Option<Duration>,
 }
 
-/// When a component is started again.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(crate) enum Restart {
-    /// It is not started again.
-    #[default]
-    Never,
-    /// After a signal, a missed limit or a failed start, but not after an exit code.
-    OnAbnormal,
-    /// After a failure.
-    OnFailure,
-    /// Also after it has ended successfully.
-    Always,
+words! {
+    /// When a component is started again.
+    #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+    pub(crate) enum Restart {
+        /// It is not started again.
+        #[default]
+        Never = "never",
+        /// After a signal, a missed limit or a failed start, but not after an exit code.
+        OnAbnormal = "on_abnormal",
+        /// After a failure.
+        OnFailure = "on_failure",
+        /// Also after it has ended successfully.
+        Always = "always",
+    }
 }
 
 /// The time between an end and the next start. It doubles with each restart.
@@ -44,16 +47,6 @@ pub(crate) struct RestartDelay {
 pub(crate) struct RestartLimit {
     pub(crate) count: usize,
     pub(crate) within: Duration,
-}
-
-impl Restart {
-    /// The words of launch files.
-    pub(crate) const WORDS: [(&'static str, Restart); 4] = [
-        ("never", Restart::Never),
-        ("on_abnormal", Restart::OnAbnormal),
-        ("on_failure", Restart::OnFailure),
-        ("always", Restart::Always),
-    ];
 }
 
 impl Default for Policy {

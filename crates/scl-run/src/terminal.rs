@@ -14,25 +14,23 @@ pub(crate) use keys::Key;
 use nix::sys::signal::{self, SigSet, SigmaskHow};
 use rustix::process::{Pid, Signal, getpgrp, kill_process_group};
 use rustix::termios::{OptionalActions, Termios, tcgetattr, tcgetpgrp, tcsetattr, tcsetpgrp};
+use scl_text::words;
 use signal_hook::consts::SIGTSTP;
 use std::io::{self, BufRead, BufReader};
 use std::os::unix::process::CommandExt;
 use std::process::{Child, Stdio};
 use std::thread::{self, JoinHandle};
 
-/// Where a program's standard input comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum StandardInput {
-    /// It is empty.
-    #[default]
-    Empty,
-    /// The terminal of `scl run`.
-    Terminal,
-}
-
-impl StandardInput {
-    /// The words of the launch file.
-    pub(crate) const WORDS: [(&'static str, Self); 2] = [("empty", Self::Empty), ("terminal", Self::Terminal)];
+words! {
+    /// Where a program's standard input comes from.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub(crate) enum StandardInput {
+        /// It is empty.
+        #[default]
+        Empty = "empty",
+        /// The terminal of `scl run`.
+        Terminal = "terminal",
+    }
 }
 
 /// The terminal that is our standard input, while we are in its foreground.

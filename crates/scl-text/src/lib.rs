@@ -1,4 +1,4 @@
-//! Texts that people write and read: durations, sizes, names that were probably meant, lists of names.
+//! Texts that people write and read: durations, sizes, names that were probably meant, lists of names, words of enums.
 #![deny(missing_docs)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
@@ -6,3 +6,4 @@ pub mod duration;
 pub mod list;
 pub mod size;
 pub mod suggest;
+mod words;

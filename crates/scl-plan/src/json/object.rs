@@ -68,11 +68,10 @@ impl<'v> At<'v> {
         number.ok_or_else(|| self.wrong(&format!("a whole number from 0 to {max}")))
     }
 
-    /// The item of `all` that has this value as its word.
-    pub(super) fn word<T: Copy>(&self, all: &[T], word: fn(T) -> &'static str) -> Result<T, PlanError> {
-        let found = self.value.as_str().and_then(|text| all.iter().find(|&&one| word(one) == text));
-        let words = all.iter().map(|&one| word(one));
-        found.copied().ok_or_else(|| self.wrong(&format!("one of {}", quoted_list(words))))
+    /// The meaning of a word, which must be one of `words`.
+    pub(super) fn word<T>(&self, words: &[&str], of: fn(&str) -> Option<T>) -> Result<T, PlanError> {
+        let found = self.value.as_str().and_then(of);
+        found.ok_or_else(|| self.wrong(&format!("one of {}", quoted_list(words))))
     }
 
     pub(super) fn list<T>(&self, read: impl Fn(At<'v>) -> Result<T, PlanError>) -> Result<Vec<T>, PlanError> {

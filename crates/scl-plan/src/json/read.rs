@@ -106,7 +106,7 @@ fn gate(at: &At<'_>) -> Result<GatePlan, PlanError> {
     }
     Ok(GatePlan {
         name: fields.text("name")?,
-        kind: fields.field("kind")?.word(&GateKind::ALL, GateKind::word)?,
+        kind: fields.field("kind")?.word(&GateKind::WORDS, GateKind::of)?,
         payload: payload(&fields.field("payload")?)?,
         codec: fields.text("codec")?,
         declared_at: fields.text("declared_at")?,
@@ -124,8 +124,8 @@ fn read_option(at: &At<'_>, access: OptionAccess, options: &mut GateOptions) -> 
         OptionAccess::Size(size) => *size(options) = at.number(u64::MAX)?,
         OptionAccess::Duration(duration) => *duration(options) = Duration::from_nanos(at.number(u64::MAX)?),
         OptionAccess::Flag(flag) => *flag(options) = at.flag()?,
-        OptionAccess::Policy(policy) => *policy(options) = at.word(&WhenFull::ALL, WhenFull::word)?,
-        OptionAccess::Undecodable(choice) => *choice(options) = at.word(&Undecodable::ALL, Undecodable::word)?,
+        OptionAccess::Policy(policy) => *policy(options) = at.word(&WhenFull::WORDS, WhenFull::of)?,
+        OptionAccess::Undecodable(choice) => *choice(options) = at.word(&Undecodable::WORDS, Undecodable::of)?,
     }
     Ok(())
 }
@@ -160,7 +160,7 @@ fn connection(at: &At<'_>) -> Result<ConnectionPlan, PlanError> {
         contract: fields.text("contract")?,
         required: fields.field("required")?.flag()?,
         queue: fields.field("queue")?.number(u32::MAX)?,
-        when_full: fields.field("when_full")?.word(&WhenFull::ALL, WhenFull::word)?,
+        when_full: fields.field("when_full")?.word(&WhenFull::WORDS, WhenFull::of)?,
         max_size: fields.field("max_size")?.number(u64::MAX)?,
     })
 }

@@ -6,7 +6,7 @@ use super::keys;
 use super::reader::{Keys, Reader, wrong};
 use super::rules::{CONTRADICTION, MISSING, WRONG_VALUE};
 use super::settings::Settings;
-use super::value::{placed_texts, text, texts, word};
+use super::value::{placed_texts, text, texts};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
 use scl_topology::yaml::Node;
@@ -140,7 +140,7 @@ impl Reader<'_> {
             source,
             environment: self.read_environment(&keys),
             opens: keys.get("opens").and_then(|field| self.read_opens(field)),
-            input: self.read_setting(&keys, "input", |value| word(value, &StandardInput::WORDS)),
+            input: self.read_setting(&keys, "input", |value| StandardInput::of(value.text()?)),
             settings: self.read_settings(&keys),
             place: self.source.place(field.key_span),
         })

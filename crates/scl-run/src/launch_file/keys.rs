@@ -56,19 +56,6 @@ impl Form {
     }
 }
 
-/// The values of `transport`.
-const TRANSPORTS: &[&str] = scl::TransportKind::WORDS;
-
-const RESTARTS: &[&str] = &{
-    let [(never, _), (on_abnormal, _), (on_failure, _), (always, _)] = Restart::WORDS;
-    [never, on_abnormal, on_failure, always]
-};
-
-const INPUTS: &[&str] = &{
-    let [(empty, _), (terminal, _)] = StandardInput::WORDS;
-    [empty, terminal]
-};
-
 const KEY: Key = Key { name: "", also: &[], form: COMMAND, default: "", meaning: "", in_defaults: false };
 
 /// Whether a key at the top of the file is the user's own, which is ignored as in a topology file.
@@ -135,7 +122,7 @@ pub(super) const TOP: &[Key] = &[
     },
     Key {
         name: "transport",
-        form: Form::Word(TRANSPORTS),
+        form: Form::Word(&scl::TransportKind::WORDS),
         default: "the environment's, or `ipc`",
         meaning: "The transport of all connections. See [Transports](#transports).",
         ..KEY
@@ -207,7 +194,7 @@ pub(super) const COMPONENT: &[Key] = &[
     Key {
         name: "input",
         also: &["stdin", "tty", "terminal", "interactive", "stdin_open"],
-        form: Form::Word(INPUTS),
+        form: Form::Word(&StandardInput::WORDS),
         default: "`empty`",
         meaning: "The program's standard input. One component may have the terminal. See [The terminal](#the-terminal).",
         ..KEY
@@ -247,7 +234,7 @@ pub(super) const COMPONENT: &[Key] = &[
     Key {
         name: "restart",
         also: &["respawn", "autorestart"],
-        form: Form::Word(RESTARTS),
+        form: Form::Word(&Restart::WORDS),
         default: "`never`",
         meaning: "When the program is started again after it has ended.",
         in_defaults: true,

@@ -4,51 +4,57 @@ use super::super::policy::{Policy, Restart, RestartDelay, RestartLimit};
 use super::keys::{Form, form_of};
 use super::reader::{Keys, Reader, wrong};
 use super::rules::WRONG_VALUE;
-use super::value::{flag, number, shown, texts, word};
+use super::value::{flag, number, shown, text, texts};
 use scl_terminal::{closest_name, parse_duration};
 use scl_topology::parse::Field;
 use scl_topology::yaml::{Node, NodeKind};
 use std::time::Duration;
 
-/// Settings as written; a setting that is not written is `None`.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(crate) struct Settings {
-    pub(crate) restart: Option<Restart>,
-    pub(crate) restart_delay: Option<RestartDelay>,
-    pub(crate) restart_limit: Option<RestartLimit>,
-    pub(crate) essential: Option<bool>,
-    pub(crate) stop_within: Option<Duration>,
-    pub(crate) ready_within: Option<Duration>,
-    pub(crate) alive_within: Option<Duration>,
+/// Declares the settings: name, type, and the function that reads the value and returns `None` for a wrong one.
+macro_rules! settings {
+    ($($(#[$doc:meta])* $name:ident: $type:ty = $read:expr,)*) => {
+        /// Settings as written; a setting that is not written is `None`.
+        #[derive(Debug, Clone, PartialEq, Eq, Default)]
+        pub(crate) struct Settings {
+            $($(#[$doc])* pub(crate) $name: Option<$type>,)*
+        }
+
+        impl Settings {
+            /// These settings; the settings of `base` replace missing ones.
+            pub(crate) fn over(self, base: &Settings) -> Settings {
+                let base = base.clone();
+                Settings { $($name: self.$name.or(base.$name),)* }
+            }
+        }
+
+        impl Reader<'_> {
+            /// Reads the settings of a mapping, whose keys have been checked.
+            pub(super) fn read_settings(&mut self, keys: &Keys<'_, '_>) -> Settings {
+                Settings { $($name: self.read_setting(keys, stringify!($name), $read),)* }
+            }
+        }
+    };
+}
+
+settings! {
+    restart: Restart = |value| Restart::of(value.text()?),
+    restart_delay: RestartDelay = |value| restart_delay(value.text()?),
+    restart_limit: RestartLimit = |value| restart_limit(value.text()?),
+    essential: bool = flag,
+    stop_within: Duration = |value| any_duration(value.text()?),
+    ready_within: Duration = |value| limit(value.text()?),
+    alive_within: Duration = |value| limit(value.text()?),
     /// At least one.
-    pub(crate) cpu: Option<Vec<usize>>,
+    cpu: Vec<usize> = processors,
     /// 1 to 99.
-    pub(crate) priority: Option<u8>,
+    priority: u8 = |value| priority(value.text()?),
     /// At least one.
-    pub(crate) descriptors: Option<u64>,
+    descriptors: u64 = |value| number(value).filter(|most| *most > 0),
     /// As written.
-    pub(crate) working_directory: Option<String>,
+    working_directory: String = path,
 }
 
 impl Settings {
-    /// These settings; the settings of `base` replace missing ones.
-    pub(crate) fn over(self, base: &Settings) -> Settings {
-        let base = base.clone();
-        Settings {
-            restart: self.restart.or(base.restart),
-            restart_delay: self.restart_delay.or(base.restart_delay),
-            restart_limit: self.restart_limit.or(base.restart_limit),
-            essential: self.essential.or(base.essential),
-            stop_within: self.stop_within.or(base.stop_within),
-            ready_within: self.ready_within.or(base.ready_within),
-            alive_within: self.alive_within.or(base.alive_within),
-            cpu: self.cpu.or(base.cpu),
-            priority: self.priority.or(base.priority),
-            descriptors: self.descriptors.or(base.descriptors),
-            working_directory: self.working_directory.or(base.working_directory),
-        }
-    }
-
     /// The policy of the component; `grace` is the time to stop where none is written.
     pub(crate) fn policy(&self, grace: Duration) -> Policy {
         let default = Policy::default();
@@ -65,23 +71,6 @@ impl Settings {
 }
 
 impl Reader<'_> {
-    /// Reads the settings of a mapping, whose keys have been checked.
-    pub(super) fn read_settings(&mut self, keys: &Keys<'_, '_>) -> Settings {
-        Settings {
-            restart: self.read_setting(keys, "restart", |value| word(value, &Restart::WORDS)),
-            restart_delay: self.read_setting(keys, "restart_delay", |value| restart_delay(value.text()?)),
-            restart_limit: self.read_setting(keys, "restart_limit", |value| restart_limit(value.text()?)),
-            essential: self.read_setting(keys, "essential", flag),
-            stop_within: self.read_setting(keys, "stop_within", |value| any_duration(value.text()?)),
-            ready_within: self.read_setting(keys, "ready_within", |value| limit(value.text()?)),
-            alive_within: self.read_setting(keys, "alive_within", |value| limit(value.text()?)),
-            cpu: self.read_setting(keys, "cpu", processors),
-            priority: self.read_setting(keys, "priority", |value| priority(value.text()?)),
-            descriptors: self.read_setting(keys, "descriptors", |value| number(value).filter(|most| *most > 0)),
-            working_directory: keys.get("working_directory").and_then(|field| self.read_path(field)),
-        }
-    }
-
     /// Reads the value of a key with `read`, which returns `None` for a wrong one.
     pub(super) fn read_setting<T>(
         &mut self,
@@ -99,11 +88,11 @@ impl Reader<'_> {
 
     /// Reads a path.
     pub(super) fn read_path(&mut self, field: Field<'_>) -> Option<String> {
-        let path = super::value::text(field.value).filter(|path| !path.is_empty());
+        let path = path(field.value);
         if path.is_none() {
             self.wrong_value(field);
         }
-        path.map(str::to_owned)
+        path
     }
 
     /// Reports a value that does not have the form that its key needs.
@@ -160,6 +149,10 @@ fn likely(form: Form, text: &str) -> Option<String> {
         }
         _ => None,
     }
+}
+
+fn path(value: &Node) -> Option<String> {
+    text(value).filter(|path| !path.is_empty()).map(str::to_owned)
 }
 
 fn any_duration(text: &str) -> Option<Duration> {

@@ -1,8 +1,9 @@
 //! `transport` and `transports`: the transport of all connections, and of single ones.
 
-use super::keys::{self, Form};
+use super::keys;
 use super::reader::{Keys, Reader, unknown_name};
 use super::rules::WRONG_NAME;
+use scl::TransportKind;
 use scl_terminal::quoted_list;
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
@@ -70,8 +71,7 @@ impl Reader<'_> {
 }
 
 fn transport(value: &Node) -> Option<String> {
-    let is_known = |word: &&str| matches!(keys::form_of("transport"), Form::Word(words) if words.contains(word));
-    value.text().filter(is_known).map(str::to_owned)
+    value.text().filter(|word| TransportKind::of(word).is_some()).map(str::to_owned)
 }
 
 /// Whether this can be part of a gate's name: programs read the names from a list with commas and equals signs.

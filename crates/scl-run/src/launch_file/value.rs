@@ -39,12 +39,6 @@ pub(super) fn placed_texts(value: &Node) -> Option<Vec<(String, Span)>> {
     Some(texts(value)?.into_iter().zip(places).collect())
 }
 
-/// The meaning of the value; `None` if it is not one of these words.
-pub(super) fn word<T: Copy>(value: &Node, words: &[(&str, T)]) -> Option<T> {
-    let text = value.text()?;
-    words.iter().find(|(word, _)| *word == text).map(|(_, meaning)| *meaning)
-}
-
 /// Describes an unexpected value in messages.
 pub(super) fn shown(value: &Node) -> String {
     match &value.kind {
