@@ -4,41 +4,50 @@
 use crate::kind::{Undecodable, WhenFull};
 use std::time::Duration;
 
-/// The options of a gate that its program needs, defaults filled in.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub struct GateOptions {
+/// Declares the options: name, name in JSON, kind of value with its type, default.
+macro_rules! gate_options {
+    ($($(#[$doc:meta])* $name:ident $json:literal: $access:ident($type:ty) = $default:expr,)*) => {
+        /// The options of a gate that its program needs, defaults filled in.
+        #[derive(Debug, Clone, PartialEq, Eq, Hash)]
+        pub struct GateOptions {
+            $($(#[$doc])* pub $name: $type,)*
+        }
+
+        impl GateOptions {
+            /// The options of a gate for which the topology file sets none.
+            pub const DEFAULT: Self = Self { $($name: $default,)* };
+
+            /// All of them, in the order of the JSON text.
+            pub const ALL: &[OptionField] = &[$(OptionField {
+                key: stringify!($name),
+                json: $json,
+                access: OptionAccess::$access(|options| &mut options.$name),
+            },)*];
+        }
+    };
+}
+
+gate_options! {
     /// The longest message that the gate accepts, in bytes.
-    pub max_size: u64,
+    max_size "max_size": Size(u64) = 64 << 20,
     /// The gate's own queue, in messages. It has an effect for `sub` and `pull`.
-    pub queue: u32,
+    queue "queue": Number(u32) = 100,
     /// What the gate's own queue does when it is full.
-    pub when_full: WhenFull,
+    when_full "when_full": Policy(WhenFull) = WhenFull::DropOldest,
     /// Whether a peer with `when_full: wait` may make this gate wait. It has an effect for `pub` and `push`.
-    pub backpressure: bool,
+    backpressure "backpressure": Flag(bool) = false,
     /// Whether a subscriber that joins or restarts gets the last message at once. It has an effect for `pub`.
-    pub latched: bool,
+    latched "latched": Flag(bool) = false,
     /// How long a call may take: more than zero, at most a day. It has an effect for `req`.
-    pub timeout: Duration,
+    timeout "timeout_ns": Duration(Duration) = Duration::from_secs(1),
     /// How many calls may be in progress at once, at least one. It has an effect for `req`.
-    pub in_flight: u32,
+    in_flight "in_flight": Number(u32) = 1,
     /// What a receiving call does with a message that the codec cannot read. It has an effect for `sub`, `pull` and
     /// `rep`.
-    pub undecodable: Undecodable,
+    undecodable "undecodable": Undecodable(Undecodable) = Undecodable::Skip,
 }
 
 impl GateOptions {
-    /// The options of a gate for which the topology file sets none: 64 MiB, 100 messages, 1 s, one call at a time.
-    pub const DEFAULT: Self = Self {
-        max_size: 64 << 20,
-        queue: 100,
-        when_full: WhenFull::DropOldest,
-        backpressure: false,
-        latched: false,
-        timeout: Duration::from_secs(1),
-        in_flight: 1,
-        undecodable: Undecodable::Skip,
-    };
-
     /// Whether this sending gate waits for a peer with this queue policy, rather than drop a message.
     pub fn waits_for(&self, when_full: WhenFull) -> bool {
         self.backpressure && when_full == WhenFull::Wait
@@ -57,23 +66,6 @@ impl GateOptions {
         undecodable: Undecodable::Fail,
         ..Self::DEFAULT
     };
-
-    /// All of them, in the order of the JSON text.
-    pub const ALL: &[OptionField] = &[
-        field("max_size", OptionAccess::Size(|options| &mut options.max_size)),
-        field("queue", OptionAccess::Number(|options| &mut options.queue)),
-        field("when_full", OptionAccess::Policy(|options| &mut options.when_full)),
-        field("backpressure", OptionAccess::Flag(|options| &mut options.backpressure)),
-        field("latched", OptionAccess::Flag(|options| &mut options.latched)),
-        OptionField { json: "timeout_ns", ..field("timeout", OptionAccess::Duration(|options| &mut options.timeout)) },
-        field("in_flight", OptionAccess::Number(|options| &mut options.in_flight)),
-        field("undecodable", OptionAccess::Undecodable(|options| &mut options.undecodable)),
-    ];
-}
-
-/// A field with one name everywhere.
-const fn field(key: &'static str, access: OptionAccess) -> OptionField {
-    OptionField { key, json: key, access }
 }
 
 impl Default for GateOptions {
@@ -108,17 +100,4 @@ pub enum OptionAccess {
     Policy(fn(&mut GateOptions) -> &mut WhenFull),
     /// What happens to undecodable messages.
     Undecodable(fn(&mut GateOptions) -> &mut Undecodable),
-}
-
-#[cfg(test)]
-mod tests {
-    use super::GateOptions;
-
-    #[test]
-    fn every_field_is_in_the_list() {
-        let debug = format!("{:?}", GateOptions::DEFAULT);
-        let fields: Vec<&str> =
-            debug.split([',', '{']).filter_map(|part| part.split_once(": ")).map(|it| it.0.trim()).collect();
-        assert_eq!(fields, GateOptions::ALL.iter().map(|option| option.key).collect::<Vec<_>>());
-    }
 }
