@@ -1,6 +1,6 @@
 //! What tools print as JSON, programs with floats as their only numbers read, and tools take back.
 
-use super::any_message;
+use super::round_trips::any_message;
 use crate::testing::message_type;
 use crate::{MessageType, read_yaml, to_json};
 use proptest::prelude::*;
