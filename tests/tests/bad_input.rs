@@ -123,3 +123,9 @@ fn ten_thousand_silent_connections_after_a_handshake() {
         attacks::silent_connections_after_a_handshake(end, if end.name == End::CROWDED { 10_000 } else { 500 })
     });
 }
+
+/// The promise: connections of one gate that use up all descriptors do not keep the others from their peers.
+#[test]
+fn as_many_connections_as_there_are_descriptors() {
+    withstands_with_descriptors(256, true, attacks::all_descriptors);
+}

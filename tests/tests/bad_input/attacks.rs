@@ -306,6 +306,18 @@ pub(crate) fn silent_connections_after_a_handshake(end: &End, count: usize) -> V
     (0..count).map(speak).collect()
 }
 
+/// One after the other, so that the last of them takes the last descriptor.
+pub(crate) fn all_descriptors(end: &End) -> Vec<RawPeer> {
+    if !end.listens() {
+        return vec![end.joined()];
+    }
+    let join = || {
+        let mut peer = end.connection();
+        peer.handshake(end.peer_type).ok().map(|_ready| peer)
+    };
+    std::iter::from_fn(join).take(if end.name == End::CROWDED { usize::MAX } else { 0 }).collect()
+}
+
 fn assert_answers_pings(peer: &mut RawPeer, end: &End) {
     peer.send(PING).expect("a heartbeat is accepted");
     wait_for_pong(peer, end);

@@ -330,6 +330,7 @@ pub(super) fn is_out_of_descriptors(error: &io::Error) -> bool {
     matches!(Errno::from_io_error(error), Some(Errno::MFILE | Errno::NFILE))
 }
 
-fn reserve() -> io::Result<File> {
+/// Occupies a descriptor, so that one is free for a socket once this is dropped.
+pub(super) fn reserve() -> io::Result<File> {
     File::open("/dev/null")
 }

@@ -2,8 +2,11 @@
 //!
 //! A peer that is expected back soon is tried every 20 ms, one that stays away twice a second. As soon as a file
 //! arrives in the folder, it is tried every 20 ms again, because a peer that starts puts its socket or address there.
+//!
+//! While an end is not connected, it keeps a descriptor in reserve for its next attempt. Otherwise, it
+//! could not connect while connections of another gate use up all descriptors of the process.
 
-use super::acceptor::{HANDSHAKE_LIMIT, is_out_of_descriptors, poll_handshake};
+use super::acceptor::{HANDSHAKE_LIMIT, is_out_of_descriptors, poll_handshake, reserve};
 use super::session::{Closed, Session};
 use super::stream::{Socket, Stream};
 use super::tcp_user::UserChecks;
@@ -15,6 +18,7 @@ use bytes::Bytes;
 use rustix::io::Errno;
 use rustix::net::addr::SocketAddrArg;
 use rustix::net::{AddressFamily, SocketAddrUnix, SocketFlags, SocketType as Kind, socket_with};
+use std::fs::File;
 use std::io;
 use std::net::SocketAddr;
 use std::os::fd::OwnedFd;
@@ -44,6 +48,8 @@ pub(super) struct Dialler {
     pause: Timer,
     handshake: Option<Session>,
     limit: Timer,
+    /// Its descriptor is for the next attempt.
+    reserve: Option<File>,
     /// Number of failed attempts since the last connection.
     attempts: u32,
     /// The same since a file arrived in the folder.
@@ -68,6 +74,7 @@ impl Dialler {
             pause: Timer::default(),
             handshake: None,
             limit: Timer::default(),
+            reserve: reserve().ok(),
             attempts: 0,
             attempts_since_arrival: 0,
             arrived: Seen::default(),
@@ -94,6 +101,10 @@ impl Dialler {
     /// connection lasted longer than the delay between two attempts, the next attempt is made at once.
     pub(super) fn poll_connected(&mut self, cx: &mut Context<'_>) -> Poll<(Session, PeerReady)> {
         loop {
+            // The socket of the lost connection, or of the failed attempt, was closed just now.
+            if self.handshake.is_none() && self.reserve.is_none() {
+                self.reserve = reserve().ok();
+            }
             match ready!(self.poll_attempt(cx)) {
                 Ok(connected) => {
                     self.attempts = 0;
@@ -149,6 +160,7 @@ impl Dialler {
     }
 
     fn connect(&mut self) -> io::Result<Session> {
+        self.reserve = None;
         let address = runtime_dir::find(&self.dir, &self.endpoint.name);
         // A peer with another type or codec listens at another endpoint, so check for one now and then even if nothing
         // listens at this one.
