@@ -108,7 +108,8 @@ pub enum OpenError {
     },
     /// A transport is chosen without which the `scl` crate was built.
     #[error(
-        "component `{component}` cannot use the transport `{transport}`: enable the feature `{transport}` of the crate          `scl`, or choose the transport `ipc`"
+        "component `{component}` cannot use the transport `{transport}`: enable the feature `{transport}` of the crate \
+         `scl`, or choose the transport `ipc`"
     )]
     TransportOff {
         /// The component.
