@@ -89,7 +89,7 @@ impl Reader<'_> {
             return LaunchFile::default();
         };
         let top = self.keys_but(is_own, entries, keys::TOP, "a launch file");
-        top.get("topology").and_then(|field| self.read_path(field));
+        self.read_setting(&top, "topology", value::path);
         LaunchFile {
             build: top.get("build").and_then(|field| self.read_build(field)),
             components: self.read_components(&top, root.span),

@@ -6,7 +6,7 @@ use super::keys;
 use super::reader::{Keys, Reader, wrong};
 use super::rules::{CONTRADICTION, MISSING, WRONG_VALUE};
 use super::settings::Settings;
-use super::value::{placed_texts, text, texts};
+use super::value::{path, placed_texts, text, texts};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
 use scl_topology::yaml::Node;
@@ -124,7 +124,7 @@ impl Reader<'_> {
         let keys = self.keys(entries, keys::COMPONENT, &format!("component `{name}`"));
         let source = match (keys.get("command"), keys.get("replay")) {
             (None, None) if !must_have_command => None,
-            (None, Some(replay)) => self.read_replay(replay, &keys),
+            (None, Some(_)) => self.read_replay(&keys),
             (command, replay) => {
                 if let Some(replay) = replay {
                     let message = format!("component `{name}` has both a `command` and a `replay`");
@@ -168,11 +168,11 @@ impl Reader<'_> {
         Some(Opens::Also(names.into_iter().map(|(name, _)| name).collect()))
     }
 
-    fn read_replay(&mut self, replay: Field<'_>, keys: &Keys<'_, '_>) -> Option<Source> {
+    fn read_replay(&mut self, keys: &Keys<'_, '_>) -> Option<Source> {
         if let Some(build) = keys.get("build") {
             self.report(CONTRADICTION.at("a `replay` needs no `build`", build.key_span, "").help("remove it"));
         }
-        self.read_path(replay).map(Source::Replay)
+        self.read_setting(keys, "replay", path).map(Source::Replay)
     }
 
     fn read_command(&mut self, entry: Field<'_>, command: Option<Field<'_>>, keys: &Keys<'_, '_>) -> Vec<String> {

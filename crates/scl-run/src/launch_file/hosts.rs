@@ -7,7 +7,7 @@ use super::super::deployment::{Deployment, Host};
 use super::keys;
 use super::reader::{Keys, Reader, wrong};
 use super::rules::{CONTRADICTION, MISSING, WRONG_NAME, WRONG_VALUE};
-use super::value::{flag, number, placed_texts};
+use super::value::{flag, number, path, placed_texts};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
 use scl_topology::yaml::Node;
@@ -92,7 +92,7 @@ impl Reader<'_> {
             place: field.key_span,
             port: keys.and_then(|keys| self.read_setting(keys, "port", port)),
             has_port: may_have("port"),
-            certificates: keys.and_then(|keys| self.read_path(keys.get("certificates")?)),
+            certificates: keys.and_then(|keys| self.read_setting(keys, "certificates", path)),
             has_certificates: may_have("certificates"),
             insecure: keys.and_then(|keys| self.read_setting(keys, "insecure", flag)).unwrap_or_default(),
         }

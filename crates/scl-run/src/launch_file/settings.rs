@@ -4,7 +4,7 @@ use super::super::policy::{Policy, Restart, RestartDelay, RestartLimit};
 use super::keys::{Form, form_of};
 use super::reader::{Keys, Reader, wrong};
 use super::rules::WRONG_VALUE;
-use super::value::{flag, number, shown, text, texts};
+use super::value::{flag, number, path, shown, texts};
 use scl_terminal::{closest_name, parse_duration};
 use scl_topology::parse::Field;
 use scl_topology::yaml::{Node, NodeKind};
@@ -86,15 +86,6 @@ impl Reader<'_> {
         read
     }
 
-    /// Reads a path.
-    pub(super) fn read_path(&mut self, field: Field<'_>) -> Option<String> {
-        let path = path(field.value);
-        if path.is_none() {
-            self.wrong_value(field);
-        }
-        path
-    }
-
     /// Reports a value that does not have the form that its key needs.
     pub(super) fn wrong_value(&mut self, field: Field<'_>) {
         let form = form_of(field.key);
@@ -149,10 +140,6 @@ fn likely(form: Form, text: &str) -> Option<String> {
         }
         _ => None,
     }
-}
-
-fn path(value: &Node) -> Option<String> {
-    text(value).filter(|path| !path.is_empty()).map(str::to_owned)
 }
 
 fn any_duration(text: &str) -> Option<Duration> {

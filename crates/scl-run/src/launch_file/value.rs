@@ -9,6 +9,11 @@ pub(super) fn text(value: &Node) -> Option<&str> {
     value.text().filter(|text| !text.contains('\0'))
 }
 
+/// A path as written, which must not be empty.
+pub(super) fn path(value: &Node) -> Option<String> {
+    text(value).filter(|path| !path.is_empty()).map(str::to_owned)
+}
+
 /// `true` or `false`.
 pub(super) fn flag(value: &Node) -> Option<bool> {
     match value.text().filter(|_| value.is_plain())? {

@@ -52,8 +52,8 @@ const RAW: CodecRow = CodecRow {
     is_default_feature: true,
     carries_schema_types: false,
     messages: "Types of fixed layout that derive the traits of `zerocopy`.",
-    summary: "The bytes of the type as they are in memory: the fastest, but only between processors of the \
-              same kind.",
+    summary: "The bytes of the type as they are in memory: the fastest, but only between processors of the same \
+              kind.",
     remedy: "derive the traits of `zerocopy` for it; it must have a fixed layout",
     synonyms: &["bytes", "none"],
 };

@@ -40,7 +40,7 @@ pub fn decode_for_fuzzing<'p>(
     max_size: usize,
     pieces: impl IntoIterator<Item = &'p [u8]>,
 ) -> Result<usize, String> {
-    let socket = SocketType::ALL.into_iter().find(|known| known.name() == socket).unwrap_or(SocketType::XPub);
+    let socket = SocketType::of(socket).unwrap_or(SocketType::XPub);
     let mut decoder = Decoder::new(socket, max_size);
     let (mut items, mut arrived) = (0, 0);
     for piece in pieces {

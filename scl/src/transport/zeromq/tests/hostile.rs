@@ -37,7 +37,7 @@ fn violations(role: Role) -> Vec<Vec<u8>> {
         b"\x01\0".to_vec(),
         curve,
         plain_hello("PAIR"),
-        plain_hello(role.socket().name()),
+        plain_hello(role.socket().word()),
         [&hello[..64], b"\0\x01\x01"].concat(),
         [&hello[..64], &long(4, 1 << 20)].concat(),
         after_hello(b"\x05\x01\0"),

@@ -15,7 +15,7 @@ pub(in crate::transport::zeromq) enum ProtocolError {
     NotReady,
     #[error("the peer's READY is malformed")]
     MalformedReady,
-    #[error("the peer is a {peer} socket, which cannot talk to {own}", own = own.name())]
+    #[error("the peer is a {peer} socket, which cannot talk to {own}", own = own.word())]
     SocketType { own: SocketType, peer: String },
     #[error("the peer refused the connection: {0}")]
     Refused(String),

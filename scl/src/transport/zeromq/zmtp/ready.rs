@@ -136,7 +136,7 @@ fn parse_window(text: &str) -> Option<Window> {
 /// What an end sends as soon as it is connected: greeting and READY.
 pub(in crate::transport::zeromq) fn hello(socket: SocketType, scl: SclReady) -> Vec<u8> {
     let mut body = b"\x05READY".to_vec();
-    put_property(&mut body, b"Socket-Type", socket.name().as_bytes());
+    put_property(&mut body, b"Socket-Type", socket.word().as_bytes());
     put_property(&mut body, SCL_PROPERTY, scl.encode().as_bytes());
     [&greeting::greeting()[..], Header::new(COMMAND, body.len()).as_bytes(), &body].concat()
 }

@@ -1,36 +1,25 @@
 //! The types of ZeroMQ sockets.
 
-/// The socket types as which SCL's ends appear to their peers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::transport::zeromq) enum SocketType {
-    /// A publishing end.
-    XPub,
-    /// A subscribing end.
-    Sub,
-    /// A pushing end.
-    Push,
-    /// A pulling end.
-    Pull,
-    /// A requesting end.
-    Dealer,
-    /// A replying end.
-    Router,
+scl_text::words! {
+    /// The socket types as which SCL's ends appear to their peers.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub(in crate::transport::zeromq) enum SocketType {
+        /// A publishing end.
+        XPub = "XPUB",
+        /// A subscribing end.
+        Sub = "SUB",
+        /// A pushing end.
+        Push = "PUSH",
+        /// A pulling end.
+        Pull = "PULL",
+        /// A requesting end.
+        Dealer = "DEALER",
+        /// A replying end.
+        Router = "ROUTER",
+    }
 }
 
 impl SocketType {
-    pub(super) const ALL: [Self; 6] = [Self::XPub, Self::Sub, Self::Push, Self::Pull, Self::Dealer, Self::Router];
-
-    pub(in crate::transport::zeromq) fn name(self) -> &'static str {
-        match self {
-            Self::XPub => "XPUB",
-            Self::Sub => "SUB",
-            Self::Push => "PUSH",
-            Self::Pull => "PULL",
-            Self::Dealer => "DEALER",
-            Self::Router => "ROUTER",
-        }
-    }
-
     pub(super) fn peers(self) -> &'static [&'static [u8]] {
         match self {
             Self::XPub => &[b"SUB", b"XSUB"],

@@ -76,7 +76,7 @@ fn our_own_hello_is_understood_by_every_role() {
         assert_eq!(decode(own, &hello(peer, scl)), Ok(vec![Item::Ready(PeerReady { scl: Some(scl), service: None })]));
     }
     for (own, peer) in [(XPub, XPub), (Sub, Push), (Push, Sub), (Pull, Pull), (Dealer, Dealer), (Router, Router)] {
-        let refused = Err(ProtocolError::SocketType { own, peer: peer.name().to_owned() });
+        let refused = Err(ProtocolError::SocketType { own, peer: peer.word().to_owned() });
         assert_eq!(decode(own, &hello(peer, scl)), refused);
     }
 }
