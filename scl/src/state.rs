@@ -194,7 +194,8 @@ impl ComponentState {
         ends.iter().for_each(|end| lock(end).acknowledge_last());
     }
 
-    /// Releases the end of a dropped gate: drops it as soon as its peer has taken everything, or after [`LINGER`].
+    /// Releases the end of a dropped gate: drops it as soon as its peer has taken everything, or after [`LINGER`]. A
+    /// flush of the component, which has a limit of its own, keeps it longer.
     pub(crate) fn release(self: &Arc<Self>, end: Arc<Mutex<dyn SendingEnd>>) {
         // Ends enter the runtime, which is impossible on a thread that is ending.
         on_living_thread(|| self.release_here(&end));
@@ -219,8 +220,11 @@ impl ComponentState {
                 (Some(state), Some(end)) => state.poll_done(&end, cx),
                 _ => Poll::Ready(()),
             });
-            let _in_time = tokio::time::timeout(LINGER, done).await;
+            let in_time = tokio::time::timeout(LINGER, done).await.is_ok();
             if let (Some(state), Some(end)) = (state.upgrade(), end.upgrade()) {
+                if !in_time && *lock(&state.flushed) {
+                    return;
+                }
                 let left = flush::leftover(&mut *lock(&end), Flush::Running, true);
                 lock(&state.given_up).extend(left);
                 state.remove(&end);

@@ -139,13 +139,18 @@ impl Process {
         }
     }
 
+    /// Closes the program's input, at which a program that follows commands ends.
+    pub fn close_input(&mut self) {
+        drop(self.input.take());
+    }
+
     /// Closes the program's input and waits for its end.
     ///
     /// # Panics
     /// If the program does not end.
     #[track_caller]
     pub fn wait_for_exit(mut self) -> Exit {
-        drop(self.input.take());
+        self.close_input();
         let (output, log) = (self.output.rest(), self.log.rest());
         assert!(output.1 && log.1, "`{}` does not end: {:#?}, {:#?}", self.name, output.0, log.0);
         Exit { status: self.child.wait().expect("an exit status"), output: output.0, log: log.0 }

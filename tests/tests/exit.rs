@@ -1,7 +1,12 @@
 //! Sending and exiting at once: running peers get everything, or the program says which did not.
 
-use crate::programs::{LEAVER, TAKER, open_with};
+use crate::programs::{LEAVER, TAKER, open, open_with};
 use scl_tests::{Process, System};
+use std::thread::park_timeout;
+use std::time::Duration;
+
+/// A gate that is dropped waits a second for its peers.
+const LONGER_THAN_A_DROPPED_GATE: Duration = Duration::from_secs(2);
 
 /// Every way to run and to end a program.
 const WAYS: [(&str, &str); 14] = [
@@ -61,6 +66,49 @@ fn a_peer_that_is_not_connected_yet_gets_everything() {
         taker.ask("jobs 999", "0..1000");
         assert_succeeds(leaver, runtime, ending);
     }
+}
+
+/// The promise: `close` waits as long as it is told to, and not as long as a gate that is dropped waits.
+#[test]
+fn close_waits_longer_than_a_gate_that_is_dropped() {
+    let closing = WAYS.iter().filter(|(_, ending)| ending.ends_with("close"));
+    let waiting: Vec<_> = closing
+        .map(|(runtime, ending)| {
+            let system = System::new();
+            let taker = open_with(&system, TAKER, "taker");
+            taker.pause();
+            let mut leaver = system.start(LEAVER, &[runtime, ending, "send", "1000"]);
+            leaver.expect("leaving");
+            (runtime, ending, taker, leaver, system)
+        })
+        .collect();
+    park_timeout(LONGER_THAN_A_DROPPED_GATE);
+    for (runtime, ending, mut taker, leaver, _system) in waiting {
+        taker.resume();
+        taker.ask("values 999", "0..1000");
+        taker.ask("jobs 999", "0..1000");
+        assert_succeeds(leaver, runtime, ending);
+    }
+}
+
+/// The same for peers that are connected.
+#[test]
+fn close_waits_for_connected_peers_that_are_paused() {
+    let system = System::new();
+    let (mut source, mut sink) = (open(&system, "source"), open(&system, "sink"));
+    source.get_ready();
+    sink.pause();
+    source.ask("publish 0 10", "published");
+    source.ask("lossless 0 10", "published");
+    source.ask("push 0 10", "pushed");
+    source.close_input();
+    park_timeout(LONGER_THAN_A_DROPPED_GATE);
+    sink.resume();
+    sink.ask("receive 10", "0..10");
+    sink.ask("receive_lossless 10", "0..10");
+    sink.ask("pull 10", "0..10");
+    let exit = source.wait_for_exit();
+    assert_eq!((exit.code(), &*exit.log), (0, &[][..]), "{exit:?}");
 }
 
 /// The promise: the wait for a peer that never connects is bounded, and the peers are named with what they did not get.

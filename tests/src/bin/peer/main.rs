@@ -1,6 +1,6 @@
 //! Plays a component of `six_kinds.yaml` and follows commands: `peer source`, `peer sink` or `peer watcher`.
 
-use scl_tests::{Commands, ranges, say, say_error, stop_self};
+use scl_tests::{Commands, HANG_LIMIT, ranges, say, say_error, stop_self};
 use std::fmt::Display;
 use std::process::{ExitCode, Stdio};
 use std::time::{Duration, Instant};
@@ -108,7 +108,8 @@ async fn play_source() -> scl::Result<()> {
             other => say(format!("unknown command `{other}`")),
         }
     }
-    source.close(Duration::from_secs(300)).await?;
+    // Shorter than a test waits, which shows what this reports.
+    source.close(HANG_LIMIT / 2).await?;
     Ok(())
 }
 
