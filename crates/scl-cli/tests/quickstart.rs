@@ -2,9 +2,13 @@
 //! is noticed by cargo. All of it without protoc.
 
 use crate::system::{BuildFolder, ChildGuard, SpawnGuarded, System};
+#[cfg(feature = "record")]
+use scl_tests::HANG_LIMIT;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
+#[cfg(feature = "record")]
+use std::time::Instant;
 
 #[test]
 fn the_quick_start_builds_talks_stops_and_notices_its_file() {
@@ -34,6 +38,10 @@ fn the_quick_start_builds_talks_stops_and_notices_its_file() {
 #[test]
 fn a_replayed_recording_gives_the_same_set_points() {
     let quickstart = Copied::new();
+    // So that the set-points depend on the measurements alone: on a busy machine, the newest one would replace others,
+    // and which of a command and a measurement of the same moment comes first, only the controller could tell.
+    quickstart.edit("topology.yaml", "queue: 1}", "queue: 1000}");
+    quickstart.edit("src/bin/user_interface.rs", "[0.5, 1.5]", "[1.0, 1.0]");
     let built = quickstart.build();
     assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
 
@@ -58,9 +66,8 @@ fn a_replayed_recording_gives_the_same_set_points() {
     let compared = quickstart.scl(&[&arguments[..], &["--format", "json"]].concat()).output().unwrap();
     let report: serde_json::Value = serde_json::from_slice(&compared.stdout).unwrap();
     let count = |key: &str| report["gates"][0][key].as_u64().unwrap();
-    // Which of a command and a measurement of the same moment comes first, only the controller could tell.
-    let commands = 3;
-    assert!(count("paired") > 15 && count("different") <= commands, "{report}");
+    // The recorder may find the sensor after its first measurements, and end before the last set-point.
+    assert!(count("paired") > 10 && count("different") == 0, "{report}");
 }
 
 /// A running program; killed when dropped.
@@ -74,9 +81,11 @@ struct Running {
 impl Running {
     #[track_caller]
     fn wait_for_line(&mut self, part: &str) {
+        let started = Instant::now();
         let mut line = String::new();
         while !line.contains(part) {
             line.clear();
+            assert!(started.elapsed() < HANG_LIMIT, "no line with `{part}`");
             assert_ne!(std::io::BufRead::read_line(&mut self.lines, &mut line).unwrap(), 0, "no line with `{part}`");
         }
     }
@@ -97,6 +106,8 @@ struct Copied {
 impl Copied {
     fn new() -> Self {
         let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap();
+        // First, so that the files are newer than what another test has built: cargo takes all copies for one package.
+        let build_folder = BuildFolder::lock();
         let system = System::of_files(&[("bin/protoc", "#!/bin/sh\nexit 1\n")]);
         std::fs::set_permissions(system.path("bin/protoc"), PermissionsExt::from_mode(0o755)).unwrap();
         let source = workspace.join("examples/quickstart");
@@ -110,7 +121,7 @@ impl Copied {
         }
         system.write("Cargo.lock", &std::fs::read_to_string(workspace.join("Cargo.lock")).unwrap());
         system.write("Cargo.toml", &manifest(workspace));
-        Self { system, build_folder: BuildFolder::lock() }
+        Self { system, build_folder }
     }
 
     fn edit(&self, name: &str, from: &str, to: &str) {

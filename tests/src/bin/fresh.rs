@@ -1,7 +1,9 @@
 //! Plays a component of `fresh.yaml`: `fresh clock async|blocking` or `fresh viewer CALL async|blocking`.
 //!
 //! After each message the clock writes its number into the file `$NEWEST`. So the viewer knows, before it makes a call,
-//! which message had been sent by then, whatever the machine does meanwhile.
+//! which message had been sent by then, whatever the machine does meanwhile. It prints that number and the number of
+//! the last message that it has received, in this call or before. The clock also writes how often it did not run for a
+//! while, so that the test knows.
 
 use scl_tests::{Commands, say};
 use std::fs::File;
@@ -14,6 +16,8 @@ scl::topology!("topologies/fresh.yaml");
 
 const PERIOD: Duration = Duration::from_millis(1);
 const PADDING: usize = 50;
+/// Half as long as a call waits for a publisher that is silent.
+const LONG_GAP: Duration = Duration::from_millis(50);
 
 fn main() -> scl::Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -28,7 +32,7 @@ fn main() -> scl::Result<()> {
 }
 
 async fn tick() -> scl::Result<()> {
-    let newest = Newest::create()?;
+    let mut newest = Newest::create()?;
     let mut clock = Clock::open().await?;
     let mut interval = scl::time::interval(PERIOD)?;
     for value in 1.. {
@@ -40,7 +44,7 @@ async fn tick() -> scl::Result<()> {
 }
 
 fn tick_blocking() -> scl::Result<()> {
-    let newest = Newest::create()?;
+    let mut newest = Newest::create()?;
     let mut clock = Clock::open_blocking()?;
     let started = Instant::now();
     for value in 1..u32::MAX {
@@ -54,7 +58,7 @@ fn tick_blocking() -> scl::Result<()> {
 async fn view(call: &str) -> scl::Result<()> {
     let newest = Newest::open()?;
     let mut viewer = Viewer::open().await?;
-    viewer.newest.recv().await?;
+    let mut last = viewer.newest.recv().await?.value;
     say("receiving");
     let mut commands = Commands::listen();
     while let Some(words) = commands.next().await {
@@ -65,7 +69,8 @@ async fn view(call: &str) -> scl::Result<()> {
             "latest" => viewer.newest.latest()?,
             _ => viewer.newest.try_recv()?,
         };
-        report(sent, received);
+        last = received.map_or(last, |received| received.value);
+        say(format!("{sent} {last}"));
     }
     Ok(())
 }
@@ -73,7 +78,7 @@ async fn view(call: &str) -> scl::Result<()> {
 fn view_blocking(call: &str) -> scl::Result<()> {
     let newest = Newest::open()?;
     let mut viewer = Viewer::open_blocking()?;
-    viewer.newest.recv_blocking()?;
+    let mut last = viewer.newest.recv_blocking()?.value;
     say("receiving");
     let mut commands = Commands::listen();
     while let Some(words) = commands.next_blocking() {
@@ -85,7 +90,8 @@ fn view_blocking(call: &str) -> scl::Result<()> {
             "latest" => viewer.newest.latest()?,
             _ => viewer.newest.try_recv()?,
         };
-        report(sent, received);
+        last = received.map_or(last, |received| received.value);
+        say(format!("{sent} {last}"));
     }
     Ok(())
 }
@@ -96,32 +102,36 @@ fn pause(words: &[String]) {
     std::thread::sleep(Duration::from_millis(milliseconds));
 }
 
-fn report(sent: u64, received: Option<Number>) {
-    match received {
-        Some(received) => say(format!("{sent} {}", received.value)),
-        None => say("nothing"),
-    }
+/// The number of the newest message for which `send` has returned, and the number of long gaps between messages.
+struct Newest {
+    file: File,
+    written: Instant,
+    long_gaps: u64,
 }
-
-/// The number of the newest message for which `send` has returned.
-struct Newest(File);
 
 impl Newest {
     fn create() -> std::io::Result<Self> {
-        File::create(path()).map(Self)
+        File::create(path()).map(Self::of)
     }
 
     fn open() -> std::io::Result<Self> {
-        File::open(path()).map(Self)
+        File::open(path()).map(Self::of)
     }
 
-    fn write(&self, value: u64) -> std::io::Result<()> {
-        self.0.write_all_at(&value.to_le_bytes(), 0)
+    fn of(file: File) -> Self {
+        Self { file, written: Instant::now(), long_gaps: 0 }
+    }
+
+    fn write(&mut self, value: u64) -> std::io::Result<()> {
+        let now = Instant::now();
+        self.long_gaps += u64::from(now - std::mem::replace(&mut self.written, now) > LONG_GAP);
+        let bytes = [value, self.long_gaps].map(u64::to_le_bytes);
+        self.file.write_all_at(bytes.as_flattened(), 0)
     }
 
     fn read(&self) -> std::io::Result<u64> {
         let mut bytes = [0; 8];
-        self.0.read_exact_at(&mut bytes, 0)?;
+        self.file.read_exact_at(&mut bytes, 0)?;
         Ok(u64::from_le_bytes(bytes))
     }
 }

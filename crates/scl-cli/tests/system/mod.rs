@@ -4,11 +4,12 @@
 mod guard;
 
 pub(crate) use guard::{ChildGuard, SpawnGuarded};
-use scl_tests::lock_file;
+use scl_tests::{HANG_LIMIT, lock_file};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{ChildStderr, ChildStdout, Command, ExitStatus, Output, Stdio};
+use std::time::Instant;
 
 /// A program that never ends by itself. (`tail` would notice the end of a pipe to which it writes.)
 pub(crate) const FOREVER: &str = "exec tail -f /dev/null >/dev/null";
@@ -149,11 +150,13 @@ impl Started {
 
     /// Reads standard error up to a line that contains this.
     pub(crate) fn wait_for_error(&mut self, expected: &str) {
+        let started = Instant::now();
         loop {
             let seen = self.seen_errors.len();
             self.errors.read_line(&mut self.seen_errors).unwrap();
             let line = &self.seen_errors[seen..];
-            assert!(!line.is_empty(), "no `{expected}` in:\n{}", self.seen_errors);
+            let is_missing = line.is_empty() || started.elapsed() > HANG_LIMIT;
+            assert!(!is_missing, "no `{expected}` in:\n{}", self.seen_errors);
             if line.contains(expected) {
                 return;
             }
@@ -173,9 +176,11 @@ impl Started {
 
     /// Reads standard output up to a line for which `found` returns true.
     pub(crate) fn wait_until(&mut self, expected: &str, found: impl Fn(&str) -> bool) {
+        let started = Instant::now();
         let mut seen = Vec::new();
         loop {
-            let line = self.next_line().unwrap_or_else(|| panic!("no line `{expected}` in:\n{}", seen.join("\n")));
+            let line = self.next_line().filter(|_| started.elapsed() < HANG_LIMIT);
+            let line = line.unwrap_or_else(|| panic!("no line `{expected}` in:\n{}", seen.join("\n")));
             if found(&line) {
                 return;
             }
