@@ -1,7 +1,10 @@
 //! SIGKILL for each kind of peer while messages flow: the others get everything, and a successor takes over.
 
 use crate::programs::open;
-use scl_tests::{Stream, on_each_transport};
+use scl::TransportKind;
+use scl_tests::{Stream, System, on_each_transport};
+use std::fs::{read, read_dir, write};
+use std::path::PathBuf;
 
 #[test]
 fn a_killed_subscriber_costs_the_others_nothing() {
@@ -155,4 +158,37 @@ fn a_silent_connection_does_not_make_a_dead_subscriber_look_alive() {
         source.ask("publish 60 70", "published");
         sink.ask("receive 10", "60..70");
     });
+}
+
+/// The promise: whoever listens at the port of a program that was killed, its peers do not take him for it.
+#[test]
+fn an_address_that_was_left_behind_leads_to_no_other_end() {
+    let system = System::over(TransportKind::Tcp);
+    let mut source = open(&system, "source");
+    let address = address_file(&system, "source.readings--sink.readings.");
+    let right = read(&address).expect("an address");
+    let other = address_file(&system, "source.readings--watcher.readings.");
+    write(&address, read(other).expect("an address")).expect("an address is left behind");
+    let mut sink = open(&system, "sink");
+    sink.tell("ready 1000");
+    let answer = sink.next_line();
+    assert!(answer.contains("source.readings"), "connected to another end: {answer}");
+    write(&address, right).expect("the right address");
+    sink.get_ready();
+    let mut watcher = open(&system, "watcher");
+    source.ask("peers 3", "peers");
+    source.ask("publish 0 10", "published");
+    for receiver in [&mut sink, &mut watcher] {
+        receiver.ask("receive 10", "0..10");
+    }
+}
+
+fn address_file(system: &System, endpoint: &str) -> PathBuf {
+    let files = read_dir(system.runtime_dir().join("six")).expect("the system's folder");
+    let mut paths = files.map(|file| file.expect("a file").path());
+    let is_wanted = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        name.starts_with(endpoint) && name.ends_with(".tcp")
+    };
+    paths.find(is_wanted).expect("an address file")
 }

@@ -15,7 +15,7 @@ use super::shared_memory::Offer;
 use super::stream::{Stream, is_blocked};
 use super::tcp_user::UserChecks;
 use super::timer::Timer;
-use super::zmtp::{Decoder, Item, PeerReady, ProtocolError, SclReady, SocketType, hello};
+use super::zmtp::{ConnectionId, Decoder, Item, PeerReady, ProtocolError, SclReady, SocketType, hello};
 use crate::runtime_dir::{OwnedPath, Seen, SystemDir};
 use crate::transport::{Endpoint, TransportError};
 use bytes::Bytes;
@@ -50,6 +50,7 @@ pub(super) struct Acceptor {
     kind: TransportKind,
     pub(super) endpoint: Endpoint,
     socket: SocketType,
+    connection: ConnectionId,
     scl: SclReady,
     hello: Bytes,
     /// Shared memory, if it is offered to peers.
@@ -87,11 +88,14 @@ impl Acceptor {
         scl: SclReady,
     ) -> Result<Self, TransportError> {
         let (listener, guard) = Listener::bind(dir, kind, &endpoint.name)?;
+        let connection = ConnectionId::of(dir, &endpoint.name);
+        let scl = SclReady { connection: Some(connection), ..scl };
         Ok(Self {
             dir: Arc::clone(dir),
             kind,
             endpoint: endpoint.clone(),
             socket,
+            connection,
             scl,
             hello: hello(socket, scl).into(),
             offer: None,
@@ -283,7 +287,7 @@ impl Acceptor {
     fn poll_handshakes(&mut self, cx: &mut Context<'_>) -> Poll<(Session, PeerReady)> {
         let mut index = 0;
         while let Some(handshake) = self.handshakes.get_mut(index) {
-            match poll_handshake(&mut handshake.session, cx) {
+            match poll_handshake(&mut handshake.session, self.connection, cx) {
                 Poll::Ready(Ok(peer)) => {
                     if let Some(handshake) = self.handshakes.remove(index) {
                         let can_share = peer.scl.is_some_and(|scl| scl.shm.is_some());
@@ -314,13 +318,17 @@ impl Acceptor {
     }
 }
 
-/// Continues the handshake. Ready when the peer has sent READY.
-pub(super) fn poll_handshake(session: &mut Session, cx: &mut Context<'_>) -> Poll<Result<PeerReady, Closed>> {
+/// Continues the handshake of a connection. Ready when the peer has sent READY.
+pub(super) fn poll_handshake(
+    session: &mut Session,
+    connection: ConnectionId,
+    cx: &mut Context<'_>,
+) -> Poll<Result<PeerReady, Closed>> {
     if !session.is_written() {
         session.flush(cx)?;
     }
     Poll::Ready(match ready!(session.poll_item(cx))? {
-        Item::Ready(peer) => Ok(peer),
+        Item::Ready(peer) => Ok(peer.check(connection)?),
         _ => Err(ProtocolError::NotReady.into()),
     })
 }

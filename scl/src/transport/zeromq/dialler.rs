@@ -11,7 +11,7 @@ use super::session::{Closed, Session};
 use super::stream::{Socket, Stream};
 use super::tcp_user::UserChecks;
 use super::timer::Timer;
-use super::zmtp::{Decoder, PeerReady, SclReady, ShmReady, SocketType, hello};
+use super::zmtp::{ConnectionId, Decoder, PeerReady, SclReady, ShmReady, SocketType, hello};
 use crate::runtime_dir::{self, Address, Seen, SystemDir};
 use crate::transport::Endpoint;
 use bytes::Bytes;
@@ -42,6 +42,7 @@ pub(super) struct Dialler {
     pub(super) dir: Arc<SystemDir>,
     pub(super) endpoint: Endpoint,
     socket: SocketType,
+    connection: ConnectionId,
     hello: Bytes,
     runtime: Option<Handle>,
     /// Runs from one attempt until the next one may be made.
@@ -64,11 +65,13 @@ pub(super) struct Dialler {
 impl Dialler {
     /// Creates a dialler. Called inside a runtime.
     pub(super) fn new(dir: &Arc<SystemDir>, endpoint: &Endpoint, socket: SocketType, scl: SclReady) -> Self {
-        let scl = SclReady { shm: ShmReady::of_dialling(socket), ..scl };
+        let connection = ConnectionId::of(dir, &endpoint.name);
+        let scl = SclReady { shm: ShmReady::of_dialling(socket), connection: Some(connection), ..scl };
         Self {
             dir: Arc::clone(dir),
             endpoint: endpoint.clone(),
             socket,
+            connection,
             hello: hello(socket, scl).into(),
             runtime: Handle::try_current().ok(),
             pause: Timer::default(),
@@ -128,7 +131,7 @@ impl Dialler {
                 self.connect()?
             }
         };
-        match poll_handshake(&mut session, cx) {
+        match poll_handshake(&mut session, self.connection, cx) {
             Poll::Ready(ready) => {
                 // Otherwise, the timer would wake the task for nothing.
                 self.limit.clear();

@@ -22,7 +22,7 @@ pub(super) use command::{
 pub(super) use decoder::{Decoder, Item, Message};
 pub(super) use error::ProtocolError;
 pub(super) use frame::{Header, MORE, bodies};
-pub(super) use ready::{PeerReady, SclReady, ShmReady, hello};
+pub(super) use ready::{ConnectionId, PeerReady, SclReady, ShmReady, hello};
 pub(super) use socket_type::SocketType;
 
 /// Decodes everything that a peer sends to a socket of a type, in pieces, and returns how many items it understood.

@@ -4,7 +4,7 @@ use super::ends::{answer, ask, echo};
 use super::stage::{Stage, next, numbered, once, pattern};
 use crate::runtime_dir::bind_ipc;
 use crate::transport::zeromq::TransportKind;
-use crate::transport::zeromq::zmtp::{SclReady, ShmReady, SocketType, hello};
+use crate::transport::zeromq::zmtp::{ConnectionId, SclReady, ShmReady, SocketType, hello};
 use crate::transport::{PeerKind, Transport};
 use bytes::Bytes;
 use std::future::poll_fn;
@@ -35,8 +35,14 @@ impl Stage {
 }
 
 /// Reads what an end says first, and exactly as many bytes after it.
-async fn read_after_hello(stream: &mut UnixStream, socket: SocketType, scl: SclReady, bytes: usize) -> Vec<u8> {
-    let expected = hello(socket, scl);
+async fn read_after_hello(
+    stream: &mut UnixStream,
+    connection: ConnectionId,
+    socket: SocketType,
+    scl: SclReady,
+    bytes: usize,
+) -> Vec<u8> {
+    let expected = hello(socket, SclReady { connection: Some(connection), ..scl });
     let mut heard = vec![0; expected.len() + bytes];
     stream.read_exact(&mut heard).await.unwrap();
     assert!(heard.starts_with(&expected));
@@ -54,7 +60,7 @@ async fn a_plain_subscriber_gets_what_it_subscribed_to() {
         .await
         .unwrap();
     let scl = SclReady::default();
-    let pong = publisher.during(read_after_hello(&mut subscriber, SocketType::XPub, scl, 9)).await;
+    let pong = publisher.during(read_after_hello(&mut subscriber, stage.connection(), SocketType::XPub, scl, 9)).await;
     assert_eq!(pong, b"\x04\x07\x04PONGhi");
     assert_eq!(publisher.peers[0].kind, PeerKind::Foreign);
     publisher.queue(["a1", "b2", "c3", "", "a4"].map(Bytes::from));
@@ -93,7 +99,7 @@ async fn a_plain_publisher_is_subscribed_to_after_its_ready() {
     let (mut stream, _) = listener.accept().await.unwrap();
     let shm = ShmReady::of_dialling(SocketType::Sub);
     let scl = SclReady { shm, ..super::super::credit::receiving(&super::stage::endpoint()) };
-    read_after_hello(&mut stream, SocketType::Sub, scl, 0).await;
+    read_after_hello(&mut stream, stage.connection(), SocketType::Sub, scl, 0).await;
     let mut early = [0];
     assert!(stream.try_read(&mut early).is_err(), "sent something before READY arrived");
     stream.write_all(&plain_hello("PUB")).await.unwrap();
@@ -131,7 +137,13 @@ async fn a_plain_requester_is_answered_through_its_envelope() {
     for (socket_type, request, expected) in cases {
         let mut requester = stage.connect(socket_type).await;
         requester.write_all(request).await.unwrap();
-        let reading = read_after_hello(&mut requester, SocketType::Router, SclReady::default(), expected.len());
+        let reading = read_after_hello(
+            &mut requester,
+            stage.connection(),
+            SocketType::Router,
+            SclReady::default(),
+            expected.len(),
+        );
         let mut reading = std::pin::pin!(reading);
         let heard = poll_fn(|cx| {
             echo(&mut *replier, cx);
@@ -151,7 +163,8 @@ async fn a_plain_replier_gets_an_envelope_and_returns_it() {
     let replying = tokio::spawn(async move {
         let (mut stream, _) = listener.accept().await.unwrap();
         stream.write_all(&plain_hello("REP")).await.unwrap();
-        let request = read_after_hello(&mut stream, SocketType::Dealer, SclReady::default(), 17).await;
+        let request =
+            read_after_hello(&mut stream, stage.connection(), SocketType::Dealer, SclReady::default(), 17).await;
         assert_eq!(request, b"\x01\x08\0\0\0\0\0\0\x01\x02\x01\0\0\x03abc");
         // Replies to nobody are ignored.
         stream.write_all(b"\x01\x01?\x01\0\0\x01x\0\x01x\x01\0\0\x01x").await.unwrap();
@@ -184,7 +197,8 @@ async fn a_tap_sends_two_frames_and_drops_the_oldest() {
     let message = 9 + payload.len() + 2 + 4;
     let left = 500 - dropped as usize;
     let heard = {
-        let reading = read_after_hello(&mut observer, SocketType::XPub, SclReady::default(), left * message);
+        let reading =
+            read_after_hello(&mut observer, stage.connection(), SocketType::XPub, SclReady::default(), left * message);
         let mut reading = std::pin::pin!(reading);
         poll_fn(|cx| {
             assert!(tap.drive(cx));

@@ -1,6 +1,7 @@
 //! Ends in a temporary folder, and what moves them on.
 
 use crate::runtime_dir::{RuntimeDir, SystemDir};
+use crate::transport::zeromq::zmtp::ConnectionId;
 use crate::transport::zeromq::{TransportKind, ZeroMq};
 use crate::transport::{Endpoint, Frame, Link, Peer, PeerKind, Receiver, Sender, Transport};
 use bytes::Bytes;
@@ -24,6 +25,11 @@ impl Stage {
         let variable = |name: &str| (name == "SCL_RUNTIME_DIR").then(|| folder.path().into());
         let dir = RuntimeDir::locate(&variable).unwrap().system("rover").unwrap();
         Self { _folder: folder, transport: ZeroMq::new(dir.clone(), kind), dir }
+    }
+
+    /// What all ends here say about their connection.
+    pub(super) fn connection(&self) -> ConnectionId {
+        ConnectionId::of(&self.dir, ENDPOINT)
     }
 
     pub(super) fn publisher(&self) -> Outgoing {

@@ -17,6 +17,8 @@ pub(in crate::transport::zeromq) enum ProtocolError {
     MalformedReady,
     #[error("the peer is a {peer} socket, which cannot talk to {own}", own = own.word())]
     SocketType { own: SocketType, peer: String },
+    #[error("another end listens at its address, which a program that was killed has left behind")]
+    OtherConnection,
     #[error("the peer refused the connection: {0}")]
     Refused(String),
     #[error("the peer sent a frame with reserved flags: {0:#04x}")]

@@ -3,8 +3,10 @@
 use super::super::memory_format::memory_format;
 use super::frame::{COMMAND, Header};
 use super::{ProtocolError, SocketType, greeting};
+use crate::runtime_dir::SystemDir;
 use crate::transport::{PeerKind, Window};
 use bytes::Buf;
+use std::os::unix::ffi::OsStrExt;
 
 /// The property that tells SCL's ends from other ZeroMQ programs.
 const SCL_PROPERTY: &[u8] = b"X-SCL";
@@ -29,6 +31,14 @@ impl PeerReady {
     pub(in crate::transport::zeromq) fn kind(&self) -> PeerKind {
         if self.scl.is_some() { PeerKind::Component } else { PeerKind::Foreign }
     }
+
+    /// Fails if the peer is an end of another connection.
+    pub(in crate::transport::zeromq) fn check(self, own: ConnectionId) -> Result<Self, ProtocolError> {
+        match self.scl.and_then(|scl| scl.connection) {
+            Some(other) if other != own => Err(ProtocolError::OtherConnection),
+            _ => Ok(self),
+        }
+    }
 }
 
 /// The value of the property `X-SCL`.
@@ -46,6 +56,33 @@ pub(in crate::transport::zeromq) struct SclReady {
     pub(in crate::transport::zeromq) latched: bool,
     /// Present if this end can share memory with one that has the same engine and user.
     pub(in crate::transport::zeromq) shm: Option<ShmReady>,
+    /// The connection that this end belongs to. An older release does not tell.
+    pub(in crate::transport::zeromq) connection: Option<ConnectionId>,
+}
+
+/// Tells the connections of all systems of a machine apart.
+///
+/// The address that a killed program leaves behind may by now be that of any other end, which speaks the same protocol.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::transport::zeromq) struct ConnectionId(u64);
+
+impl ConnectionId {
+    /// The 64-bit FNV-1a of `system/endpoint`.
+    pub(in crate::transport::zeromq) fn of(dir: &SystemDir, endpoint: &str) -> Self {
+        let system = dir.folder().file_name().unwrap_or_default().as_bytes();
+        let bytes = system.iter().chain(b"/").chain(endpoint.as_bytes());
+        Self(bytes.fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)))
+    }
+
+    /// Returns `None` if the text is malformed, as for an end that does not tell.
+    fn parse(text: &str) -> Option<Self> {
+        let are_digits = text.len() == 16 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
+        u64::from_str_radix(text, 16).ok().filter(|_| are_digits).map(Self)
+    }
+
+    fn encode(self) -> String {
+        format!(" connection={:016x}", self.0)
+    }
 }
 
 /// What an end that can share memory announces.
@@ -64,7 +101,8 @@ impl SclReady {
         let latched = if self.latched { " latched" } else { "" };
         let in_flight = self.in_flight.map_or_else(String::new, |requests| format!(" in-flight={requests}"));
         let shm = self.shm.map_or_else(String::new, ShmReady::encode);
-        format!("{SCL_VERSION}{window}{newest}{lossless}{latched}{in_flight}{shm}")
+        let connection = self.connection.map_or_else(String::new, ConnectionId::encode);
+        format!("{SCL_VERSION}{window}{newest}{lossless}{latched}{in_flight}{shm}{connection}")
     }
 
     /// Returns `None` for another version. Unknown words are ignored, so that the value can grow.
@@ -84,6 +122,7 @@ impl SclReady {
                     ready.in_flight = requests.parse().ok().filter(|&requests| requests <= MOST_IN_FLIGHT);
                 }
                 (_, Some(("shm", shm))) => ready.shm = ShmReady::parse(shm)?,
+                (_, Some(("connection", connection))) => ready.connection = ConnectionId::parse(connection),
                 _ => {}
             }
         }
@@ -179,6 +218,32 @@ fn split_property(properties: &[u8]) -> Option<(&[u8], &[u8], &[u8])> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::runtime_dir::RuntimeDir;
+
+    #[test]
+    fn ends_of_another_connection_are_refused() {
+        let peer = |connection| PeerReady { scl: Some(SclReady { connection, ..SclReady::default() }), service: None };
+        let own = ConnectionId(1);
+        // The last two are an end of an older release, and a plain ZeroMQ program.
+        for accepted in [peer(Some(own)), peer(None), PeerReady { scl: None, service: None }] {
+            assert_eq!(accepted.clone().check(own), Ok(accepted));
+        }
+        assert_eq!(peer(Some(ConnectionId(2))).check(own), Err(ProtocolError::OtherConnection));
+    }
+
+    #[test]
+    fn the_connection_is_told_in_sixteen_digits() {
+        let folder = tempfile::tempdir().unwrap();
+        let variable = |name: &str| (name == "SCL_RUNTIME_DIR").then(|| folder.path().into());
+        let dir = RuntimeDir::locate(&variable).unwrap().system("rover").unwrap();
+        // FNV-1a of `rover/sensor.out--controller.in.1a2b3c4d`.
+        let id = ConnectionId::of(&dir, "sensor.out--controller.in.1a2b3c4d");
+        assert_eq!(id.encode(), " connection=ffa1c03bf2446447");
+        assert_eq!(ConnectionId::parse("ffa1c03bf2446447"), Some(id));
+        for malformed in ["", "1", "+23456789abcdef0", "0123456789abcdefg", "00000000000000000"] {
+            assert_eq!(ConnectionId::parse(malformed), None, "{malformed}");
+        }
+    }
 
     #[test]
     fn names_of_services_are_parsed_or_refused() {
