@@ -160,7 +160,7 @@ fn start_cargo(system: &System, arguments: &[&str], words: &[&str]) -> Started {
     });
     let mut words = words.to_vec();
     while !words.is_empty() {
-        let line = run.next_line().unwrap();
+        let Some(line) = run.next_line() else { panic!("it ended before {words:?}: {:?}", run.finish()) };
         words.retain(|word| !line.ends_with(word));
     }
     run
