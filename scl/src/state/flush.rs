@@ -74,15 +74,21 @@ pub(super) async fn flush(
     let mut deadline = pin!(tokio::time::sleep(timeout));
     let mut look = pin!(tokio::time::sleep(LOOK));
     poll_fn(|cx| {
+        let (mut is_open, mut awaits) = (false, false);
         // Poll all of them, so that each wakes this task.
-        let unflushed = ends.iter().filter(|end| lock(end).poll_flushed(true, cx).is_pending()).count();
-        let absent = || ends.iter().filter_map(|end| lock(end).waits_for_absent_peer());
-        let awaited = flush == Flush::Running && absent().any(|left| is_running(left.peer.component()));
-        if unflushed == 0 && !awaited {
+        for end in ends {
+            // Locked once for both questions: a peer that connects in between would count neither as absent nor as one
+            // that has not taken everything.
+            let mut end = lock(end);
+            is_open |= end.poll_flushed(true, cx).is_pending();
+            let absent = end.waits_for_absent_peer().filter(|_| flush == Flush::Running);
+            awaits |= absent.is_some_and(|left| is_running(left.peer.component()));
+        }
+        if !is_open && !awaits {
             return Poll::Ready(());
         }
         // Check periodically, because a peer that dies before it connects causes no event.
-        while awaited && look.as_mut().poll(cx).is_ready() {
+        while awaits && look.as_mut().poll(cx).is_ready() {
             look.as_mut().reset(tokio::time::Instant::now() + LOOK);
         }
         deadline.as_mut().poll(cx)
