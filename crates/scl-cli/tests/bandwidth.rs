@@ -20,7 +20,7 @@ fn bytes_and_sizes_are_exact() {
 #[test]
 fn a_table_lists_all_gates_of_the_system() {
     let rover = Rover::start();
-    let text = rover.text(&["bw", "--once"]);
+    let text = rover.measure(&["bw", "--once"]);
     let header: Vec<_> = text.lines().next().unwrap().split_whitespace().collect();
     assert_eq!(header, ["GATE", "BANDWIDTH", "MESSAGES", "MIN", "MEAN", "MAX"]);
     let image = text.lines().find(|line| line.starts_with("sensor.image ")).unwrap();

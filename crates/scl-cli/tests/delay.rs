@@ -21,7 +21,7 @@ fn delays_are_small_and_of_every_message() {
 #[test]
 fn a_table_has_a_line_for_each_gate() {
     let rover = Rover::start();
-    let text = rover.text(&["delay", "sensor.measurements", "controller.commands", "--once"]);
+    let text = rover.measure(&["delay", "sensor.measurements", "controller.commands", "--once"]);
     let words: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
     assert_eq!(words[0], ["GATE", "MESSAGES", "MIN", "P50", "P99", "MAX", "MEAN"]);
     assert_eq!((words[1][0], words[2][0], words.len()), ("sensor.measurements", "controller.commands", 3));

@@ -17,11 +17,15 @@ const VALUES: &[&[&str]] = &[
 const STREAMS: &[&[&str]] = &[
     &["echo", "sensor.measurements", "-n", "3"],
     &["echo", "controller.commands", "logger.events", "sensor.image", "-n", "9"],
+    #[cfg(feature = "run")]
+    &["log", "sensor"],
+];
+
+/// Measurements, whose answer is a stream too.
+const MEASUREMENTS: &[&[&str]] = &[
     &["hz", "sensor.measurements", "logger.events", "--once", "--for", "300ms"],
     &["bw", "sensor.measurements", "--once", "--for", "300ms"],
     &["delay", "sensor.measurements", "--once", "--for", "300ms"],
-    #[cfg(feature = "run")]
-    &["log", "sensor"],
 ];
 
 /// A log of the sensor, as `scl run` writes it, with characters that a terminal would obey.
@@ -34,11 +38,13 @@ fn every_query_answers_in_json() {
     std::fs::create_dir_all(rover.path("state/scl/rover")).unwrap();
     std::fs::write(rover.path("state/scl/rover/sensor.log"), LOG).unwrap();
     for arguments in VALUES {
-        let text = output(&rover, arguments);
+        let text = output(arguments, |arguments| rover.text(arguments));
         serde_json::from_str::<Value>(&text).unwrap_or_else(|error| panic!("{arguments:?}: {error}\n{text}"));
     }
-    for arguments in STREAMS {
-        let text = output(&rover, arguments);
+    let streams = STREAMS.iter().map(|arguments| (arguments, output(arguments, |arguments| rover.text(arguments))));
+    let measured =
+        MEASUREMENTS.iter().map(|arguments| (arguments, output(arguments, |arguments| rover.measure(arguments))));
+    for (arguments, text) in streams.chain(measured) {
         assert!(!text.is_empty(), "{arguments:?}");
         for line in text.lines() {
             let value = serde_json::from_str::<Value>(line);
@@ -48,8 +54,8 @@ fn every_query_answers_in_json() {
 }
 
 /// What a query prints, which has only characters that a terminal shows.
-fn output(rover: &Rover, arguments: &[&str]) -> String {
-    let text = rover.text(&[arguments, &["--format", "json"]].concat());
+fn output(arguments: &[&str], ask: impl Fn(&[&str]) -> String) -> String {
+    let text = ask(&[arguments, &["--format", "json"]].concat());
     let raw = text.chars().find(|&c| c != '\n' && (c.is_control() || c == '\u{202e}'));
     assert_eq!(raw, None, "{arguments:?}:\n{text}");
     assert!(text.ends_with('\n'), "{arguments:?}:\n{text}");

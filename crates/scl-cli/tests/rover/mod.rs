@@ -8,10 +8,12 @@ mod messages;
 mod player;
 
 use crate::system::{ChildGuard, SpawnGuarded, System};
+use scl_tests::HANG_LIMIT;
 use serde_json::Value;
 use std::io::{BufRead, BufReader};
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
+use std::time::Instant;
 
 /// The system's topology, with gates of all kinds.
 pub(crate) const TOPOLOGY: &str = include_str!("rover.yaml");
@@ -156,13 +158,22 @@ impl Rover {
     }
 
     /// Repeats a query until `found` returns something.
+    #[track_caller]
     pub(crate) fn wait_for<T>(&self, arguments: &[&str], found: impl Fn(&Value) -> Option<T>) -> T {
         let arguments = [arguments, &["--format", "json"]].concat();
-        loop {
-            if let Some(found) = found(&self.json(&arguments)) {
-                return found;
-            }
-        }
+        repeat(&arguments, || found(&self.json(&arguments)))
+    }
+
+    /// Standard output of a measurement that has seen messages of every gate. It is repeated until then, because a
+    /// sender that gets no processor sends nothing.
+    #[track_caller]
+    pub(crate) fn measure(&self, arguments: &[&str]) -> String {
+        repeat(arguments, || {
+            let output = self.scl(arguments).output().unwrap();
+            assert!(matches!(output.status.code(), Some(0 | 1)), "{arguments:?}: {output:?}");
+            let text = String::from_utf8(output.stdout).unwrap();
+            (output.status.success() && !text.contains("no messages")).then_some(text)
+        })
     }
 
     fn spawn(&self, component: &str, prepare: &impl Fn(&mut Command)) -> Playing {
@@ -187,6 +198,18 @@ impl Rover {
     fn take(&mut self, component: &str) -> ChildGuard {
         let index = self.playing.iter().position(|playing| playing.component == component);
         self.playing.remove(index.unwrap_or_else(|| panic!("`{component}` is not running"))).process
+    }
+}
+
+/// Repeats `query`, the `scl` with these arguments, until it returns something.
+#[track_caller]
+fn repeat<T>(arguments: &[&str], query: impl Fn() -> Option<T>) -> T {
+    let end = Instant::now() + HANG_LIMIT;
+    loop {
+        if let Some(found) = query() {
+            return found;
+        }
+        assert!(Instant::now() < end, "{arguments:?}: not within {HANG_LIMIT:?}");
     }
 }
 
