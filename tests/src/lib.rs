@@ -30,4 +30,4 @@ pub use raw_peer::{Frame, RawListener, RawPeer};
 pub use shared_memory::is_shared;
 pub use stream::{Address, Stream};
 pub use system::{System, on_each_transport};
-pub use until::{HANG_LIMIT, NEVER, wait_until};
+pub use until::{HANG_LIMIT, NEVER, wait_for, wait_until};

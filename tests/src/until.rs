@@ -17,8 +17,20 @@ pub const NEVER: &str = "1000s";
 /// With `what` if it does not hold within [`HANG_LIMIT`].
 #[track_caller]
 pub fn wait_until(what: &str, mut condition: impl FnMut() -> bool) {
+    wait_for(what, || condition().then_some(()));
+}
+
+/// Asks again and again until there is an answer, and returns it.
+///
+/// # Panics
+/// With `what` if there is none within [`HANG_LIMIT`].
+#[track_caller]
+pub fn wait_for<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
     let started = Instant::now();
-    while !condition() {
+    loop {
+        if let Some(answer) = ask() {
+            return answer;
+        }
         assert!(started.elapsed() < HANG_LIMIT, "still not true: {what}");
         park_timeout(Duration::from_millis(1));
     }

@@ -263,10 +263,10 @@ fn messages_that_were_dropped_for_a_slow_reader_are_noted() {
 
 /// Waits until a process runs a component.
 fn wait_until_running(rover: &Rover, component: &str) {
-    let runs = |list: &Value| {
-        list["components"].as_array().unwrap().iter().any(|it| it["name"] == component && it["state"] == "running")
-    };
-    while !runs(&rover.json(&["list", "--format", "json"])) {}
+    rover.wait_for(&["list"], |list| {
+        let mut components = list["components"].as_array().unwrap().iter();
+        components.any(|it| it["name"] == component && it["state"] == "running").then_some(())
+    });
 }
 
 #[test]

@@ -38,13 +38,14 @@ fn every_query_answers_in_json() {
     std::fs::create_dir_all(rover.path("state/scl/rover")).unwrap();
     std::fs::write(rover.path("state/scl/rover/sensor.log"), LOG).unwrap();
     for arguments in VALUES {
-        let text = output(arguments, |arguments| rover.text(arguments));
+        let text = rover.text(&in_json(arguments));
+        check_characters(arguments, &text);
         serde_json::from_str::<Value>(&text).unwrap_or_else(|error| panic!("{arguments:?}: {error}\n{text}"));
     }
-    let streams = STREAMS.iter().map(|arguments| (arguments, output(arguments, |arguments| rover.text(arguments))));
-    let measured =
-        MEASUREMENTS.iter().map(|arguments| (arguments, output(arguments, |arguments| rover.measure(arguments))));
+    let streams = STREAMS.iter().map(|arguments| (arguments, rover.text(&in_json(arguments))));
+    let measured = MEASUREMENTS.iter().map(|arguments| (arguments, rover.measure(&in_json(arguments))));
     for (arguments, text) in streams.chain(measured) {
+        check_characters(arguments, &text);
         assert!(!text.is_empty(), "{arguments:?}");
         for line in text.lines() {
             let value = serde_json::from_str::<Value>(line);
@@ -53,11 +54,13 @@ fn every_query_answers_in_json() {
     }
 }
 
-/// What a query prints, which has only characters that a terminal shows.
-fn output(arguments: &[&str], ask: impl Fn(&[&str]) -> String) -> String {
-    let text = ask(&[arguments, &["--format", "json"]].concat());
+fn in_json<'a>(arguments: &[&'a str]) -> Vec<&'a str> {
+    [arguments, &["--format", "json"]].concat()
+}
+
+/// What a query prints has only characters that a terminal shows.
+fn check_characters(arguments: &[&str], text: &str) {
     let raw = text.chars().find(|&c| c != '\n' && (c.is_control() || c == '\u{202e}'));
     assert_eq!(raw, None, "{arguments:?}:\n{text}");
     assert!(text.ends_with('\n'), "{arguments:?}:\n{text}");
-    text
 }

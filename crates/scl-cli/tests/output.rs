@@ -2,6 +2,7 @@
 
 use crate::rover::Rover;
 use crate::system::SpawnGuarded;
+use scl_tests::wait_for;
 use std::collections::BTreeSet;
 use std::fs::OpenOptions;
 use std::process::{Command, Output, Stdio};
@@ -94,12 +95,10 @@ fn a_reader_that_has_gone_is_no_error_of_any_command() {
     let rover = rover();
     for (arguments, expected) in COMMANDS {
         // Senders that get no processor are measured again: exit code 1 says that no message was seen.
-        let (code, error) = loop {
+        let (code, error) = wait_for(&arguments.join(" "), || {
             let output = with_output(rover.scl(arguments), closed_pipe());
-            if *expected != 0 || output.0 != Some(1) {
-                break output;
-            }
-        };
+            (*expected != 0 || output.0 != Some(1)).then_some(output)
+        });
         let is_quiet = !["error", "panic", "roken pipe"].iter().any(|word| error.contains(word));
         assert!(is_quiet, "{arguments:?}: {error}");
         assert_eq!(code, Some(*expected), "{arguments:?}: {error}");

@@ -4,7 +4,7 @@ use super::recorder::{Recorder, counts, figures, messages, sequences, summary};
 use super::source::Source;
 use crate::rover::Rover;
 use scl_plan::SystemPlan;
-use scl_tests::wait_until;
+use scl_tests::{wait_for, wait_until};
 use std::collections::BTreeMap;
 use std::thread;
 use std::time::{Duration, SystemTime};
@@ -199,12 +199,10 @@ fn recording_ends_after_a_time() {
     std::fs::write(rover.path("other.yaml"), "components: {}\n").unwrap();
     let arguments = [&["--for", "500ms", "--format", "json", "--overwrite"], &files[..]].concat();
     // Senders that get no processor are recorded again.
-    let (code, out, err) = loop {
+    let (code, out, err) = wait_for("a message is recorded", || {
         let (code, out, err) = Recorder::start(&rover, 6, &arguments).finish();
-        if err != "no message was seen\n" {
-            break (code, out, err);
-        }
-    };
+        (err != "no message was seen\n").then_some((code, out, err))
+    });
     assert_eq!((code, err.as_str()), (Some(0), ""), "{out}");
     let attached = summary(&rover.path("flight.mcap")).attachment_indexes;
     assert!(attached.iter().any(|attachment| attachment.name == "launch.yaml"), "the file that was named");

@@ -8,12 +8,11 @@ mod messages;
 mod player;
 
 use crate::system::{ChildGuard, SpawnGuarded, System};
-use scl_tests::HANG_LIMIT;
+use scl_tests::wait_for;
 use serde_json::Value;
 use std::io::{BufRead, BufReader};
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
-use std::time::Instant;
 
 /// The system's topology, with gates of all kinds.
 pub(crate) const TOPOLOGY: &str = include_str!("rover.yaml");
@@ -161,15 +160,22 @@ impl Rover {
     #[track_caller]
     pub(crate) fn wait_for<T>(&self, arguments: &[&str], found: impl Fn(&Value) -> Option<T>) -> T {
         let arguments = [arguments, &["--format", "json"]].concat();
-        repeat(&arguments, || found(&self.json(&arguments)))
+        wait_for(&arguments.join(" "), || found(&self.json(&arguments)))
     }
 
-    /// Standard output of a measurement that has seen messages of every gate. It is repeated until then, because a
+    /// As [`Self::text`], for a measurement that has seen messages of every gate. It is repeated until then, because a
     /// sender that gets no processor sends nothing.
     #[track_caller]
     pub(crate) fn measure(&self, arguments: &[&str]) -> String {
-        repeat(arguments, || {
+        self.measure_with_note(arguments, "")
+    }
+
+    /// As [`Self::measure`], with this text on standard error.
+    #[track_caller]
+    pub(crate) fn measure_with_note(&self, arguments: &[&str], note: &str) -> String {
+        wait_for(&arguments.join(" "), || {
             let output = self.scl(arguments).output().unwrap();
+            assert_eq!(String::from_utf8_lossy(&output.stderr), note, "{arguments:?}");
             assert!(matches!(output.status.code(), Some(0 | 1)), "{arguments:?}: {output:?}");
             let text = String::from_utf8(output.stdout).unwrap();
             (output.status.success() && !text.contains("no messages")).then_some(text)
@@ -198,18 +204,6 @@ impl Rover {
     fn take(&mut self, component: &str) -> ChildGuard {
         let index = self.playing.iter().position(|playing| playing.component == component);
         self.playing.remove(index.unwrap_or_else(|| panic!("`{component}` is not running"))).process
-    }
-}
-
-/// Repeats `query`, the `scl` with these arguments, until it returns something.
-#[track_caller]
-fn repeat<T>(arguments: &[&str], query: impl Fn() -> Option<T>) -> T {
-    let end = Instant::now() + HANG_LIMIT;
-    loop {
-        if let Some(found) = query() {
-            return found;
-        }
-        assert!(Instant::now() < end, "{arguments:?}: not within {HANG_LIMIT:?}");
     }
 }
 
