@@ -18,6 +18,7 @@ mod schemas;
 mod testing;
 #[cfg(test)]
 mod tests;
+mod trial;
 mod unreadable;
 
 pub use no_panic::{BUG, no_panic};
@@ -96,15 +97,18 @@ fn with_text(request: &Request, text: Result<String, read::Unreadable>) -> Loade
 fn checked(request: &Request, mut loaded: Loaded) -> Loaded {
     let Some(file) = loaded.file else { return loaded };
     let mut found = Diagnostics::new();
-    let problems = &mut found;
-    loaded.model = parse(&loaded.sources, file, problems);
-    let compiled = schemas::compile(request, &loaded.model, &mut loaded.sources, problems);
+    loaded.model = parse(&loaded.sources, file, &mut found);
+    let mut of_schemas = Diagnostics::new();
+    let compiled = schemas::compile(request, &loaded.model, &mut loaded.sources, &mut of_schemas);
+    let of_schemas = of_schemas.into_sorted();
+    found.extend(of_schemas.iter().cloned());
     let facts =
         Facts { default_system: request.default_system(), messages: compiled.messages, sockets: plan::socket_paths() };
     loaded.files_read.extend(compiled.files_read);
     loaded.schemas = compiled.schemas;
     loaded.outlines = compiled.outlines;
-    loaded.topology = check(&loaded.model, &facts, &loaded.sources, problems);
+    loaded.topology = check(&loaded.model, &facts, &loaded.sources, &mut found);
     loaded.diagnostics = found.into_sorted();
+    trial::try_advice(request, &mut loaded, file, &facts, &of_schemas);
     loaded
 }

@@ -79,6 +79,6 @@ fn checker_problem(written: &str) -> Option<Diagnostic> {
 fn as_problem(name: &str, found: &Diagnostic) -> Problem {
     let problem =
         Problem::new(format!("[{}] {}", found.code(), found.message)).at(format!("`{}`", name.escape_debug()));
-    let problem = found.helps.iter().fold(problem, Problem::help);
+    let problem = found.shown_helps().fold(problem, |problem, help| problem.help(help.text()));
     found.all_notes().fold(problem, |problem, note| problem.note(note))
 }

@@ -27,6 +27,7 @@ mod named;
 mod needless_mark;
 mod no_effect;
 mod option;
+mod option_edit;
 mod pair_kinds;
 mod path_length;
 mod payload_type;

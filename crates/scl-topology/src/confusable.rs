@@ -65,9 +65,16 @@ pub(crate) fn first(text: &str) -> Option<(usize, char)> {
 /// Replaces characters that look like ASCII characters by the ones that were meant.
 pub(crate) fn retyped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    for letter in text.chars() {
+    let mut letters = text.chars().peekable();
+    while let Some(letter) = letters.next() {
         match (letter.is_ascii(), mark(letter), twin(letter)) {
-            (false, Some((_, mark)), _) => out.push_str(mark),
+            (false, Some((_, mark)), _) => {
+                out.push_str(mark);
+                // Wide marks have their space built in.
+                if matches!(mark, ":" | ",") && letters.peek().is_some_and(|next| !next.is_whitespace()) {
+                    out.push(' ');
+                }
+            }
             (false, None, Some((_, twin))) => out.push(twin),
             _ => out.push(letter),
         }
@@ -89,7 +96,7 @@ mod tests {
 
     #[test]
     fn other_letters_stay() {
-        assert_eq!(retyped("höhe：“сensor”→x"), "höhe:\"censor\"->x");
+        assert_eq!(retyped("höhe：“сensor”→x"), "höhe: \"censor\"->x");
         assert_eq!(first("höhe，"), Some((5, '，')));
         assert_eq!(first("höhe"), None);
     }

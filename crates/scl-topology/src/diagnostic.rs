@@ -1,6 +1,6 @@
 //! What the checker reports: one [`Diagnostic`] for each problem, collected in [`Diagnostics`].
 
-mod fix;
+mod help;
 mod limit;
 mod render;
 mod rule;
@@ -8,10 +8,10 @@ mod rule;
 mod testing;
 
 use crate::source::Span;
-use scl_text::list::either;
 use std::borrow::Cow;
 
-pub use fix::Fix;
+pub(crate) use help::removal;
+pub use help::{Edit, Help, Proposal};
 pub(crate) use limit::RULE as TOO_MANY;
 pub use limit::{MOST_SHOWN, limit};
 pub use render::{render, render_headless, render_styled};
@@ -42,12 +42,10 @@ pub struct Diagnostic {
     pub secondary: Vec<Label>,
     /// Number of further places that are not in `secondary`.
     pub unlisted: usize,
-    /// What to write instead: each help is one way to do so, and may have several lines.
-    pub helps: Vec<String>,
+    /// What to write instead: each help is one way to do so; see [`shown_helps`](Self::shown_helps).
+    pub(crate) helps: Vec<Help>,
     /// The rule, or the valid names.
     pub notes: Vec<String>,
-    /// The corrections in `helps`, as replacements of text.
-    pub fixes: Vec<Fix>,
     /// The name that the problem is about, if all problems of its rule about this name are one mistake.
     pub(crate) subject: Option<String>,
 }
@@ -76,7 +74,6 @@ impl Rule {
             unlisted: 0,
             helps: Vec::new(),
             notes: Vec::new(),
-            fixes: Vec::new(),
             subject: None,
         }
     }
@@ -122,22 +119,6 @@ impl Diagnostic {
             more => Some(format!("{more} more places are not shown")),
         };
         self.notes.iter().map(|note| Cow::from(note.as_str())).chain(rest.map(Cow::from))
-    }
-
-    /// Adds a help: what to write instead.
-    pub fn help(mut self, text: impl Into<String>) -> Self {
-        self.helps.push(clipped(text));
-        self
-    }
-
-    /// Adds helps: none, one or several.
-    pub fn helps<T: Into<String>>(self, texts: impl IntoIterator<Item = T>) -> Self {
-        texts.into_iter().fold(self, Self::help)
-    }
-
-    /// Adds the names that a wrong one may have meant, if there are any.
-    pub fn did_you_mean<S: AsRef<str>>(self, names: &[S]) -> Self {
-        if names.is_empty() { self } else { self.help(format!("did you mean {}?", either(names))) }
     }
 
     /// Adds a note, for example the rule behind the problem.

@@ -56,6 +56,7 @@
 #![deny(missing_docs)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+pub mod advice;
 #[cfg(test)]
 mod cases;
 pub mod catalogue;

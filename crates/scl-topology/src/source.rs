@@ -58,6 +58,21 @@ pub struct LineColumn {
 }
 
 impl SourceFile {
+    fn new(id: FileId, path: String, mut text: String) -> Self {
+        let has_byte_order_mark = text.starts_with('\u{feff}');
+        if has_byte_order_mark {
+            text.drain(..'\u{feff}'.len_utf8());
+        }
+        let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at as u32 + 1)).collect();
+        let characters_before = std::iter::once(0)
+            .chain(text.as_bytes().chunks(BLOCK).scan(0, |sum, block| {
+                *sum += characters_in(block);
+                Some(*sum)
+            }))
+            .collect();
+        Self { id, path, text, has_byte_order_mark, line_starts, characters_before }
+    }
+
     /// The id of the file in its [`Sources`].
     pub(crate) fn id(&self) -> FileId {
         self.id
@@ -166,21 +181,19 @@ impl Sources {
 
     /// Adds a text. A leading byte order mark is removed, so that no position counts it.
     pub fn add(&mut self, path: impl Into<String>, text: impl Into<String>) -> FileId {
-        let mut text = text.into();
-        let has_byte_order_mark = text.starts_with('\u{feff}');
-        if has_byte_order_mark {
-            text.drain(..'\u{feff}'.len_utf8());
-        }
-        let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at as u32 + 1)).collect();
-        let characters_before = std::iter::once(0)
-            .chain(text.as_bytes().chunks(BLOCK).scan(0, |sum, block| {
-                *sum += characters_in(block);
-                Some(*sum)
-            }))
-            .collect();
-        let (id, path) = (FileId(self.files.len() as u16), path.into());
-        self.files.push(SourceFile { id, path, text, has_byte_order_mark, line_starts, characters_before });
+        let id = FileId(self.files.len() as u16);
+        self.files.push(SourceFile::new(id, path.into(), text.into()));
         id
+    }
+
+    /// The same files, with another text in one of them.
+    pub fn with_text(&self, file: FileId, text: impl Into<String>) -> Self {
+        let text = text.into();
+        let changed = |old: &SourceFile| match old.id == file {
+            true => SourceFile::new(file, old.path.clone(), text.clone()),
+            false => old.clone(),
+        };
+        Self { files: self.files.iter().map(changed).collect() }
     }
 
     /// Returns the file with this path. Adds it with `text` if there is none yet.

@@ -101,9 +101,12 @@ pub(super) fn refuse(schema: &Spanned<String>, folders: &Folders, max_size: u64)
         let why = why(Path::new(name), cause);
         return Some(SCHEMA.at(format!("the schema file {why}"), schema.span, ""));
     }
-    let near = similar_file(&path, &[]).map(|near| format!("a file with a similar name exists: `{near}`"));
+    let near = similar_file(&path, &[]).map(|near| match Path::new(name).parent() {
+        Some(folder) => folder.join(near).display().to_string(),
+        None => near,
+    });
     let problem = SCHEMA.at(format!("cannot find the schema file `{name}`"), schema.span, "");
-    Some(problem.helps(near).note("schemas are looked for beside the topology file"))
+    Some(problem.did_you_mean(name, near.as_slice()).note("schemas are looked for beside the topology file"))
 }
 
 #[cfg(test)]

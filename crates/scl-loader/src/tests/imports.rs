@@ -25,7 +25,9 @@ fn told(files: &[(&str, &str)], name: &str) -> String {
     let loaded = load_from(&folder(files), name);
     assert_eq!(loaded.topology.is_none(), !errors(&loaded).is_empty());
     let problems = loaded.diagnostics.iter().filter(|problem| problem.severity != Severity::Lint);
-    problems.map(|problem| format!("{}\n{}", problem.message, problem.helps.join("\n"))).collect::<Vec<_>>().join("\n")
+    let helps =
+        |problem: &Diagnostic| problem.shown_helps().map(|help| format!("\n{}", help.text())).collect::<String>();
+    problems.map(|problem| format!("{}{}", problem.message, helps(problem))).collect::<Vec<_>>().join("\n")
 }
 
 /// The first field of `base.Header` as compiled.
@@ -174,13 +176,10 @@ fn an_import_with_dots_is_refused_with_the_path_to_write() {
         the import `./near.proto` in `proto/nav/fix.proto` is not a path below an import folder
         write `import "proto/nav/near.proto";`
         the import `/near.proto` in `proto/nav/fix.proto` is not a path below an import folder
-
         the import `nav//near.proto` in `proto/nav/fix.proto` is not a path below an import folder
-
         the import `..\\\\common\\\\header.proto` in `proto/nav/fix.proto` is not a path below an import folder
         write `import "proto/common/header.proto";`
         the import `../nowhere.proto` in `proto/nav/fix.proto` is not a path below an import folder
-
     "#]]
     .assert_eq(&written);
 }
@@ -290,7 +289,6 @@ fn mistakes_with_roots_have_ways_out() {
     });
     expect![[r#"
         no folder: cannot find the folder `b`
-
         outside: the schema `fix.proto` is in none of the folders of `schema_roots`
         name the folder in which imports begin: `schema_roots: [a, .]`
         hidden: the schema `b/fix.proto` has the same path in its root as another file
@@ -314,8 +312,5 @@ fn a_mistake_in_a_file_that_two_entries_import_is_told_once() {
     let (one, two) = (importer("one", "base.proto"), importer("two", "base.proto"));
     let yaml = with_schemas("schemas: [one.proto, two.proto]");
     let files = [("t.yaml", &*yaml), ("one.proto", &*one), ("two.proto", &*two), ("base.proto", &*wrong)];
-    expect![[r#"
-        cannot find `nowhere.proto`, which `base.proto` imports
-    "#]]
-    .assert_eq(&told(&files, "t.yaml"));
+    expect!["cannot find `nowhere.proto`, which `base.proto` imports"].assert_eq(&told(&files, "t.yaml"));
 }

@@ -38,7 +38,7 @@ fn a_missing_schema_names_its_neighbour() {
             1 | schemas: [rover.prot]
               |           ^^^^^^^^^^
               |
-              = help: a file with a similar name exists: `rover.proto`
+              = help: did you mean `rover.proto`?
               = note: schemas are looked for beside the topology file
         "#]],
     );

@@ -6,6 +6,7 @@ use super::reader::Reader;
 use super::rules::{UNCHECKED, WRONG_VALUE};
 use crate::system_names::SystemNames;
 use scl_terminal::Problem;
+use scl_topology::advice::{Extent, Judged, try_advice};
 use scl_topology::diagnostic::{Diagnostic, Diagnostics, render};
 use scl_topology::parse::{Document, read_document};
 use scl_topology::source::{FileId, SourceFile, Sources};
@@ -16,7 +17,7 @@ pub(crate) struct LaunchDocument {
     pub(super) sources: Sources,
     file: FileId,
     document: Document,
-    /// The problems that were found while the YAML was parsed.
+    /// The problems that were found while the YAML was parsed, with advice that was not tried yet.
     found: Vec<Diagnostic>,
 }
 
@@ -53,7 +54,7 @@ impl LaunchDocument {
     ///
     /// The problems in the text.
     pub(crate) fn check_text(&self) -> Result<(), Vec<Problem>> {
-        if self.document.is_partial { Err(self.problems(&self.found)) } else { Ok(()) }
+        if self.document.is_partial { self.read_shown(None).map(drop) } else { Ok(()) }
     }
 
     /// Reads the keys; `known` are the names of the topology where there is one.
@@ -63,8 +64,26 @@ impl LaunchDocument {
     /// Every mistake of the file, sorted by place. If a part of the text cannot be parsed, only the problems of the
     /// text: any others may be consequences.
     pub(crate) fn read(&self, known: Option<&SystemNames>) -> Result<LaunchFile, Vec<Diagnostic>> {
+        let (file, problems) = self.judge(known);
+        if problems.is_empty() {
+            return Ok(file);
+        }
+        let mut found = self.judged(problems);
+        try_advice(&mut found, self.source(), |copy| {
+            let copy = Self::of(self.sources.with_text(self.file, copy), self.file);
+            copy.judged(copy.judge(known).1)
+        });
+        Err(found.problems)
+    }
+
+    fn judged(&self, problems: Vec<Diagnostic>) -> Judged {
+        Judged { problems, extent: Extent { is_cut_off: self.document.is_partial, unread: 0 } }
+    }
+
+    /// What the file says, as far as it can be read, and its problems.
+    fn judge(&self, known: Option<&SystemNames>) -> (LaunchFile, Vec<Diagnostic>) {
         if self.document.is_partial {
-            return Err(self.found.clone());
+            return (LaunchFile::default(), self.found.clone());
         }
         let (file, mut problems) = Reader::new(self.source(), known, &LAUNCH).read(&self.document);
         // Drop problems at the place of a syntax problem: they are its consequences.
@@ -74,7 +93,7 @@ impl LaunchDocument {
         let mut found = problems.into_sorted();
         // A value with several aliases is read, and reported, several times.
         found.dedup();
-        if found.is_empty() { Ok(file) } else { Err(found) }
+        (file, found)
     }
 
     /// Like [`read`](Self::read), with problems that are rendered for the user.

@@ -125,7 +125,7 @@ impl<'n> Keys<'n, '_> {
 /// The problem of an unknown name, with the `known` names that may have been meant.
 pub(super) fn unknown_name(message: String, name: &str, at: Span, known: &[String]) -> Diagnostic {
     let near = similar(name, known.iter().map(String::as_str));
-    rules::UNKNOWN_NAME.at(message, at, "").did_you_mean(&near).fix_word(name, &near)
+    rules::UNKNOWN_NAME.at(message, at, "").did_you_mean(name, &near)
 }
 
 fn unknown_key(field: Field<'_>, allowed: &[&Key], owner: &str) -> Diagnostic {
@@ -134,7 +134,7 @@ fn unknown_key(field: Field<'_>, allowed: &[&Key], owner: &str) -> Diagnostic {
         _ if is_own(field.key) => {
             problem.help("keys of your own, which start with `x-`, belong at the top of the file")
         }
-        Some(close) => problem.help(format!("did you mean `{close}`?")).fix_word(field.key, &[close]),
+        Some(close) => problem.did_you_mean(field.key, &[close]),
         None => problem.note(format!("the keys are {}", quoted_list(allowed.iter().map(|key| key.name)))),
     }
 }

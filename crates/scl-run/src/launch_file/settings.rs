@@ -6,6 +6,7 @@ use super::reader::{Keys, Reader, wrong};
 use super::rules::WRONG_VALUE;
 use super::value::{flag, number, path, shown, texts};
 use scl_terminal::{closest_name, parse_duration};
+use scl_topology::diagnostic::Edit;
 use scl_topology::parse::Field;
 use scl_topology::yaml::{Node, NodeKind};
 use std::time::Duration;
@@ -101,10 +102,11 @@ impl Reader<'_> {
         let problem = wrong(&WRONG_VALUE, message, field);
         let meant = field.value.text().and_then(|text| likely(form, text.trim()));
         let Some(meant) = meant else { return self.report(problem) };
-        let problem = problem.help(format!("did you mean `{}: {meant}`?", field.key));
-        let span = field.value.span;
-        // A number without a unit may have been meant in milliseconds, so the fix is not certain.
-        self.report(if form == Form::Duration { problem.maybe_fix(span, meant) } else { problem.fix(span, meant) });
+        let help = format!("did you mean `{}: {meant}`?", field.key);
+        let edits = [Edit::new(field.value.span, meant)];
+        // A number without a unit may have been meant in milliseconds.
+        let is_certain = form != Form::Duration;
+        self.report(if is_certain { problem.propose(help, edits) } else { problem.suggest(help, edits) });
     }
 }
 

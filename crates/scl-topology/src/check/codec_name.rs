@@ -72,8 +72,7 @@ fn report(written: &Spanned<String>) -> Diagnostic {
     let meant = synonym.unwrap_or_else(|| similar(&written.value, Codec::words()));
     let path = written.value.contains('.').then(|| written.value.replace('.', "::"));
     found
-        .fix_word(&written.value, &meant)
-        .did_you_mean(&meant)
+        .did_you_mean(&written.value, &meant)
         .helps(path.map(|path| format!("a codec of your own is named by its Rust path: `{path}`")))
         .helps(keyword.map(|_| "name a type of your crate by its path, such as `my_crate::Flat`"))
         .note(codecs())

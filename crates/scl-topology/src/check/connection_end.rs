@@ -3,9 +3,9 @@
 
 use super::draft::Draft;
 use super::{unknown_component, unknown_gate};
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::source::Spanned;
-use scl_text::list::{either, listed, shortened};
+use scl_text::list::{listed, shortened};
 
 /// SCL0503.
 pub(crate) const RULE: Rule = Rule {
@@ -85,13 +85,9 @@ fn misshapen(draft: &mut Draft<'_>, text: &Spanned<String>) -> Diagnostic {
         if let Some(gate) = known {
             draft.gates[gate].named = true;
         }
-        let found = RULE.at(headline, text.span, label).help(format!("write `{mended}`"));
-        let replacement = draft.sources.quoted_as(text.span, &mended);
-        return if known.is_some() {
-            found.fix(text.span, replacement)
-        } else {
-            found.maybe_fix(text.span, replacement)
-        };
+        let found = RULE.at(headline, text.span, label);
+        let (help, edit) = (format!("write `{mended}`"), rewritten(draft, text, &mended));
+        return if known.is_some() { found.propose(help, [edit]) } else { found.suggest(help, [edit]) };
     }
     let may_search = draft.may_search();
     let owners = if may_search { owners(draft, &text.value) } else { Vec::new() };
@@ -129,13 +125,20 @@ fn without_component(
         [only] => {
             let was_named = std::mem::replace(&mut draft.gates[gate].named, true);
             let label = format!("only `{}` has a gate of this name", draft.component_name(gate));
-            let replacement = draft.sources.quoted_as(text.span, only);
-            let found = found.label(draft.gates[gate].model.name.span, label).help(format!("write `{only}`"));
-            if was_named { found.maybe_fix(text.span, replacement) } else { found.fix(text.span, replacement) }
+            let found = found.label(draft.gates[gate].model.name.span, label);
+            let (help, edit) = (format!("write `{only}`"), rewritten(draft, text, only));
+            if was_named { found.suggest(help, [edit]) } else { found.propose(help, [edit]) }
         }
-        [_, _] | [_, _, _] => found.help(format!("write {}", either(&paths))).fix_if_single(text.span, &paths),
+        [_, _] | [_, _, _] => {
+            found.choose(("write ", ""), paths.iter().map(|path| (path.as_str(), rewritten(draft, text, path))))
+        }
         _ => found.note(format!("gates of this name: {}", listed(&paths))),
     }
+}
+
+/// The replacement of an end.
+fn rewritten(draft: &Draft<'_>, text: &Spanned<String>, end: &str) -> Edit {
+    Edit::new(text.span, draft.sources.quoted_as(text.span, end))
 }
 
 /// Corrects an end with another separator or with spaces. Returns the corrected end, and a label that names the

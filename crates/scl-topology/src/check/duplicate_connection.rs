@@ -39,8 +39,7 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
         let found = RULE
             .at("this connection is already declared", span, label)
             .label(draft.links[earlier].model.span, "first declared here")
-            .help("remove one of the two")
-            .fix_by_removal(draft.sources.file(span.file), span);
+            .propose_removal("remove one of the two", draft.sources.file(span.file), span);
         problems.push(found);
         draft.links[at].flow = None;
         draft.links[at].ends = [None; 2];

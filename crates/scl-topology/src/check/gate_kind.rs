@@ -1,7 +1,7 @@
 //! SCL0401: a word that is no kind of gate. Sets the kind of every other gate.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::grammar::{PATTERNS, Pattern};
 use crate::source::{Sources, Spanned};
 use crate::suggest;
@@ -63,13 +63,9 @@ fn kinds() -> String {
 fn report(word: &Spanned<String>, sources: &Sources) -> Diagnostic {
     let found = RULE.at(format!("unknown gate kind `{}`", word.value), word.span, "");
     let meant = suggest::kind(&word.value);
-    let replacements: Vec<String> = meant.iter().map(|kind| sources.quoted_as(word.span, kind)).collect();
-    let found = match meant.as_slice() {
-        [] => found,
-        [one] => found.help(format!("the kind is called `{one}`")),
-        several => found.did_you_mean(several),
-    };
-    found.fix_if_single(word.span, &replacements).note(kinds())
+    let lead = if meant.len() == 1 { ("the kind is called ", "") } else { ("did you mean ", "?") };
+    let rewritten = |kind: &str| Edit::new(word.span, sources.quoted_as(word.span, kind));
+    found.choose(lead, meant.iter().map(|kind| (*kind, rewritten(kind)))).note(kinds())
 }
 
 #[cfg(test)]

@@ -39,8 +39,7 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
             let found = RULE
                 .at(headline, place, "no longer needed")
                 .label(connected_at, "connected here")
-                .help("remove the mark")
-                .fix_by_removal(draft.sources.file(place.file), place);
+                .propose_removal("remove the mark", draft.sources.file(place.file), place);
             problems.push(found);
         }
     }

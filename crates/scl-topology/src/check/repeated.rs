@@ -11,23 +11,32 @@ use std::collections::HashMap;
 const MOST: usize = 8;
 
 pub(super) fn tell_once(problems: &mut Diagnostics) {
-    let mut places: HashMap<(&Rule, String), Vec<Span>> = HashMap::new();
+    let mut repeated: HashMap<(&Rule, String), Option<Vec<Diagnostic>>> = HashMap::new();
     problems.retain(|found| {
         let Some(subject) = found.subject.clone() else { return true };
-        let uses = places.entry((found.rule, subject)).or_default();
-        uses.extend(found.primary.as_ref().map(|label| label.span));
-        uses.len() <= 1
+        match repeated.entry((found.rule, subject)).or_default() {
+            Some(others) => others.push(found.clone()),
+            first => {
+                *first = Some(Vec::new());
+                return true;
+            }
+        }
+        false
     });
     problems.retain(|found| {
-        let uses = found.subject.take().and_then(|subject| places.remove(&(found.rule, subject))).unwrap_or_default();
-        let others = uses.get(1..).unwrap_or_default();
-        others.iter().take(MOST).for_each(|place| found.add_label(*place, "and here"));
+        let others = found.subject.take().and_then(|subject| repeated.remove(&(found.rule, subject)).flatten());
+        let others = others.unwrap_or_default();
+        let places = others.iter().filter_map(|other| other.primary.as_ref());
+        places.take(MOST).for_each(|label| found.add_label(label.span, "and here"));
         if !others.is_empty() {
             let is_end = [&unknown_component::UNKNOWN, &unknown_gate::RULE].contains(&found.rule);
             let what = if is_end { "connections name it" } else { "places have it" };
-            found.notes.push(format!("{} {what}", uses.len()));
-            // The mistake may be in the one declaration rather than in all of these places.
-            found.fixes.iter_mut().for_each(|fix| fix.sure = false);
+            found.notes.push(format!("{} {what}", others.len() + 1));
+            found.join_proposals(others);
+            if is_end {
+                // The mistake may be in the one declaration rather than in all of these places.
+                found.doubt();
+            }
         }
         true
     });
@@ -105,21 +114,21 @@ connections:
             "SCL0501",
             yaml.trim_start(),
             expect![[r#"
-            error: [SCL0501] unknown component `controller`
-              --> topology.yaml:11:16
-               |
-             2 |   - name: contoller
-               |           --------- a similar name is declared here
-            ...
-            11 |   - [sensor.a, controller.a]
-               |                ^^^^^^^^^^ no component has this name
-            12 |   - [sensor.b, controller.b]
-               |                ---------- and here
-               |
-               = help: did you mean `contoller`?
-               = note: declared components: `contoller`, `sensor`
-               = note: 2 connections name it
-        "#]],
+                error: [SCL0501] unknown component `controller`
+                  --> topology.yaml:11:16
+                   |
+                 2 |   - name: contoller
+                   |           --------- a similar name is declared here
+                ...
+                11 |   - [sensor.a, controller.a]
+                   |                ^^^^^^^^^^ no component has this name
+                12 |   - [sensor.b, controller.b]
+                   |                ---------- and here
+                   |
+                   = help: did you mean `contoller`?
+                   = note: declared components: `contoller`, `sensor`
+                   = note: 2 connections name it
+            "#]],
         );
     }
 }

@@ -141,7 +141,11 @@ fn report(
     });
     let is_path = !known.has_root(name.dotted());
     let path = is_path.then(|| format!("if it is a Rust type of your own, write its path: `crate.{}`", name.dotted()));
-    let found = RULE.at(headline, name.span(), "not in the schemas").labels(declared).did_you_mean(meant).helps(path);
+    let found = RULE
+        .at(headline, name.span(), "not in the schemas")
+        .labels(declared)
+        .did_you_mean(name.dotted(), meant)
+        .helps(path);
     match known.all.is_empty() {
         true => found.note("the `schemas` declare no message types"),
         false => found.note(format!("message types in `schemas`: {}", listed(&known.all))),
@@ -213,7 +217,10 @@ components:
                 format!("schemas: [uav.proto]\ncomponents:\n  - name: a\n    gates:\n      - x: {{pub: {message}}}\n");
             let (found, _) = problems(&yaml, Some(&["uav.Measurement", "uav.v1.Fix", "Time"]));
             let found = found.into_iter().find(|found| found.code() == RULE.code);
-            found.map_or_else(|| "Rust or known".to_owned(), |found| found.helps.first().cloned().unwrap_or_default())
+            found.map_or_else(
+                || "Rust or known".to_owned(),
+                |found| found.shown_helps().next().map_or_else(String::new, |help| help.text().into_owned()),
+            )
         };
         let cases = [
             ("uav.Measurement", "Rust or known"),

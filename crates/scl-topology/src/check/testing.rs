@@ -1,6 +1,7 @@
 //! Helpers for the tests of the rules: a text goes in, the messages that users read come out.
 
 use super::{Facts, SchemaMessages, check, find};
+use crate::advice::{Extent, Judged, try_advice};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity, render};
 use crate::parse::parse;
 use crate::socket_paths::SocketPaths;
@@ -61,7 +62,10 @@ pub(super) fn codes(yaml: &str) -> Vec<&'static str> {
 pub(super) fn advice(yaml: &str) -> String {
     let (found, _) = problems(yaml, None);
     let errors = found.iter().filter(|found| found.severity == Severity::Error && found.code() != "SCL0703");
-    let told = errors.map(|found| format!("{} {} [{}]", found.code(), found.message, found.helps.join(" | ")));
+    let told = errors.map(|found| {
+        let helps: Vec<_> = found.shown_helps().map(|help| help.text()).collect();
+        format!("{} {} [{}]", found.code(), found.message, helps.join(" | "))
+    });
     told.collect::<Vec<_>>().join("; ")
 }
 
@@ -96,7 +100,15 @@ fn run(yaml: &str, messages: Option<&[&str]>) -> (Option<Topology>, Vec<Diagnost
         problems.has_errors(),
         "a topology comes out exactly when there is no error: {yaml}"
     );
-    let found = problems.into_sorted();
+    let mut found = Judged { problems: problems.into_sorted(), extent: Extent::of(&model) };
+    try_advice(&mut found, sources.file(file), |copy| {
+        let sources = sources.with_text(file, copy);
+        let mut problems = Diagnostics::new();
+        let model = parse(&sources, file, &mut problems);
+        check(&model, &facts, &sources, &mut problems);
+        Judged { problems: problems.into_sorted(), extent: Extent::of(&model) }
+    });
+    let found = found.problems;
     let unlisted = found.iter().find(|found| find(found.code()).is_none());
     assert!(unlisted.is_none(), "the rule of this problem is missing from the list of its stage: {unlisted:?}");
     (topology, found, sources)

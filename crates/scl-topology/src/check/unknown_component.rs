@@ -1,7 +1,7 @@
 //! SCL0501: an end of a component that does not exist. SCL0504: its two names are swapped.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::source::Span;
 use crate::suggest::{MOST, nearest, similar};
 use scl_text::list::listed;
@@ -65,8 +65,7 @@ pub(super) fn check(
     let meant = if draft.may_search() { meant(draft, link, end, [component, gate]) } else { Vec::new() };
     let declarations = meant.iter().filter_map(|name| draft.component(name));
     let similar = declarations.map(|at| (draft.components[at].model.name.span, "a similar name is declared here"));
-    let found =
-        UNKNOWN.at(headline, place, "no component has this name").about(component).labels(similar).did_you_mean(&meant);
+    let found = UNKNOWN.at(headline, place, "no component has this name").about(component).labels(similar);
     let is_open = |name: &String| draft.gate(name, gate).is_some_and(|gate| !draft.gates[gate].named);
     let open_before = meant.iter().all(is_open);
     for name in &meant {
@@ -74,11 +73,12 @@ pub(super) fn check(
             draft.gates[gate].named = true;
         }
     }
-    let found = match (meant.as_slice(), open_before) {
-        // Its gate is connected to nothing, so it is certainly the one meant.
-        ([only], true) if draft.sources.snippet(place) == component => found.fix(place, only),
-        _ => meant.iter().fold(found, |found, name| found.maybe_fix(place, name)),
-    };
+    let ways = meant.iter().map(|name| (name.as_str(), Edit::new(place, name)));
+    let mut found = found.choose(("did you mean ", "?"), ways);
+    // If its gate is connected to nothing, it is certainly the one meant.
+    if !(open_before && draft.sources.snippet(place) == component) {
+        found.doubt();
+    }
     problems.push(found.note(declared(draft)));
 }
 
@@ -87,8 +87,7 @@ pub(super) fn swap(draft: &Draft<'_>, headline: String, span: Span, [component, 
     let meant = format!("{component}.{gate}");
     SWAPPED
         .at(headline, span, "component and gate are swapped")
-        .help(format!("write `{meant}`"))
-        .fix(span, draft.sources.quoted_as(span, &meant))
+        .propose(format!("write `{meant}`"), [Edit::new(span, draft.sources.quoted_as(span, &meant))])
 }
 
 /// Returns similar components that have the gate, or else those that have a similar gate. Of equally similar ones,

@@ -2,7 +2,7 @@
 
 use super::draft::Draft;
 use super::unknown_component::swap;
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::source::Spanned;
 use crate::suggest::{MOST, nearest};
 use scl_text::list::shortened;
@@ -51,8 +51,8 @@ pub(super) fn check(
     if let Some(left) = left {
         let place = draft.part(text.span, gate, true);
         let name = &draft.gates[left].model.name.value;
-        found =
-            found.help(format!("{} fits and is not connected yet", draft.name_and_kind(left))).maybe_fix(place, name);
+        let help = format!("{} fits and is not connected yet", draft.name_and_kind(left));
+        found = found.suggest(help, [Edit::new(place, name)]);
     }
     problems.push(if may_search { found.note(known(draft, component)) } else { found });
     for gate in meant.into_iter().chain(left) {
@@ -81,15 +81,15 @@ fn only_left(draft: &Draft<'_>, link: usize, end: usize, component: &str) -> Opt
 fn report(draft: &Draft<'_>, text: &Spanned<String>, headline: String, gate: &str, meant: &[usize]) -> Diagnostic {
     let place = draft.part(text.span, gate, true);
     let names: Vec<&str> = meant.iter().map(|&at| draft.gates[at].model.name.value.as_str()).collect();
-    let found = RULE.at(headline, place, "unknown gate").about(&*text.value).did_you_mean(&names);
-    let [only] = meant else { return names.iter().fold(found, |found, name| found.maybe_fix(place, *name)) };
+    let found = RULE.at(headline, place, "unknown gate").about(&*text.value);
+    let mut found = found.choose(("did you mean ", "?"), names.iter().map(|name| (*name, Edit::new(place, *name))));
+    let [only] = meant else { return found };
     let only = &draft.gates[*only];
-    let found = found.label(only.model.name.span, "a similar gate is declared here");
     // A gate that nothing is connected to, and that looks like this one, is certainly the one meant.
-    match !only.named && draft.sources.snippet(place) == gate {
-        true => found.fix(place, names[0]),
-        false => found.maybe_fix(place, names[0]),
+    if only.named || draft.sources.snippet(place) != gate {
+        found.doubt();
     }
+    found.label(only.model.name.span, "a similar gate is declared here")
 }
 
 fn known(draft: &Draft<'_>, component: &str) -> String {

@@ -49,7 +49,7 @@ fn render_with(renderer: &Renderer, diagnostic: &Diagnostic, sources: &Sources) 
     let excerpts = excerpts(diagnostic, sources);
     let title = format!("[{}] {}", diagnostic.code(), one_line(&diagnostic.message));
     let mut elements = elements(&excerpts);
-    elements.extend(diagnostic.helps.iter().map(|help| Level::HELP.message(lines(help)).into()));
+    elements.extend(diagnostic.shown_helps().map(|help| Level::HELP.message(lines(&help.text())).into()));
     elements.extend(diagnostic.all_notes().map(|note| Level::NOTE.message(lines(&note)).into()));
     let group: Group<'_> = level.primary_title(title).elements(elements);
     let text = renderer.render(&[group]);

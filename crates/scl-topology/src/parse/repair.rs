@@ -150,12 +150,7 @@ fn find_in(
     let mut rivals = rivals.take(MOST_RIVALS).map(|rival| window.with(rival, text)).filter(|other| *other != mended);
     let is_meant =
         is_complete && left == 0 && edit.is_meant() && !rivals.any(|other| problems_left(&other, dialect) == Some(0));
-    let problem =
-        edit.changes.iter().fold(tell::tell(edit, text, source, dialect), |problem, (range, with)| match is_meant {
-            true => problem.fix(source.span(range.clone()), with),
-            false => problem.maybe_fix(source.span(range.clone()), with),
-        });
-    Some(Repair { problem, is_sure: left == 0 })
+    Some(Repair { problem: tell::tell(edit, text, source, dialect, is_meant), is_sure: left == 0 })
 }
 
 /// Number of problems in a text; `None` if it cannot be read.

@@ -14,8 +14,6 @@ pub(super) mod version;
 
 use crate::diagnostic::{Diagnostic, Rule};
 use crate::grammar;
-use crate::suggest::similar;
-use scl_text::list::quoted_list;
 
 /// All of them, by their codes.
 pub(crate) const RULES: &[&Rule] = &[
@@ -42,16 +40,5 @@ fn own_key(problem: Diagnostic, key: &str) -> Diagnostic {
     match key.starts_with(grammar::OWN_PREFIX) {
         true => problem.help("keys of your own, which start with `x-`, belong at the top of the file"),
         false => problem,
-    }
-}
-
-/// Adds the names that a misspelt one may have meant; `thing` is what they name, for example `key`.
-fn suggest<'a>(problem: Diagnostic, thing: &str, word: &str, names: impl IntoIterator<Item = &'a str>) -> Diagnostic {
-    let similar = similar(word, names);
-    let problem = problem.fix_word(word, &similar);
-    match similar.as_slice() {
-        [] => problem,
-        [one] => problem.help(format!("a {thing} with a similar name exists: `{one}`")),
-        several => problem.help(format!("{thing}s with similar names exist: {}", quoted_list(several))),
     }
 }

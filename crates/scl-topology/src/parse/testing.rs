@@ -1,6 +1,7 @@
 //! Helpers for the tests of the rules.
 
 use super::parse;
+use crate::advice::{Extent, Judged, try_advice};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity, render};
 use crate::model::Model;
 use crate::source::Sources;
@@ -10,9 +11,14 @@ use expect_test::Expect;
 pub(super) fn parse_text(text: &str) -> (Model, Vec<Diagnostic>, Sources) {
     let mut sources = Sources::new();
     let file = sources.add("topology.yaml", text);
-    let mut problems = Diagnostics::new();
-    let model = parse(&sources, file, &mut problems);
-    (model, problems.into_sorted(), sources)
+    let judge = |sources: &Sources| {
+        let mut problems = Diagnostics::new();
+        let model = parse(sources, file, &mut problems);
+        (Judged { problems: problems.into_sorted(), extent: Extent::of(&model) }, model)
+    };
+    let (mut found, model) = judge(&sources);
+    try_advice(&mut found, sources.file(file), |copy| judge(&sources.with_text(file, copy)).0);
+    (model, found.problems, sources)
 }
 
 /// Code, place and headline of a text's problems, one a line, sorted by position.

@@ -1,6 +1,7 @@
 //! How bad a file is, to see whether a fix made it better.
 
 use scl_loader::Loaded;
+use scl_topology::advice::Extent;
 use scl_topology::diagnostic::Severity;
 
 /// Orders files by how badly they are broken. What matters most comes first: whether the file could be read; whether it
@@ -18,11 +19,11 @@ pub(super) struct Damage {
 impl Damage {
     pub(super) fn of(loaded: &Loaded) -> Self {
         let number_of = |severity| loaded.diagnostics.iter().filter(|found| found.severity == severity).count();
-        let is_cut_off = loaded.model.cut_off;
+        let Extent { is_cut_off, unread } = Extent::of(&loaded.model);
         Self {
             is_unreadable: loaded.file.is_none(),
             is_cut_off,
-            unread: if is_cut_off { usize::MAX - first_error(loaded) } else { unread_parts(loaded) },
+            unread: if is_cut_off { usize::MAX - first_error(loaded) } else { unread },
             errors: number_of(Severity::Error),
             warnings: number_of(Severity::Warning),
         }
@@ -37,13 +38,4 @@ impl Damage {
 fn first_error(loaded: &Loaded) -> usize {
     let mut errors = loaded.diagnostics.iter().filter(|found| found.severity == Severity::Error);
     errors.find_map(|found| found.primary.as_ref()).map_or(0, |label| label.span.start as usize)
-}
-
-fn unread_parts(loaded: &Loaded) -> usize {
-    let model = &loaded.model;
-    let components = model.components.iter();
-    let unread = components.clone().filter(|component| component.gates_unread).count();
-    let gates = components.flat_map(|component| &component.gates);
-    let kindless = gates.filter(|gate| gate.kind.value.is_empty()).count();
-    usize::from(model.components_unread) + usize::from(model.connections_unread) + unread + kindless
 }

@@ -1,19 +1,19 @@
 //! Which fixes are applied together, and how.
 
 use scl_loader::Loaded;
-use scl_topology::diagnostic::{Diagnostic, Fix, Severity};
+use scl_topology::advice;
+use scl_topology::diagnostic::{Diagnostic, Edit, Severity};
 use scl_topology::source::FileId;
 use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
 
 pub(super) const BYTE_ORDER_MARK: &str = "\u{feff}";
 
-/// The sure fixes of one problem, which are applied together or not at all.
+/// The sure proposal of one problem.
 pub(super) struct FixGroup {
     /// The headline of the problem with its code.
     pub(super) problem: String,
-    /// Replaced ranges with their replacements, sorted by position.
-    edits: Vec<(Range<usize>, String)>,
+    edits: Vec<Edit>,
 }
 
 /// Returns the fixes of a file that can be applied together: only the first of those that overlap, and none for
@@ -26,8 +26,8 @@ pub(super) fn groups(loaded: &Loaded, refused: &HashSet<String>) -> Vec<FixGroup
         .filter_map(|problem| group(problem, file))
         .filter(|group| !refused.contains(&group.problem))
         .filter(|group| {
-            let is_free = group.edits.iter().all(|(span, _)| is_free(&taken, span));
-            taken.extend(group.edits.iter().filter(|_| is_free).map(|(span, _)| (span.start, span.end)));
+            let is_free = group.edits.iter().all(|edit| is_free(&taken, &range(edit)));
+            taken.extend(group.edits.iter().filter(|_| is_free).map(|edit| (range(edit).start, range(edit).end)));
             is_free
         })
         .collect()
@@ -35,30 +35,19 @@ pub(super) fn groups(loaded: &Loaded, refused: &HashSet<String>) -> Vec<FixGroup
 
 /// Returns the text with the fixes applied. Line breaks in the fixes are converted to those of the text.
 pub(super) fn apply(text: &str, groups: &[FixGroup]) -> String {
-    let line_break = if is_crlf(text) { "\r\n" } else { "\n" };
     // Spans do not count the byte order mark.
     let (mark, text) = text.split_at(if text.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 });
-    let mut edits: Vec<&(Range<usize>, String)> = groups.iter().flat_map(|group| &group.edits).collect();
-    edits.sort_by_key(|(span, _)| span.start);
-    let mut out = mark.to_owned();
-    let mut at = 0;
-    for (span, replacement) in edits {
-        out.push_str(&text[at..span.start]);
-        out.push_str(&replacement.replace('\n', line_break));
-        at = span.end;
-    }
-    out + &text[at..]
+    let edits: Vec<&Edit> = groups.iter().flat_map(|group| &group.edits).collect();
+    let fixed = advice::apply(text, &edits);
+    debug_assert!(fixed.is_some(), "the fixes of a file overlap");
+    format!("{mark}{}", fixed.as_deref().unwrap_or(text))
 }
 
 fn group(problem: &Diagnostic, file: FileId) -> Option<FixGroup> {
-    let sure: Vec<&Fix> = problem.fixes.iter().filter(|fix| fix.sure).collect();
-    let is_here = sure.iter().all(|fix| fix.span.file == file);
-    let mut edits: Vec<(Range<usize>, String)> =
-        sure.into_iter().map(|fix| (fix.span.start as usize..fix.span.end as usize, fix.replacement.clone())).collect();
-    edits.sort_by_key(|(span, _)| (span.start, span.end));
-    let is_ordered = edits.windows(2).all(|pair| pair[0].0.end <= pair[1].0.start);
+    let sure = problem.proposals().find(|proposal| proposal.is_sure)?;
+    let is_here = sure.edits.iter().all(|edit| edit.span.file == file);
     let problem = format!("{} {}", problem.code(), problem.message);
-    (is_here && is_ordered && !edits.is_empty()).then_some(FixGroup { problem, edits })
+    is_here.then(|| FixGroup { problem, edits: sure.edits.clone() })
 }
 
 /// Whether a span neither overlaps nor touches any that is taken, so that the order of two insertions never matters.
@@ -66,6 +55,6 @@ fn is_free(taken: &BTreeMap<usize, usize>, span: &Range<usize>) -> bool {
     taken.range(..=span.end).next_back().is_none_or(|(_, end)| *end < span.start)
 }
 
-fn is_crlf(text: &str) -> bool {
-    2 * text.matches("\r\n").count() > text.matches('\n').count()
+fn range(edit: &Edit) -> Range<usize> {
+    edit.span.start as usize..edit.span.end as usize
 }

@@ -4,8 +4,9 @@ use super::edit::{apply, groups};
 use super::{fix, unified_diff};
 use expect_test::{Expect, expect};
 use scl_loader::{Loaded, Request, load_bytes};
+use scl_topology::advice::{Extent, Judged, try_advice};
 use scl_topology::catalogue::ALL;
-use scl_topology::diagnostic::Severity;
+use scl_topology::diagnostic::{Edit, Severity};
 use scl_topology::external::FILE_NOT_FOUND;
 use scl_topology::source::Span;
 use std::collections::HashSet;
@@ -99,19 +100,30 @@ fn a_file_without_problems_stays() {
     assert_eq!(fixed(text).0, text);
 }
 
-/// A check that finds the words `bad`, `worse` and `unsure` in a text: `bad` and `worse` have sure fixes, of which that
-/// of `worse` makes two problems of one.
+/// A check that finds the words `bad`, `worse` and `unsure` in a text: `bad` and `worse` have certain fixes, of which
+/// that of `worse` makes two problems of one.
 fn check_words(text: &str) -> Loaded {
+    let mut loaded = untried(text);
+    let judged =
+        |loaded: &mut Loaded| Judged { problems: std::mem::take(&mut loaded.diagnostics), extent: Extent::default() };
+    let mut found = judged(&mut loaded);
+    try_advice(&mut found, loaded.sources.file(loaded.file.unwrap()), |copy| judged(&mut untried(copy)));
+    loaded.diagnostics = found.problems;
+    loaded
+}
+
+fn untried(text: &str) -> Loaded {
     let mut loaded = Loaded::default();
     let file = loaded.sources.add("t.yaml", text);
     loaded.file = Some(file);
-    for (word, replacement, sure) in
+    for (word, replacement, is_certain) in
         [("bad", "good\n", true), ("worse", "unsure unsure", true), ("unsure", "sure", false)]
     {
         for (at, _) in text.match_indices(word) {
             let span = Span { file, start: at as u32, end: (at + word.len()) as u32 };
             let found = FILE_NOT_FOUND.at(word, span, "");
-            let found = if sure { found.fix(span, replacement) } else { found.maybe_fix(span, replacement) };
+            let edits = [Edit::new(span, replacement)];
+            let found = if is_certain { found.propose(word, edits) } else { found.suggest(word, edits) };
             loaded.diagnostics.push(found);
         }
     }
@@ -149,8 +161,13 @@ fn fixes_that_overlap_are_not_applied_at_once() {
     let file = loaded.file.unwrap();
     for (start, end, replacement) in [(0, 2, "1"), (1, 3, "2"), (2, 2, "3"), (3, 4, "4"), (5, 5, "5")] {
         let span = Span { file, start, end };
-        loaded.diagnostics.push(FILE_NOT_FOUND.at(replacement, span, "").fix(span, replacement));
+        let found = FILE_NOT_FOUND.at(replacement, span, "");
+        loaded.diagnostics.push(found.propose("", [Edit::new(span, replacement)]));
     }
+    let mut found = Judged { problems: std::mem::take(&mut loaded.diagnostics), extent: Extent::default() };
+    let all_solved = |_: &str| Judged { problems: Vec::new(), extent: Extent::default() };
+    try_advice(&mut found, loaded.sources.file(file), all_solved);
+    loaded.diagnostics = found.problems;
     let groups = groups(&loaded, &HashSet::new());
     assert_eq!(apply("abcdef", &groups), "1c4e5f");
 }
@@ -164,7 +181,7 @@ fn a_sure_fix_of_an_example_removes_its_problem() {
         let check = |text: &str| load_bytes(&Request::new("topology.yaml"), text.as_bytes().to_vec());
         let loaded = check(&bad);
         let has_fix =
-            loaded.diagnostics.iter().any(|found| found.rule == *rule && found.fixes.iter().any(|fix| fix.sure));
+            loaded.diagnostics.iter().any(|found| found.rule == *rule && found.proposals().any(|way| way.is_sure));
         if has_fix {
             let fixed = fix(loaded, bad, check);
             let left = fixed.loaded.diagnostics.iter().find(|found| found.rule == *rule);

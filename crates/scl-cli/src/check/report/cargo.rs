@@ -3,7 +3,7 @@
 //!
 //! The format is that of `cargo check --message-format=json`; cargo's reference names it "external tools".
 
-use scl_topology::diagnostic::{Diagnostic, Fix, Label, Severity, render};
+use scl_topology::diagnostic::{Diagnostic, Edit, Label, Proposal, Severity, render};
 use scl_topology::source::{LineColumn, SourceFile, Sources};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -144,24 +144,24 @@ fn start_of_file(unit: &CargoUnit) -> Value {
 /// Returns the helps and notes. Editors that show them leave out the primary label, so it comes first, as a separate
 /// note.
 ///
-/// A fix is a span with a replacement, in a help: all sure fixes are in the first help, and each of the others is in a
-/// separate one.
+/// A proposal is the spans of a help, each with its replacement: those of the help that describes it, or, if that
+/// offers several, of a separate one.
 fn children(diagnostic: &Diagnostic, sources: &Sources, unit: &CargoUnit) -> Vec<Value> {
-    let (sure, others): (Vec<&Fix>, Vec<&Fix>) = diagnostic.fixes.iter().partition(|fix| fix.sure);
-    let mut helps: Vec<Value> = diagnostic.helps.iter().map(|help| child("help", &format!("help: {help}"))).collect();
-    if helps.is_empty() && !sure.is_empty() {
-        helps.push(child("help", "help: apply this fix"));
-    }
-    if let Some(first) = helps.first_mut() {
-        first["spans"] = sure.into_iter().map(|fix| replacement(fix, sources, unit)).collect();
-    }
-    helps.extend(others.into_iter().map(|fix| {
-        let mut help = child("help", &format!("help: replace with `{}`", fix.replacement));
-        help["spans"] = json!([replacement(fix, sources, unit)]);
+    let with_spans = |text: &str, proposal: &Proposal| {
+        let mut help = child("help", &format!("help: {text}"));
+        help["spans"] = proposal.edits.iter().map(|edit| replacement(edit, proposal, sources, unit)).collect();
         help
-    }));
+    };
+    let helps = diagnostic.shown_helps().flat_map(|help| match help.proposals.as_slice() {
+        [only] => vec![with_spans(&help.text(), only)],
+        several => {
+            let words = child("help", &format!("help: {}", help.text()));
+            let others = several.iter().map(|proposal| with_spans(&help.title(proposal), proposal));
+            std::iter::once(words).chain(others).collect()
+        }
+    });
     let notes = diagnostic.all_notes().map(|note| child("note", &format!("note: {note}")));
-    let mut children: Vec<Value> = helps.into_iter().chain(notes).collect();
+    let mut children: Vec<Value> = helps.chain(notes).collect();
     let label = diagnostic.primary.iter().map(|label| &label.text).find(|text| !text.is_empty());
     if let Some(label) = label.filter(|_| !children.is_empty()) {
         children.insert(0, child("note", label));
@@ -173,10 +173,10 @@ fn child(level: &str, text: &str) -> Value {
     json!({ "message": text, "code": null, "level": level, "spans": [], "children": [], "rendered": null })
 }
 
-fn replacement(fix: &Fix, sources: &Sources, unit: &CargoUnit) -> Value {
-    let mut span = span(&Label { span: fix.span, text: String::new() }, true, sources, unit);
-    span["suggested_replacement"] = json!(fix.replacement);
-    span["suggestion_applicability"] = json!(if fix.sure { "MachineApplicable" } else { "MaybeIncorrect" });
+fn replacement(edit: &Edit, proposal: &Proposal, sources: &Sources, unit: &CargoUnit) -> Value {
+    let mut span = span(&Label { span: edit.span, text: String::new() }, true, sources, unit);
+    span["suggested_replacement"] = json!(edit.replacement);
+    span["suggestion_applicability"] = json!(if proposal.is_sure { "MachineApplicable" } else { "MaybeIncorrect" });
     span
 }
 
@@ -184,6 +184,7 @@ fn replacement(fix: &Fix, sources: &Sources, unit: &CargoUnit) -> Value {
 mod tests {
     use super::{CargoUnit, cargo_end, cargo_start, to_cargo};
     use crate::check::report::testing::{ERROR, WARNING};
+    use scl_topology::diagnostic::Edit;
     use scl_topology::external::FILE_NOT_FOUND;
     use scl_topology::source::{Sources, Span};
     use serde_json::{Value, json};
@@ -246,11 +247,12 @@ mod tests {
     }
 
     #[test]
-    fn fixes_are_spans_of_helps() {
+    fn proposals_are_spans_of_helps() {
         let mut sources = Sources::new();
         let file = sources.add("t.yaml", "a: b");
         let span = Span { file, start: 3, end: 4 };
-        let problem = ERROR.at("what", span, "").help("write `c`").fix(span, "c").maybe_fix(span, "d");
+        let problem =
+            ERROR.at("what", span, "").propose("write `c`", [Edit::new(span, "c")]).did_you_mean("b", &["d", "e"]);
         let message = parsed(&to_cargo(&problem, &sources, &unit()));
         let children = message["message"]["children"].as_array().unwrap();
         let fixes: Vec<_> = children
@@ -258,11 +260,15 @@ mod tests {
             .map(|child| {
                 let span = &child["spans"][0];
                 let parts = [&child["message"], &span["suggested_replacement"], &span["suggestion_applicability"]];
-                parts.map(|part| part.as_str().unwrap())
+                parts.map(|part| part.as_str().unwrap_or(""))
             })
             .collect();
-        let expected =
-            [["help: write `c`", "c", "MachineApplicable"], ["help: replace with `d`", "d", "MaybeIncorrect"]];
+        let expected = [
+            ["help: write `c`", "c", "MaybeIncorrect"],
+            ["help: did you mean `d` or `e`?", "", ""],
+            ["help: replace with `d`", "d", "MaybeIncorrect"],
+            ["help: replace with `e`", "e", "MaybeIncorrect"],
+        ];
         assert_eq!(fixes, expected);
         assert_eq!(
             (&children[0]["spans"][0]["byte_start"], &children[0]["spans"][0]["byte_end"]),

@@ -1,6 +1,6 @@
 //! A diagnostic as one line of JSON, for programs.
 
-use scl_topology::diagnostic::{Diagnostic, Fix, Label, Severity};
+use scl_topology::diagnostic::{Diagnostic, Edit, Label, Proposal, Severity};
 use scl_topology::source::{Sources, Span};
 use serde_json::Value;
 
@@ -9,8 +9,10 @@ use serde_json::Value;
 ///
 /// A label is `{"file","line","column","end_line","end_column","text"}`; the first one is the primary label. Lines and
 /// columns count from 1, columns in characters, and the end is one past the last character. Without a place, `file` and
-/// the positions are `null`. A fix is `{"file","line","column","end_line","end_column","replacement","sure"}`; the sure
-/// ones of a diagnostic belong together, each of the others is an alternative.
+/// the positions are `null`. A fix is
+/// `{"file","line","column","end_line","end_column","replacement","sure","proposal","help"}`: those with the same number
+/// in `proposal` belong together, and others are alternatives; `help` is the number of the text in `helps` that
+/// describes it. Both count from 0.
 pub(in crate::check) fn to_json(diagnostic: &Diagnostic, sources: &Sources) -> String {
     let severity = match diagnostic.severity {
         Severity::Error => "error",
@@ -22,16 +24,23 @@ pub(in crate::check) fn to_json(diagnostic: &Diagnostic, sources: &Sources) -> S
     fields.extend(place(diagnostic.primary.as_ref().map(|label| label.span), sources));
     let labels = diagnostic.primary.iter().chain(&diagnostic.secondary).map(|of| label(of, sources));
     fields.push(("labels", list(labels)));
-    fields.push(("helps", list(diagnostic.helps.iter().map(|help| text(help)))));
+    fields.push(("helps", list(diagnostic.shown_helps().map(|help| text(&help.text())))));
     fields.push(("notes", list(diagnostic.all_notes().map(|note| text(&note)))));
-    fields.push(("fixes", list(diagnostic.fixes.iter().map(|it| fix(it, sources)))));
+    let proposals = diagnostic.shown_helps().enumerate();
+    let proposals = proposals.flat_map(|(help, of)| of.proposals.iter().map(move |proposal| (help, proposal)));
+    let fixes = proposals.enumerate().flat_map(|(number, (help, proposal))| {
+        proposal.edits.iter().map(move |edit| fix(edit, proposal, [number, help], sources))
+    });
+    fields.push(("fixes", list(fixes)));
     object(&fields)
 }
 
-fn fix(fix: &Fix, sources: &Sources) -> String {
-    let mut fields = place(Some(fix.span), sources);
-    fields.push(("replacement", text(&fix.replacement)));
-    fields.push(("sure", fix.sure.to_string()));
+fn fix(edit: &Edit, proposal: &Proposal, [number, help]: [usize; 2], sources: &Sources) -> String {
+    let mut fields = place(Some(edit.span), sources);
+    fields.push(("replacement", text(&edit.replacement)));
+    fields.push(("sure", proposal.is_sure.to_string()));
+    fields.push(("proposal", number.to_string()));
+    fields.push(("help", help.to_string()));
     object(&fields)
 }
 
@@ -70,6 +79,7 @@ mod tests {
     use super::to_json;
     use crate::check::report::testing::WARNING;
     use expect_test::expect;
+    use scl_topology::diagnostic::Edit;
     use scl_topology::external::FILE_NOT_FOUND;
     use scl_topology::source::{Sources, Span};
 
@@ -82,11 +92,11 @@ mod tests {
             .at("a \"quote\"\nand more", span(4, 7), "why")
             .label(span(9, 10), "")
             .help("one\ntwo")
-            .note("rule")
-            .fix(span(9, 10), "d");
+            .propose("write `d` and `e`", [Edit::new(span(9, 10), "d"), Edit::new(span(11, 11), "e")])
+            .note("rule");
         let json = to_json(&problem, &sources);
         assert!(serde_json::from_str::<serde_json::Value>(&json).is_ok());
-        expect![[r#"{"code":"SCL0999","severity":"warning","message":"a \"quote\"\nand more","file":"t.yaml","line":1,"column":4,"end_line":1,"end_column":7,"labels":[{"file":"t.yaml","line":1,"column":4,"end_line":1,"end_column":7,"text":"why"},{"file":"t.yaml","line":2,"column":1,"end_line":2,"end_column":2,"text":""}],"helps":["one\ntwo"],"notes":["rule"],"fixes":[{"file":"t.yaml","line":2,"column":1,"end_line":2,"end_column":2,"replacement":"d","sure":true}]}"#]].assert_eq(&json);
+        expect![[r#"{"code":"SCL0999","severity":"warning","message":"a \"quote\"\nand more","file":"t.yaml","line":1,"column":4,"end_line":1,"end_column":7,"labels":[{"file":"t.yaml","line":1,"column":4,"end_line":1,"end_column":7,"text":"why"},{"file":"t.yaml","line":2,"column":1,"end_line":2,"end_column":2,"text":""}],"helps":["one\ntwo","write `d` and `e`"],"notes":["rule"],"fixes":[{"file":"t.yaml","line":2,"column":1,"end_line":2,"end_column":2,"replacement":"d","sure":false,"proposal":0,"help":1},{"file":"t.yaml","line":2,"column":3,"end_line":2,"end_column":3,"replacement":"e","sure":false,"proposal":0,"help":1}]}"#]].assert_eq(&json);
     }
 
     #[test]

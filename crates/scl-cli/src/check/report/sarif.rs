@@ -1,7 +1,7 @@
 //! Diagnostics as SARIF 2.1.0, the format that code hosts and review tools read.
 
 use crate::explain::{all_rules, explain_rule};
-use scl_topology::diagnostic::{Diagnostic, Fix, Label, Severity};
+use scl_topology::diagnostic::{Diagnostic, Label, Proposal, Severity};
 use scl_topology::source::{Sources, Span};
 use serde_json::{Value, json};
 
@@ -76,37 +76,32 @@ fn result(diagnostic: &Diagnostic, file: &CheckedFile<'_>, codes: &[&str]) -> Va
         "locations": [place],
         "relatedLocations": related.collect::<Vec<_>>(),
     });
-    if !diagnostic.fixes.is_empty() {
-        result["fixes"] = json!(fixes(diagnostic, file.sources));
+    let fixes = fixes(diagnostic, file.sources);
+    if !fixes.is_empty() {
+        result["fixes"] = json!(fixes);
     }
     result
 }
 
-/// Returns all sure fixes as a single SARIF fix, and each of the others as a separate one.
+/// Returns each proposal as a separate SARIF fix.
 fn fixes(diagnostic: &Diagnostic, sources: &Sources) -> Vec<Value> {
-    let (sure, others): (Vec<&Fix>, Vec<&Fix>) = diagnostic.fixes.iter().partition(|fix| fix.sure);
-    let sure = (!sure.is_empty()).then_some(sure);
-    sure.into_iter()
-        .chain(others.into_iter().map(|fix| vec![fix]))
-        .map(|fixes| fix(&fixes, diagnostic, sources))
+    let helps = diagnostic.shown_helps();
+    helps
+        .flat_map(|help| help.proposals.iter().map(move |proposal| fix(&help.title(proposal), proposal, sources)))
         .collect()
 }
 
-fn fix(fixes: &[&Fix], diagnostic: &Diagnostic, sources: &Sources) -> Value {
-    let description = match fixes {
-        [only] if !only.sure => format!("replace with `{}`", only.replacement),
-        _ => diagnostic.helps.first().cloned().unwrap_or_else(|| diagnostic.message.clone()),
-    };
-    let mut paths: Vec<&str> = fixes.iter().map(|fix| sources.file(fix.span.file).path()).collect();
+fn fix(title: &str, proposal: &Proposal, sources: &Sources) -> Value {
+    let mut paths: Vec<&str> = proposal.edits.iter().map(|edit| sources.file(edit.span.file).path()).collect();
     paths.dedup();
     let changes = paths.into_iter().map(|path| {
-        let here = fixes.iter().filter(|fix| sources.file(fix.span.file).path() == path);
-        let replacements = here.map(
-            |fix| json!({ "deletedRegion": region(fix.span, sources), "insertedContent": { "text": fix.replacement } }),
-        );
+        let here = proposal.edits.iter().filter(|edit| sources.file(edit.span.file).path() == path);
+        let replacements = here.map(|edit| {
+            json!({ "deletedRegion": region(edit.span, sources), "insertedContent": { "text": edit.replacement } })
+        });
         json!({ "artifactLocation": { "uri": uri(path) }, "replacements": replacements.collect::<Vec<_>>() })
     });
-    json!({ "description": { "text": description }, "artifactChanges": changes.collect::<Vec<_>>() })
+    json!({ "description": { "text": title }, "artifactChanges": changes.collect::<Vec<_>>() })
 }
 
 fn level(severity: Severity) -> &'static str {
@@ -119,7 +114,7 @@ fn level(severity: Severity) -> &'static str {
 
 fn text(diagnostic: &Diagnostic) -> String {
     let label = diagnostic.primary.iter().map(|label| label.text.clone()).filter(|text| !text.is_empty());
-    let helps = diagnostic.helps.iter().map(|help| format!("help: {help}"));
+    let helps = diagnostic.shown_helps().map(|help| format!("help: {}", help.text()));
     let notes = diagnostic.all_notes().map(|note| format!("note: {note}"));
     let lines = std::iter::once(diagnostic.message.clone()).chain(label).chain(helps).chain(notes);
     lines.collect::<Vec<_>>().join("\n")
@@ -161,6 +156,7 @@ fn uri(path: &str) -> String {
 mod tests {
     use super::{CheckedFile, fixes, to_sarif, uri};
     use crate::check::report::testing::{OTHER, WARNING};
+    use scl_topology::diagnostic::Edit;
     use scl_topology::external::FILE_NOT_FOUND;
     use scl_topology::source::{Sources, Span};
     use serde_json::{Value, json};
@@ -223,13 +219,12 @@ mod tests {
     }
 
     #[test]
-    fn sure_fixes_are_one_and_others_are_alternatives() {
+    fn each_proposal_is_a_fix() {
         let mut sources = Sources::new();
         let file = sources.add("t.yaml", "ä: b\n");
         let span = |start, end| Span { file, start, end };
-        let problem = WARNING.at("what", span(4, 5), "").help("write it so");
-        let problem =
-            problem.fix(span(0, 0), "(").fix(span(5, 5), ")").maybe_fix(span(4, 5), "c").maybe_fix(span(4, 5), "d");
+        let problem = WARNING.at("what", span(4, 5), "").did_you_mean("b", &["c", "d"]);
+        let problem = problem.propose("write it so", [Edit::new(span(0, 0), "("), Edit::new(span(5, 5), ")")]);
         let region = |start, end| json!({ "startLine": 1, "startColumn": start, "endLine": 1, "endColumn": end });
         let change =
             |start, end, text| json!({ "deletedRegion": region(start, end), "insertedContent": { "text": text } });
@@ -240,9 +235,9 @@ mod tests {
         assert_eq!(
             fixes(&problem, &sources),
             [
-                fix("write it so", &[change(1, 1, "("), change(5, 5, ")")]),
                 fix("replace with `c`", &[change(4, 5, "c")]),
                 fix("replace with `d`", &[change(4, 5, "d")]),
+                fix("write it so", &[change(1, 1, "("), change(5, 5, ")")]),
             ]
         );
     }

@@ -86,14 +86,13 @@ pub(in crate::check) fn drop_messages(
     receivers: usize,
 ) -> Diagnostic {
     let drop = WhenFull::DropOldest.word();
-    let found = match draft.gates[sink].option("when_full") {
-        Some(option) => found.maybe_fix(option.value.span, drop),
-        None => found,
-    };
     let way = format!("let `{}` drop messages: `when_full: {drop}`", draft.path(sink));
-    match receivers {
-        0 | 1 => found.help(format!("{way}, and remove `backpressure` from `{}`", draft.path(source))),
-        _ => found.help(way),
+    let edit = draft.with_option(sink, "when_full", drop);
+    match draft.without_option(source, "backpressure") {
+        Some(removed) if receivers <= 1 => {
+            found.suggest(format!("{way}, and remove `backpressure` from `{}`", draft.path(source)), [edit, removed])
+        }
+        _ => found.suggest(way, [edit]),
     }
 }
 

@@ -1,6 +1,7 @@
 //! The texts of deadlocks, and that the proposed way out works.
 
 use super::RULE;
+use crate::advice::apply;
 use crate::check::testing::{codes, example, problems, rule_example};
 use expect_test::expect;
 
@@ -177,19 +178,12 @@ fn a_circle_of_many() {
     expect!["components wait for each other: `c0` -> `c1` -> `c2` -> `c3` -> `c4` -> `c5` -> `c6` -> `c7` -> 12 more -> `c0`"].assert_eq(&found[0].message);
 }
 
-/// Does what the first help says: changes `when_full`, and takes `backpressure` from the gate it names.
+/// Does what the first proposal says.
 fn with_the_way_out(yaml: &str) -> Option<String> {
     let (found, _) = problems(yaml, None);
     let found = found.into_iter().find(|found| found.rule == &RULE)?;
-    let fix = &found.fixes[0];
-    let mut out = yaml.to_owned();
-    out.replace_range(fix.span.start as usize..fix.span.end as usize, &fix.replacement);
-    if let Some((_, gate)) = found.helps[0].split_once("remove `backpressure` from `") {
-        let gate = format!("- {}:", gate.split(['.', '`']).nth(1).unwrap());
-        let line = out.lines().find(|line| line.contains(&gate)).unwrap().to_owned();
-        out = out.replace(&line, &line.replace(", backpressure: true", ""));
-    }
-    Some(out)
+    let edits: Vec<_> = found.proposals().next()?.edits.iter().collect();
+    apply(yaml, &edits)
 }
 
 #[test]

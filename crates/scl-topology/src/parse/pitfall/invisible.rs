@@ -1,7 +1,7 @@
 //! SCL0117: a character that is invisible, or that only looks like a space.
 
 use super::scan::{Scan, blank};
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::source::SourceFile;
 use std::collections::BTreeMap;
 
@@ -67,26 +67,24 @@ fn diagnose(character: char, places: &[usize], source: &SourceFile) -> Diagnosti
     let (name, label, help) = describe(character);
     let kind = if character.is_control() { "control character" } else { "invisible character" };
     let name = if name.is_empty() { String::new() } else { format!(" ({name})") };
-    let mut problem = RULE
-        .at(format!("{kind} U+{:04X}{name}", u32::from(character)), span, label)
-        .help(help)
-        .note("such characters usually come from a web page or a word processor")
-        .note(
-            "same check: U+FEFF inside the file, U+200B..U+200F, U+202A..U+202E (bidirectional control), U+0085, \
-             U+2028, U+2029, and control characters below U+0020",
-        );
     let replacement = match help {
         REPLACE => " ",
         REMOVE => "",
         _ => "\n",
     };
-    for &at in places {
-        problem = problem.fix(source.span(at..at + character.len_utf8()), replacement);
+    let edits = places.iter().map(|&at| Edit::new(source.span(at..at + character.len_utf8()), replacement));
+    let problem = RULE
+        .at(format!("{kind} U+{:04X}{name}", u32::from(character)), span, label)
+        .propose(help, edits)
+        .note("such characters usually come from a web page or a word processor")
+        .note(
+            "same check: U+FEFF inside the file, U+200B..U+200F, U+202A..U+202E (bidirectional control), U+0085, \
+             U+2028, U+2029, and control characters below U+0020",
+        );
+    match places.len() {
+        1 => problem,
+        count => problem.note(format!("it occurs {count} times in this file")),
     }
-    if places.len() > 1 {
-        problem = problem.note(format!("it occurs {} times in this file", places.len()));
-    }
-    problem
 }
 
 const REPLACE: &str = "replace it with an ordinary space";

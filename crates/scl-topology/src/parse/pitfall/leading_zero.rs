@@ -1,6 +1,6 @@
 //! SCL0128: a number with a leading zero, which YAML 1.1 reads as octal.
 
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::parse::field::Field;
 
 /// SCL0128.
@@ -35,8 +35,7 @@ pub(in crate::parse) fn find(field: Field<'_>, text: &str) -> Option<Diagnostic>
     };
     Some(
         RULE.at(format!("`{key}` has a leading zero: `{text}`"), field.value.span, label)
-            .help(format!("write `{key}: {decimal}`"))
-            .maybe_fix(field.value.span, decimal)
+            .suggest(format!("write `{key}: {decimal}`"), [Edit::new(field.value.span, decimal)])
             .note("a topology file is read by bindings in several languages, so it must mean the same in YAML 1.1 and 1.2"),
     )
 }

@@ -2,7 +2,7 @@
 //! an ASCII letter.
 
 use crate::confusable;
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
 use std::ops::Range;
@@ -79,7 +79,7 @@ pub(in crate::parse) fn in_word(node: &Node, text: &str, what: &str, source: &So
     // The value of a quoted or multi-line text differs from its source, so there is no fix.
     let retyped = confusable::retyped(text);
     Some(match written == text {
-        true => problem.fix(node.span, retyped.trim_matches(['"', '\''])),
+        true => problem.carry(vec![Edit::new(node.span, retyped.trim_matches(['"', '\'']))], true),
         false => problem,
     })
 }

@@ -1,7 +1,7 @@
 //! Names that YAML reads as something else. SCL0108: a word that YAML 1.1 reads as a boolean. SCL0109: a number.
 //! SCL0119: a text block.
 
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::source::{SourceFile, Span};
 use crate::yaml::Node;
 
@@ -189,7 +189,8 @@ pub(in crate::parse) fn text_block(node: &Node, text: &str, source: &SourceFile)
     // The block includes its last line break, which the fix keeps.
     let whole = source.snippet(block);
     let end = block.start + whole.trim_end().len() as u32;
-    problem.help(format!("write `{}`", written(node, name, source))).fix(Span { end, ..block }, name)
+    let help = format!("write `{}`", written(node, name, source));
+    problem.propose(help, [Edit::new(Span { end, ..block }, name)])
 }
 
 /// The `|` or `>`, in the line above the text.

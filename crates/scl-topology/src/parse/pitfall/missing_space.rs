@@ -1,6 +1,6 @@
 //! SCL0103: no space after `:`.
 
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::parse::dialect::Dialect;
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, SyntaxError};
@@ -96,16 +96,16 @@ fn diagnose(key: &str, written_after: &str, at: Span, dialect: &Dialect) -> Diag
     let colon = at.start + key.len() as u32;
     let span = Span { start: colon, end: colon + 1, ..at };
     let problem = RULE.at("missing space after `:`", span, format!("YAML reads `{key}:{value}` as one word"));
-    let problem = match value.starts_with(['[', '{']) {
-        true => problem.help(format!("write a space after `{key}:`")),
-        false => problem.help(format!("write `{key}: {value}`")),
+    let help = match value.starts_with(['[', '{']) {
+        true => format!("write a space after `{key}:`"),
+        false => format!("write `{key}: {value}`"),
     };
-    let after = Span { start: span.end, ..span };
+    let space = [Edit::new(Span { start: span.end, ..span }, " ")];
     // If several words follow the colon, the colon itself may be the mistake, so the fix is not certain.
     let is_one = written_after.trim_end() == value || value.starts_with(['[', '{']);
     match is_one && ((dialect.word)(key).or_else(|| (dialect.word)(value)).is_some()) {
-        true => problem.fix(after, " "),
-        false => problem.maybe_fix(after, " "),
+        true => problem.propose(help, space),
+        false => problem.suggest(help, space),
     }
 }
 

@@ -1,7 +1,7 @@
 //! SCL0106: a character that cannot start a value.
 
 use super::dash;
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::source::SourceFile;
 
 /// SCL0106.
@@ -29,7 +29,7 @@ pub(in crate::parse) fn diagnose(at: usize, character: char, source: &SourceFile
     let line = source.line_range(at);
     let is_first = text.get(line.start..at).is_some_and(|before| before.trim().is_empty());
     if is_first && text.get(at + 1..line.end).is_some_and(|rest| rest.starts_with(' ')) {
-        return dash::other_mark(at, source).fix(source.span(at..at + 1), "-");
+        return dash::other_mark(at, source).carry(vec![Edit::new(source.span(at..at + 1), "-")], true);
     }
     let rest = text.get(at..source.line_range(at).end).unwrap_or("");
     let word = rest.split([' ', ',', ']', '}']).next().unwrap_or(rest);

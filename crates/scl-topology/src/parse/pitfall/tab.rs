@@ -1,7 +1,7 @@
 //! Tabs outside of quotes, comments and text blocks. SCL0101: one that indents a line. SCL0129: any other.
 
 use super::scan::{Scan, blank};
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::source::SourceFile;
 
 /// SCL0101.
@@ -51,11 +51,12 @@ pub(super) fn check_indentation(
         (start..start + indent).filter(|at| line.as_bytes()[*at - start] == b'\t').collect()
     });
     let Some(&first) = tabs.first() else { return false };
-    let problem = diagnose(first, "a tab character is used for indentation", source)
+    let fixed = if is_mixed(text) { &[][..] } else { &tabs };
+    let edits = fixed.iter().map(|&at| Edit::new(source.span(at..at + 1), "  "));
+    let problem = diagnose(first, "a tab character is used for indentation", edits.collect(), source)
         .note("YAML forbids tabs in indentation because their width is not defined")
         .notes(count_lines(&tabs, text, source, "are indented with tabs"));
-    let fixed = if is_mixed(text) { &[][..] } else { &tabs };
-    problems.push(fixed.iter().fold(problem, |problem, &at| problem.fix(source.span(at..at + 1), "  ")));
+    problems.push(problem);
     blank(text, tabs.iter().map(|&at| at..at + 1));
     true
 }
@@ -70,10 +71,10 @@ pub(super) fn check_separators(source: &SourceFile, scan: &Scan, text: &mut Stri
     let Some(&first) = tabs.first() else { return };
     let problem = SEPARATOR
         .at("a tab character is used as white space", source.span(first..first + 1), LABEL)
-        .help("replace it with a space")
+        .propose("replace it with a space", tabs.iter().map(|&at| Edit::new(source.span(at..at + 1), " ")))
         .note("PyYAML and other readers refuse tabs outside of quotes and comments")
         .notes(count_lines(&tabs, text, source, "have such tabs"));
-    problems.push(tabs.iter().fold(problem, |problem, &at| problem.fix(source.span(at..at + 1), " ")));
+    problems.push(problem);
     blank(text, tabs.iter().map(|&at| at..at + 1));
 }
 
@@ -87,13 +88,13 @@ pub(in crate::parse) fn elsewhere(at: usize, source: &SourceFile) -> Diagnostic 
     let line = source.line_range(at);
     let text = &source.text()[line.clone()];
     let tab = text.find('\t').map_or(at, |found| line.start + found);
-    diagnose(tab, "a tab character stands where only spaces are allowed", source)
+    diagnose(tab, "a tab character stands where only spaces are allowed", Vec::new(), source)
 }
 
-fn diagnose(tab: usize, message: &str, source: &SourceFile) -> Diagnostic {
-    INDENT
-        .at(message, source.span(tab..tab + 1), LABEL)
-        .help("replace it with spaces; most editors: \"Convert Indentation to Spaces\"")
+fn diagnose(tab: usize, message: &str, edits: Vec<Edit>, source: &SourceFile) -> Diagnostic {
+    const HELP: &str = "replace it with spaces; most editors: \"Convert Indentation to Spaces\"";
+    let problem = INDENT.at(message, source.span(tab..tab + 1), LABEL);
+    if edits.is_empty() { problem.help(HELP) } else { problem.propose(HELP, edits) }
 }
 
 /// How many lines have tabs, if several do.

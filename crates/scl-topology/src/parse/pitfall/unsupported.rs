@@ -1,7 +1,7 @@
 //! Parts of YAML that a topology does not have. SCL0111: anchors and aliases. SCL0112: the merge key `<<`. SCL0113: a
 //! tag. SCL0114: more than one document. SCL0118: a directive, such as `%YAML 1.1`.
 
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::parse::dialect::Dialect;
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Anchor, MOST_REPEATED, Node, NodeKind, Tree};
@@ -203,8 +203,7 @@ pub(in crate::parse) fn diagnose_directive(source: &SourceFile, at: usize, diale
     let removed = source.span(range.start..end + with_marker.map_or(0, |at| at + 1));
     DIRECTIVE
         .at("YAML directives are not supported", source.span(range), "directive")
-        .help(help)
-        .fix(removed, "")
+        .propose(help, [Edit::new(removed, "")])
         .note(format!("a {} is read as YAML 1.2; see SCL0108 for the words that differ", dialect.noun))
 }
 

@@ -1,14 +1,24 @@
 //! The problem that a change stands for.
 
 use super::{Edit, Kind};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Edit as Replacement};
 use crate::parse::dialect::Dialect;
 use crate::parse::pitfall::{bracket, dash, indentation, look_alike, missing_mark, missing_space, quote, unexpected};
 use crate::parse::shape::nameless;
 use crate::source::SourceFile;
 use std::ops::Range;
 
-pub(super) fn tell(edit: &Edit, text: &str, source: &SourceFile, dialect: &Dialect) -> Diagnostic {
+/// The problem, with the change as its proposal. A name that is missing is no proposal: nobody knows it.
+pub(super) fn tell(edit: &Edit, text: &str, source: &SourceFile, dialect: &Dialect, is_meant: bool) -> Diagnostic {
+    let problem = words(edit, text, source, dialect);
+    if matches!(edit.kind, Kind::Nameless(_)) {
+        return problem;
+    }
+    let edits = edit.changes.iter().map(|(range, with)| Replacement::new(source.span(range.clone()), with));
+    problem.carry(edits.collect(), is_meant)
+}
+
+fn words(edit: &Edit, text: &str, source: &SourceFile, dialect: &Dialect) -> Diagnostic {
     match &edit.kind {
         Kind::Comma(before, after) => missing_mark::comma_between(before, after, text, source),
         Kind::Colon(word) => missing_mark::colon_after(word, text, source),

@@ -1,6 +1,6 @@
 //! SCL0211: a connection that is not a pair of ends.
 
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::parse::{scalar, shape_word};
 use crate::source::Span;
 use crate::yaml::{Node, NodeKind};
@@ -72,7 +72,7 @@ fn separated_oddly(span: Span, text: &str, first: &str, second: &str) -> Diagnos
         None => ("a comma is missing between the ends of this connection".to_owned(), "one text, not two ends"),
     };
     let pair = format!("[{first}, {second}]");
-    RULE.at(message, span, label).help(format!("write `{pair}`")).fix(span, pair)
+    RULE.at(message, span, label).propose(format!("write `{pair}`"), [Edit::new(span, pair)])
 }
 
 /// `- sensor.measurements`, `- a.b -> c.d`, `- (a.b, c.d)`.

@@ -1,6 +1,6 @@
 //! SCL0210: a gate that is not written as `name: kind` or `name: {kind: type, option: value}`.
 
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::model::GateModel;
 use crate::parse::field::{Field, Fields};
 use crate::parse::scalar;
@@ -45,8 +45,7 @@ pub(in crate::parse) fn without_colon(name: &str, kind: &str, at: Span) -> Diagn
 /// `- measurements = pub`.
 pub(in crate::parse) fn equals_sign(name: &str, kind: &str, at: Span) -> Diagnostic {
     RULE.at(format!("`=` stands where the `:` of gate `{name}` is expected"), at, "YAML reads this as one word")
-        .help(format!("write `- {name}: {kind}`"))
-        .fix(at, format!("{name}: {kind}"))
+        .propose(format!("write `- {name}: {kind}`"), [Edit::new(at, format!("{name}: {kind}"))])
 }
 
 /// `{pub Type}`, `{pub: Type, queue=4}`.
@@ -57,8 +56,7 @@ pub(in crate::parse) fn key_without_colon(field: Field<'_>, word: &str) -> Diagn
         false => format!("missing `:` after `{word}`"),
     };
     RULE.at(message, field.key_span, "YAML reads this as one word")
-        .help(format!("write `{word}: {value}`"))
-        .fix(field.key_span, format!("{word}: {value}"))
+        .propose(format!("write `{word}: {value}`"), [Edit::new(field.key_span, format!("{word}: {value}"))])
 }
 
 /// `{rep: Request, Reply}`.
@@ -76,8 +74,7 @@ pub(in crate::parse) fn odd_arrow(kind: Field<'_>, arrow: &str, meant: &str) -> 
         _ => format!("`{arrow}` does not join two types"),
     };
     RULE.at(message, kind.value.span, "expected `->` between the two")
-        .help(format!("write `{}: {meant}`", kind.key))
-        .fix(kind.value.span, meant)
+        .propose(format!("write `{}: {meant}`", kind.key), [Edit::new(kind.value.span, meant)])
 }
 
 /// `- measurements: {queue: 4}`.

@@ -115,7 +115,8 @@ mod tests {
             let (_, found, _) = parse_text(&yaml);
             let told = found.iter().map(|found| {
                 let label = found.primary.as_ref().map_or("", |label| label.text.as_str());
-                format!("{}: {} {label} {:?}\n", size, found.message, found.helps)
+                let helps: Vec<_> = found.shown_helps().map(|help| help.text().into_owned()).collect();
+                format!("{size}: {} {label} {helps:?}\n", found.message)
             });
             told.collect::<String>()
         });

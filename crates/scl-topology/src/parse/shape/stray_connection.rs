@@ -1,6 +1,6 @@
 //! SCL0216: a connection in the list of components.
 
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::parse::{scalar, with_dash};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
@@ -35,16 +35,18 @@ pub(in crate::parse) fn diagnose(item: &Node, source: &SourceFile) -> Diagnostic
     let line = source.line_range(span.start as usize);
     let (line, end) = (line.start as u32, span.end.min(line.end as u32));
     RULE.at("this list of pairs has no `connections:` above it", Span { end, ..span }, "a connection, not a component")
-        .help("add the line `connections:` above it, starting in column 1")
-        .fix(Span { start: line, end: line, ..span }, "connections:\n")
+        .propose(
+            "add the line `connections:` above it, starting in column 1",
+            [Edit::new(Span { start: line, end: line, ..span }, "connections:\n")],
+        )
 }
 
 /// Changes such a problem to say that the section exists, below the pairs. Always returns true, to keep every problem.
 pub(in crate::parse) fn with_section(problem: &mut Diagnostic) -> bool {
     if *problem.rule == RULE {
         problem.message = "this connection stands above `connections:`".to_owned();
-        problem.helps = vec!["move it below `connections:`".to_owned()];
-        problem.fixes.clear();
+        problem.clear_helps();
+        *problem = problem.clone().help("move it below `connections:`");
     }
     true
 }

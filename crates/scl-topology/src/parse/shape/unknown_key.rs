@@ -1,7 +1,7 @@
 //! Unknown keys. SCL0202: at the top level. SCL0207: in a component. SCL0212: in a gate.
 
-use super::{own_key, suggest};
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use super::own_key;
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::grammar::{OPTIONS, option};
 use crate::parse::field::{Field, Fields};
 use crate::parse::scalar;
@@ -27,7 +27,9 @@ pub(crate) const SECTION: Rule = Rule {
 pub(in crate::parse) fn section(field: Field<'_>) -> Diagnostic {
     let message = format!("unknown section `{}`", field.key);
     let problem = SECTION.at(message, field.key_span, "not a section of a topology");
-    suggest(problem, "section", field.key, SECTIONS)
+    let meant = similar(field.key, SECTIONS);
+    problem
+        .did_you_mean(field.key, &meant)
         .note(format!("sections: {}", quoted_list(SECTIONS)))
         .note("keys that start with `x-` are ignored, for your own use")
 }
@@ -50,8 +52,8 @@ pub(crate) const OF_COMPONENT: Rule = Rule {
 pub(in crate::parse) fn of_component(field: Field<'_>, component: &str) -> Diagnostic {
     let message = format!("unknown key `{}` in component `{component}`", field.key);
     let problem = OF_COMPONENT.at(message, field.key_span, "not a key of a component");
-    let problem = own_key(problem, field.key);
-    suggest(problem, "key", field.key, COMPONENT_KEYS)
+    own_key(problem, field.key)
+        .did_you_mean(field.key, &similar(field.key, COMPONENT_KEYS))
         .note(format!("keys of a component: {}", quoted_list(COMPONENT_KEYS)))
 }
 
@@ -76,7 +78,7 @@ pub(in crate::parse) fn instead_of_name(field: Field<'_>) -> Diagnostic {
         OF_COMPONENT.at(format!("unknown key `{}` in a component", field.key), field.key_span, "expected `name`");
     match OTHER_WORDS.contains(&field.key) {
         true => problem.help(format!("write `name: {name}`")),
-        false => problem.help("a key with a similar name exists: `name`").fix(field.key_span, "name"),
+        false => problem.propose("a key with a similar name exists: `name`", [Edit::new(field.key_span, "name")]),
     }
     .note(format!("keys of a component: {}", quoted_list(COMPONENT_KEYS)))
 }
@@ -96,18 +98,21 @@ pub(crate) const OF_GATE: Rule = Rule {
 ",
 };
 
+/// The text around a similar key.
+const SIMILAR_KEY: (&str, &str) = ("a key with a similar name exists: ", "");
+
 /// An unknown key in a gate. `kind` is the kind as written, `path` the gate with its component.
 pub(in crate::parse) fn of_gate(field: Field<'_>, kind: &str, path: &str) -> Diagnostic {
     let message = format!("unknown key `{}` in gate `{path}`", field.key);
     let mut problem = own_key(OF_GATE.at(message, field.key_span, ""), field.key);
     let similar = similar(field.key, OPTIONS.iter().map(|option| option.key));
-    // Offer no fix that would be the next mistake: an option that this kind does not have.
-    if similar.iter().all(|name| only_of(name, kind).is_empty()) {
-        problem = problem.fix_word(field.key, &similar);
+    for name in similar {
+        // An option that this kind does not have would be the next mistake.
+        problem = match only_of(name, kind) {
+            kinds if kinds.is_empty() => problem.choose_word(SIMILAR_KEY, field.key, &[name]),
+            kinds => problem.help(format!("{}`{name}`{kinds}", SIMILAR_KEY.0)),
+        };
     }
-    let suggestions =
-        similar.iter().map(|name| format!("a key with a similar name exists: `{name}`{}", only_of(name, kind)));
-    let problem = problem.helps(suggestions);
     let keys = OPTIONS.iter().filter(|option| option.kinds.iter().any(|of| of.word() == kind)).map(|option| option.key);
     match GateKind::of(kind).is_some() {
         true => problem.note(format!("keys of a `{kind}` gate: {}", quoted_list(std::iter::once(kind).chain(keys)))),
@@ -124,7 +129,7 @@ pub(in crate::parse) fn comma_in_doc(key: Span, text: Span, source: &SourceFile,
     if words.contains(['"', '\\', '\n']) {
         return problem.help("put the text in single quotes");
     }
-    problem.help(format!("put it in quotes: `doc: \"{words}\"`")).fix(text, format!("\"{words}\""))
+    problem.propose(format!("put it in quotes: `doc: \"{words}\"`"), [Edit::new(text, format!("\"{words}\""))])
 }
 
 /// Names the kinds that have an option; empty if this kind is one of them.
@@ -155,7 +160,7 @@ mod tests {
                 2 | conections: []
                   | ^^^^^^^^^^ not a section of a topology
                   |
-                  = help: a section with a similar name exists: `connections`
+                  = help: did you mean `connections`?
                   = note: sections: `components`, `connections`, `system`, `schemas`, `schema_roots`, `codec`, `scl`
                   = note: keys that start with `x-` are ignored, for your own use"#]],
         );
@@ -166,14 +171,14 @@ mod tests {
         check(
             &OF_COMPONENT,
             expect![[r#"
-            error: [SCL0207] unknown key `gate` in component `sensor`
-             --> topology.yaml:3:5
-              |
-            3 |     gate:
-              |     ^^^^ not a key of a component
-              |
-              = help: a key with a similar name exists: `gates`
-              = note: keys of a component: `name`, `gates`, `doc`, `optional`"#]],
+                error: [SCL0207] unknown key `gate` in component `sensor`
+                 --> topology.yaml:3:5
+                  |
+                3 |     gate:
+                  |     ^^^^ not a key of a component
+                  |
+                  = help: did you mean `gates`?
+                  = note: keys of a component: `name`, `gates`, `doc`, `optional`"#]],
         );
     }
 

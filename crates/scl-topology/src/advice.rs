@@ -1,0 +1,127 @@
+//! The trial of advice: every proposal is applied to a copy of the text, and the copy is checked.
+//!
+//! A proposal is kept if its own problem is gone and no other problem is new. What is left is what tools show, and
+//! `scl check --fix` applies those that are sure.
+
+mod compare;
+mod edit;
+mod extent;
+
+use crate::diagnostic::{Diagnostic, Edit, Severity};
+use crate::source::SourceFile;
+use compare::{Before, Change, passes};
+
+pub use edit::apply;
+pub use extent::Extent;
+
+/// Maximum number of copies of a file that are checked.
+const MOST_TRIES: usize = 20;
+
+/// Maximum size of all these copies in bytes; one copy may always be checked.
+const MOST_BYTES: usize = 1 << 20;
+
+/// The result of checking a text.
+pub struct Judged {
+    /// Its problems, sorted by position.
+    pub problems: Vec<Diagnostic>,
+    /// How much of it could be read.
+    pub extent: Extent,
+}
+
+/// Applies every proposal of the `found` problems to a copy of the file, has the copy checked by `judge`, and removes the
+/// proposals that leave their problem or add another.
+///
+/// At most 20 copies of together 1 MiB are checked. If there are more proposals, many are tried at once, and those that
+/// could not be tried are removed. Lints are off, so their proposals are kept untried, and none of them is sure.
+pub fn try_advice(found: &mut Judged, source: &SourceFile, mut judge: impl FnMut(&str) -> Judged) {
+    let text = source.text();
+    let tries = tries(text);
+    let candidates: Vec<Candidate> = candidates(&found.problems);
+    let before = Before::of(found, text);
+    let mut trial = Trial { before: &before, source, tries, judge: &mut judge };
+    let mut passed = vec![false; candidates.len()];
+    match candidates.len() <= tries {
+        true => candidates.iter().enumerate().for_each(|(at, way)| passed[at] = trial.try_together(&[way])),
+        false => trial.try_many(&candidates, &mut passed),
+    }
+    let mut results = passed.into_iter();
+    for problem in found.problems.iter_mut().filter(|problem| is_tried(problem)) {
+        problem.keep_proposals(|| results.next().unwrap_or(false));
+    }
+}
+
+/// Number of copies of a text that may be checked.
+pub(crate) fn tries(text: &str) -> usize {
+    (MOST_BYTES / text.len().max(1)).clamp(1, MOST_TRIES)
+}
+
+fn is_tried(problem: &Diagnostic) -> bool {
+    problem.severity != Severity::Lint
+}
+
+/// One proposal, and the number of its problem.
+struct Candidate {
+    problem: usize,
+    edits: Vec<Edit>,
+}
+
+fn candidates(problems: &[Diagnostic]) -> Vec<Candidate> {
+    let tried = problems.iter().enumerate().filter(|(_, problem)| is_tried(problem));
+    tried
+        .flat_map(|(at, problem)| {
+            problem.proposals().map(move |way| Candidate { problem: at, edits: way.edits.clone() })
+        })
+        .collect()
+}
+
+struct Trial<'t, J> {
+    before: &'t Before<'t>,
+    source: &'t SourceFile,
+    /// The number of copies that may still be checked.
+    tries: usize,
+    judge: J,
+}
+
+impl<J: FnMut(&str) -> Judged> Trial<'_, J> {
+    /// Whether candidates of different problems pass when they are applied together.
+    fn try_together(&mut self, candidates: &[&Candidate]) -> bool {
+        let edits: Vec<&Edit> = candidates.iter().flat_map(|candidate| &candidate.edits).collect();
+        let text = self.source.text();
+        let is_here = edits.iter().all(|edit| edit.span.file == self.source.id());
+        let Some(copy) = apply(text, &edits).filter(|copy| is_here && copy != text) else { return false };
+        let Some(left) = self.tries.checked_sub(1) else { return false };
+        self.tries = left;
+        let after = (self.judge)(&copy);
+        let change = Change { problems: candidates.iter().map(|candidate| candidate.problem).collect(), edits: &edits };
+        passes(self.before, &change, &after, &copy)
+    }
+
+    /// Tries the first proposals of all problems at once, then the second ones, and so on. If such a group does not
+    /// pass, its halves are tried.
+    fn try_many(&mut self, candidates: &[Candidate], passed: &mut [bool]) {
+        let mut rounds: Vec<Vec<usize>> = Vec::new();
+        let mut number = 0;
+        for (at, candidate) in candidates.iter().enumerate() {
+            let is_next = at > 0 && candidates[at - 1].problem == candidate.problem;
+            number = if is_next { number + 1 } else { 0 };
+            if rounds.len() == number {
+                rounds.push(Vec::new());
+            }
+            rounds[number].push(at);
+        }
+        // The halves of a round are tried before the next round.
+        let mut groups: Vec<Vec<usize>> = rounds.into_iter().rev().collect();
+        while let Some(mut group) = groups.pop().filter(|_| self.tries > 0) {
+            let together: Vec<&Candidate> = group.iter().map(|&at| &candidates[at]).collect();
+            if self.try_together(&together) {
+                group.into_iter().for_each(|at| passed[at] = true);
+            } else if group.len() > 1 {
+                let second = group.split_off(group.len() / 2);
+                groups.extend([second, group]);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
