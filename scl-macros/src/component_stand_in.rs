@@ -26,15 +26,20 @@ pub(crate) fn expand_stand_in(component: &Type) -> TokenStream {
     }
     let (message, notes) = words(&name.to_string(), &topologies);
     let report = on_unimplemented(&escape_braces(&message), "not a component of the topology", &notes);
-    let not_found = format_ident!("__scl_component_not_found", span = component.span());
+    // rustc prints these two names. No component can have them: they are not in camel case.
+    let not_found = format_ident!("{name}_not_found", span = component.span());
+    let of_topology = format_ident!("topology_component", span = component.span());
     quote_spanned! { component.span() =>
         #[allow(non_camel_case_types, dead_code)]
         struct #not_found;
         #report
+        #[allow(non_camel_case_types, dead_code)]
+        trait #of_topology { type Type; }
+        // Without any implementation, rustc would propose to add one.
+        #[diagnostic::do_not_recommend]
+        impl #of_topology for () { type Type = (); }
         #[allow(dead_code)]
-        trait __SclComponent { type Type; }
-        #[allow(dead_code)]
-        type #name = <#not_found as __SclComponent>::Type;
+        type #name = <#not_found as #of_topology>::Type;
         // Lets calls on the erroneous type resolve. The inherent functions of a real component take precedence.
         #[allow(dead_code)]
         trait __SclMain {

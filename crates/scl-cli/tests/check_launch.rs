@@ -182,7 +182,7 @@ fn programs_get_the_same() {
     let (out, _, code) = check(&system, &["--format", "json", "launch.yaml"]);
     assert_eq!(code, Some(1));
     expect![[r#"
-        {"code":"SCL1202","severity":"error","message":"`restart` is `never`, `on_abnormal`, `on_failure` or `always`, not `allways`","file":"launch.yaml","line":1,"column":51,"end_line":1,"end_column":58,"labels":[{"file":"launch.yaml","line":1,"column":51,"end_line":1,"end_column":58,"text":""}],"helps":["did you mean `restart: always`?"],"notes":[],"fixes":[{"file":"launch.yaml","line":1,"column":51,"end_line":1,"end_column":58,"replacement":"always","sure":true}]}
+        {"code":"SCL1202","severity":"error","message":"`restart` is `never`, `on_abnormal`, `on_failure` or `always`, not `allways`","file":"launch.yaml","line":1,"column":51,"end_line":1,"end_column":58,"labels":[{"file":"launch.yaml","line":1,"column":51,"end_line":1,"end_column":58,"text":""}],"helps":["did you mean `restart: always`?"],"notes":[],"fixes":[{"file":"launch.yaml","line":1,"column":51,"end_line":1,"end_column":58,"replacement":"always","sure":true,"proposal":0,"help":0}]}
     "#]].assert_eq(&out);
     let (out, _, _) = check(&system, &["--format", "sarif", "launch.yaml"]);
     assert!(out.contains("\"text\": \"value that the key does not accept\""), "{out}");

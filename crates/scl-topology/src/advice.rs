@@ -9,7 +9,7 @@ mod extent;
 
 use crate::diagnostic::{Diagnostic, Edit, Severity};
 use crate::source::SourceFile;
-use compare::{Before, Change, passes};
+use compare::{Change, passes};
 
 pub use edit::apply;
 pub use extent::Extent;
@@ -37,8 +37,7 @@ pub fn try_advice(found: &mut Judged, source: &SourceFile, mut judge: impl FnMut
     let text = source.text();
     let tries = tries(text);
     let candidates: Vec<Candidate> = candidates(&found.problems);
-    let before = Before::of(found, text);
-    let mut trial = Trial { before: &before, source, tries, judge: &mut judge };
+    let mut trial = Trial { before: found, source, tries, judge: &mut judge };
     let mut passed = vec![false; candidates.len()];
     match candidates.len() <= tries {
         true => candidates.iter().enumerate().for_each(|(at, way)| passed[at] = trial.try_together(&[way])),
@@ -75,7 +74,7 @@ fn candidates(problems: &[Diagnostic]) -> Vec<Candidate> {
 }
 
 struct Trial<'t, J> {
-    before: &'t Before<'t>,
+    before: &'t Judged,
     source: &'t SourceFile,
     /// The number of copies that may still be checked.
     tries: usize,

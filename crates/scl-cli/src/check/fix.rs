@@ -17,7 +17,7 @@ use scl_loader::Loaded;
 use std::collections::HashSet;
 
 /// Maximum number of bytes checked in total. It limits the time spent on fixes that do not help to a few seconds.
-const MOST_BYTES: usize = 1 << 26;
+const MOST_BYTES: usize = 1 << 24;
 
 /// Maximum number of checks of one file.
 const MOST_CHECKS: usize = 1_000;

@@ -1,7 +1,7 @@
 //! Compares the problems of a file before and after a change.
 
+use super::Judged;
 use super::edit::{is_crlf, sorted};
-use super::{Extent, Judged};
 use crate::diagnostic::{Diagnostic, Edit, Label, Severity};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -9,29 +9,18 @@ use std::ops::Range;
 /// What identifies a problem in two versions of a file: its rule and its headline.
 type Key<'p> = (&'static str, &'p str);
 
-/// The problems of a file before a change.
-pub(super) struct Before<'b> {
-    problems: &'b [Diagnostic],
-    counts: HashMap<Key<'b>, usize>,
-    extent: Extent,
-    is_crlf: bool,
-}
-
-impl<'b> Before<'b> {
-    pub(super) fn of(judged: &'b Judged, text: &str) -> Self {
-        let problems = judged.problems.as_slice();
-        Self { problems, counts: counts(problems), extent: judged.extent, is_crlf: is_crlf(text) }
-    }
-}
-
 fn key(problem: &Diagnostic) -> Key<'_> {
     (problem.code(), &problem.message)
 }
 
-fn counts(problems: &[Diagnostic]) -> HashMap<Key<'_>, usize> {
+fn counts<'p>(problems: impl IntoIterator<Item = &'p Diagnostic>) -> HashMap<Key<'p>, usize> {
     let mut counts = HashMap::new();
-    problems.iter().for_each(|problem| *counts.entry(key(problem)).or_default() += 1);
+    problems.into_iter().for_each(|problem| *counts.entry(key(problem)).or_default() += 1);
     counts
+}
+
+fn as_bad(judged: &Judged, worst: Severity) -> impl Iterator<Item = &Diagnostic> {
+    judged.problems.iter().filter(move |problem| problem.severity <= worst)
 }
 
 /// What is tried.
@@ -48,18 +37,17 @@ impl Change<'_> {
     }
 }
 
-/// Whether a change solves its problems without adding any. `copy` is the changed text, and `after` what was found in
-/// it.
+/// Whether a change of a text solves its problems without adding any; `before` and `after` are what was found in the text
+/// and in the changed `copy`.
 ///
 /// If a file can be read further than before, problems that were there before may show outside of the changed lines and
 /// what belongs to them. This does not hold for a removal, which could hide one mistake and make another.
-pub(super) fn passes(before: &Before<'_>, change: &Change<'_>, after: &Judged, copy: &str) -> bool {
+pub(super) fn passes(before: &Judged, change: &Change<'_>, after: &Judged, copy: &str) -> bool {
     if after.extent.is_cut_off && !before.extent.is_cut_off {
         return false;
     }
-    let own: Vec<&Diagnostic> = change.problems.iter().map(|number| &before.problems[*number]).collect();
     let reads_further = before.extent.is_cut_off || after.extent.unread < before.extent.unread;
-    let block = block(&changed(change.edits, before.is_crlf, copy), copy);
+    let block = block(&changed(change.edits, is_crlf(copy), copy), copy);
     let is_elsewhere = |label: &Label| match label.span.start as usize {
         at if after.extent.is_cut_off => at >= block.end,
         at => !block.contains(&at),
@@ -68,37 +56,26 @@ pub(super) fn passes(before: &Before<'_>, change: &Change<'_>, after: &Judged, c
         let mut labels = problem.primary.iter().chain(&problem.secondary);
         !change.is_removal() && reads_further && problem.primary.is_some() && labels.all(is_elsewhere)
     };
-    let worst = own.iter().map(|problem| problem.severity).max().unwrap_or(Severity::Error);
-
-    let mut left = counts(&after.problems);
-    after.problems.iter().filter(|problem| is_revealed(problem)).for_each(|problem| {
-        // A problem that was known before is not revealed.
-        if let Some(count) = left.get_mut(&key(problem)).filter(|count| **count > before.count(problem)) {
-            *count -= 1;
-        }
-    });
-    // For each rule, the number of problems that must go, and of those that did.
+    let own = || change.problems.iter().map(|number| &before.problems[*number]);
+    // A change that solves an error may leave the file with a warning.
+    let worst = own().map(|problem| problem.severity).max().unwrap_or(Severity::Error);
+    let (known, own) = (counts(as_bad(before, worst)), counts(own()));
+    let all = counts(as_bad(after, worst));
+    let mut told = counts(as_bad(after, worst).filter(|problem| !is_revealed(problem)));
+    for (key, count) in &known {
+        // What was told before, apart from the own problems, is not revealed.
+        let others = (count - own.get(key).unwrap_or(&0)).min(*all.get(key).unwrap_or(&0));
+        let told = told.entry(*key).or_default();
+        *told = (*told).max(others);
+    }
+    let is_solved = own.iter().all(|(key, count)| told[key] + count <= known[key]);
+    // Another problem may be told in other words, which contain a name that was changed.
     let mut balance: HashMap<&str, isize> = HashMap::new();
-    own.iter().for_each(|problem| *balance.entry(problem.code()).or_default() += 1);
-    for (key, count) in &before.counts {
-        let gone = count.saturating_sub(left.get(key).copied().unwrap_or_default());
-        *balance.entry(key.0).or_default() -= gone as isize;
+    for (key, count) in told {
+        *balance.entry(key.0).or_default() += count as isize - *known.get(&key).unwrap_or(&0) as isize;
     }
-    let mut told: HashMap<Key<'_>, usize> = before.counts.clone();
-    for problem in after.problems.iter().filter(|problem| problem.severity <= worst && !is_revealed(problem)) {
-        match told.get_mut(&key(problem)).filter(|count| **count > 0) {
-            Some(count) => *count -= 1,
-            None => *balance.entry(problem.code()).or_default() += 1,
-        }
-    }
-    own.iter().all(|problem| left.get(&key(problem)).copied().unwrap_or_default() < before.count(problem))
-        && balance.values().all(|missing| *missing <= 0)
-}
-
-impl Before<'_> {
-    fn count(&self, problem: &Diagnostic) -> usize {
-        self.counts.get(&key(problem)).copied().unwrap_or_default()
-    }
+    own.iter().for_each(|(key, count)| *balance.entry(key.0).or_default() += *count as isize);
+    is_solved && balance.values().all(|added| *added <= 0)
 }
 
 /// The bytes of a copy from the first change to the end of the last.

@@ -39,6 +39,9 @@ pub struct Proposal {
     pub is_sure: bool,
 }
 
+/// Maximum number of changes of one proposal: with more, its help is words alone, because every output lists them.
+const MOST_EDITS: usize = 10_000;
+
 /// One replacement of text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Edit {
@@ -164,7 +167,8 @@ impl Diagnostic {
 
     /// Makes the first help, which has words alone, a proposal of these changes.
     pub(crate) fn carry(mut self, edits: Vec<Edit>, is_certain: bool) -> Self {
-        if let Some(help) = self.helps.first_mut().filter(|help| help.proposals.is_empty()) {
+        let is_short = edits.len() <= MOST_EDITS;
+        if let Some(help) = self.helps.first_mut().filter(|help| is_short && help.proposals.is_empty()) {
             help.proposals.push(Proposal { word: String::new(), edits, is_certain, is_sure: false });
         }
         self
@@ -177,7 +181,8 @@ impl Diagnostic {
                 self.helps.iter_mut().zip(other.helps).filter(|(help, same)| help.wording == same.wording)
             {
                 let pairs = help.proposals.iter_mut().zip(same.proposals);
-                pairs.filter(|(one, two)| one.word == two.word).for_each(|(one, two)| one.edits.extend(two.edits));
+                let pairs = pairs.filter(|(one, two)| one.word == two.word && one.edits.len() < MOST_EDITS);
+                pairs.for_each(|(one, two)| one.edits.extend(two.edits));
             }
         }
     }
@@ -223,8 +228,11 @@ impl Diagnostic {
     }
 
     fn with_way(self, text: impl Into<String>, edits: impl IntoIterator<Item = Edit>, is_certain: bool) -> Self {
-        let edits: Vec<Edit> = edits.into_iter().collect();
+        let edits: Vec<Edit> = edits.into_iter().take(MOST_EDITS + 1).collect();
         debug_assert!(!edits.is_empty(), "a proposal changes something");
+        if edits.len() > MOST_EDITS {
+            return self.help(text);
+        }
         let way = Proposal { word: String::new(), edits, is_certain, is_sure: false };
         self.with_help(Wording::Text(clipped(text)), vec![way])
     }
