@@ -105,7 +105,7 @@ fn mistakes_are_reported_and_nothing_is_written() {
         13 |   ground: {address: 127.0.0.2, components: []}
            |                                            ^^
            |
-           = help: write `components: [sensor, controller]`
+           = help: it lists the components that run there
 
     "#]]
     .assert_eq(&text(&output.stderr));

@@ -36,7 +36,8 @@ fn unknown_keys_get_a_suggestion_and_the_list() {
             4 |   sensor: {command: ls, comand: ls}
               |                         ^^^^^^
               |
-              = help: did you mean `command`?
+              = help: `command` is what this is called here: remove one of the two
+              = note: `command` is there already
 
             error: [SCL1201] unknown key `colour` in component `b`
              --> launch.yaml:5:20
@@ -61,7 +62,7 @@ fn a_missing_or_empty_command_is_shown_how_to_write() {
             2 |   a: {working_directory: .}
               |   ^
               |
-              = help: write `command: ./a` or `command: [./a, --verbose]`
+              = note: a command is a text, or a list of the program and its arguments
 
             error: [SCL1202] component `b` has no usable `command`
              --> launch.yaml:4:14
@@ -69,7 +70,7 @@ fn a_missing_or_empty_command_is_shown_how_to_write() {
             4 |     command: []
               |              ^^
               |
-              = help: write `command: ./b` or `command: [./b, --verbose]`
+              = note: a command is a text, or a list of the program and its arguments
 
             error: [SCL1203] the entry of component `c` is a mapping, not `./run`
              --> launch.yaml:5:6
@@ -93,7 +94,7 @@ fn a_missing_or_empty_command_is_shown_how_to_write() {
             7 |   e: {command: ['']}
               |                ^^^^
               |
-              = help: write `command: ./e` or `command: [./e, --verbose]`
+              = note: a command is a text, or a list of the program and its arguments
 
         "#]],
     );
@@ -116,7 +117,7 @@ fn values_of_the_wrong_kind_are_named() {
             2 | environment: [A]
               |              ^^^
               |
-              = help: write `environment: {RUST_LOG: info}`
+              = help: each variable is an entry: its name, a colon, a space and its value
 
             error: [SCL1202] the variable `A` is a text, not a list
              --> launch.yaml:4:59
@@ -124,7 +125,7 @@ fn values_of_the_wrong_kind_are_named() {
             4 |   a: {command: ls, working_directory: 3, environment: {A: [1], B: , 'C=': x}}
               |                                                           ^^^
               |
-              = help: write `A: "..."`
+              = help: write `A: 1`
 
             error: [SCL1202] the variable `B` is a text, not nothing
              --> launch.yaml:4:64
@@ -132,7 +133,7 @@ fn values_of_the_wrong_kind_are_named() {
             4 |   a: {command: ls, working_directory: 3, environment: {A: [1], B: , 'C=': x}}
               |                                                                ^
               |
-              = help: write `B: "..."`
+              = help: write `B: ""`
 
             error: [SCL1207] `C=` is not the name of an environment variable
              --> launch.yaml:4:69
@@ -150,7 +151,8 @@ fn a_file_without_components_is_shown_one() {
         let system = System::of_files(&[("launch.yaml", launch)]);
         let output = system.run(&[]);
         let err = String::from_utf8(output.stderr).unwrap();
-        assert!(err.contains("  = help: write `components: {sensor: {command: ./sensor}}`\n"), "{launch}:\n{err}");
+        let help = "  = help: an entry in it is named like a component, and `command` in the entry names its program\n";
+        assert!(err.contains(help), "{launch}:\n{err}");
         assert_eq!(output.status.code(), Some(2), "{launch}");
     }
 }
@@ -200,7 +202,8 @@ fn a_key_given_twice_is_named() {
             3 |   a: {command: ls}
               |   ^ second time
               |
-              = help: remove one of them
+              = help: merge the two into one, or remove one of them
+              = help: write what is here in the first `a`
               = note: YAML tools disagree which one wins: PyYAML silently keeps the second
 
         "#]],
@@ -256,7 +259,7 @@ profiles:
             2 |   a: {command: ls, build: []}
               |                           ^^
               |
-              = help: write `build: make sensor` or `build: [make, sensor]`
+              = note: a command that builds the program is a text, or a list of its words
 
             error: [SCL1202] this `build` is not a command
              --> launch.yaml:3:27
@@ -264,7 +267,7 @@ profiles:
             3 |   b: {command: ls, build: {make: all}}
               |                           ^^^^^^^^^^^
               |
-              = help: write `build: make sensor` or `build: [make, sensor]`
+              = note: a command that builds the program is a text, or a list of its words
 
             error: [SCL1201] unknown key `comand` in component `a`
              --> launch.yaml:6:16
@@ -280,7 +283,7 @@ profiles:
             6 |   python: {a: {comand: ls}, c: {working_directory: .}, b: ls}
               |                             ^
               |
-              = help: write `command: ./c` or `command: [./c, --verbose]`
+              = note: a command is a text, or a list of the program and its arguments
 
             error: [SCL1203] the entry of component `b` is a mapping, not `ls`
              --> launch.yaml:6:59
@@ -296,7 +299,7 @@ profiles:
             7 |   sim: [a]
               |        ^^^
               |
-              = help: write `sim: {sensor: {command: ./sensor}}`
+              = help: its entries are like those of `components`
 
         "#]],
     );
@@ -309,7 +312,7 @@ profiles:
             2 | profiles: [python]
               |           ^^^^^^^^
               |
-              = help: write `profiles: {python: {sensor: {command: ./sensor.py}}}`
+              = help: each profile has entries like those of `components`
 
             error: [SCL1202] `topology` is a path, not a list
              --> launch.yaml:3:11

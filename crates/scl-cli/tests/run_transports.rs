@@ -64,7 +64,6 @@ transports:
         4 |   camera.frame: shm
           |   ^^^^^^^^^^^^
           |
-          = help: did you mean `camera.frames`?
           = note: component `camera` has the gates `camera.frames`
 
         error: [SCL1205] unknown gate `camra.frames`
@@ -73,7 +72,6 @@ transports:
         5 |   camra.frames: shm
           |   ^^^^^^^^^^^^
           |
-          = help: did you mean `camera.frames`?
           = note: the topology has the components `camera`, `viewer`
 
         error: [SCL1205] unknown gate `viewer.x`
@@ -84,7 +82,7 @@ transports:
           |
           = note: component `viewer` has the gates `viewer.frames`
 
-        error: [SCL1207] a gate is named like `camera.frames`, not `frames`
+        error: [SCL1207] a gate is named `component.gate`, not `frames`
          --> launch.yaml:7:3
           |
         7 |   frames: ipc
@@ -95,6 +93,8 @@ transports:
           |
         8 |   viewer.frames: [shm]
           |                  ^^^^^
+          |
+          = help: did you mean `viewer.frames: shm`?
 
         error: [SCL1202] the transport of `camera.frames` is `ipc`, `tcp` or `shm`, not `smh`
          --> launch.yaml:9:18
@@ -104,7 +104,7 @@ transports:
           |
           = help: did you mean `camera.frames: shm`?
 
-        error: [SCL1207] a gate is named like `camera.frames`, not `1`
+        error: [SCL1207] a gate is named `component.gate`, not `1`
           --> launch.yaml:10:3
            |
         10 |   1: ipc
@@ -122,7 +122,7 @@ transports:
         2 | transports: shm
           |             ^^^
           |
-          = help: write `transports: {camera.frames: shm}`
+          = help: write `transport: shm`
 
     "#]]
     .assert_eq(&String::from_utf8(output.stderr).unwrap());

@@ -2,18 +2,26 @@
 //!
 //! `docs/launch.md` is the reference; its tables are those of [`keys`], its first example is [`EXAMPLE`].
 
+mod command;
 mod dialect;
 mod document;
+mod edits;
 mod entry;
 mod environment;
 mod explained;
+mod habits;
 mod hosts;
 mod keys;
+mod likely;
+mod names;
 mod profile;
 mod reader;
 mod rules;
 mod settings;
+mod shape;
+mod terminal;
 mod transports;
+mod unknown_key;
 mod value;
 
 pub(crate) use document::LaunchDocument;
@@ -88,8 +96,9 @@ impl Reader<'_> {
             self.report(WRONG_SHAPE.at(message, root.span, ""));
             return LaunchFile::default();
         };
-        let top = self.keys_but(is_own, entries, keys::TOP, "a launch file");
+        let top = self.top_keys(entries);
         self.read_setting(&top, "topology", value::path);
+        self.check_path(top.get("topology"));
         LaunchFile {
             build: top.get("build").and_then(|field| self.read_build(field)),
             components: self.read_components(&top, root.span),
@@ -102,16 +111,33 @@ impl Reader<'_> {
     }
 
     fn read_defaults(&mut self, top: &Keys<'_, '_>) -> Settings {
-        let help = "write `defaults: {restart: on_failure, stop_within: 3s}`";
-        let entries = top.get("defaults").and_then(|field| self.entries(field, "`defaults` is a mapping", help));
+        let entries = top.section("defaults").and_then(|field| {
+            self.entries(field, "`defaults` is a mapping", |reader, problem| {
+                reader
+                    .as_defaults(problem, field)
+                    .otherwise("it has keys of components, like `restart` and `stop_within`")
+            })
+        });
         let Some(entries) = entries else { return Settings::default() };
         let keys = self.keys(entries, keys::COMPONENT.iter().filter(|key| key.in_defaults), "`defaults`");
+        self.check_path(keys.get("working_directory"));
         self.read_settings(&keys)
     }
 
+    /// The keys at the top of the file. Entries of components that stand there by mistake are told as such.
+    fn top_keys<'n>(&mut self, entries: &'n [(Node, Node)]) -> Keys<'n, 'static> {
+        let owner = "a launch file";
+        let mut top = Keys { fields: self.names(entries, owner), allowed: keys::TOP.iter().collect() };
+        let has_components = top.get("components").is_some_and(|field| field.value.entries().is_some());
+        let outer = self.check_outer_components(&top.fields.list, has_components);
+        self.check_keys(&top, is_own, &outer, owner);
+        top.fields.damaged |= !outer.is_empty();
+        top
+    }
+
     fn read_components(&mut self, top: &Keys<'_, '_>, root: Span) -> Vec<LaunchComponent> {
-        let help = "write `components: {sensor: {command: ./sensor}}`";
-        let Some(field) = top.get("components") else {
+        let help = "an entry in it is named like a component, and `command` in the entry names its program";
+        let Some(field) = top.section("components") else {
             // `hosts` alone is enough for the gateway of a host; something else may start the components.
             if !top.may_have("components") && !top.may_have("hosts") {
                 let place = top.fields.list.first().map_or(root, |first| first.key_span);
@@ -120,15 +146,23 @@ impl Reader<'_> {
             return Vec::new();
         };
         let message = "`components` is a mapping from names to entries";
-        let Some(entries) = self.entries(field, message, help) else { return Vec::new() };
+        let entries = self.entries(field, message, |reader, problem| reader.as_mapping(problem, field).otherwise(help));
+        let Some(entries) = entries else { return Vec::new() };
         if entries.is_empty() {
             self.report(wrong(&MISSING, "`components` is empty", field).help(help));
         }
+        let entries = self.own_entries(field, entries);
         let entries = self.names(entries, "`components`").list;
-        entries.into_iter().filter_map(|field| self.read_entry(field, true)?.into_component()).collect()
+        let components = entries.iter().filter_map(|field| self.read_entry(*field, true)?.into_component()).collect();
+        self.check_terminal(&entries, top);
+        components
     }
 }
 
+#[cfg(test)]
+mod advice_tests;
+#[cfg(test)]
+mod mutations;
 #[cfg(test)]
 mod tests;
 

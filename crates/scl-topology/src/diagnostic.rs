@@ -10,8 +10,7 @@ mod testing;
 use crate::source::Span;
 use std::borrow::Cow;
 
-pub(crate) use help::removal;
-pub use help::{Edit, Help, Proposal};
+pub use help::{Edit, Help, Proposal, removal};
 pub(crate) use limit::RULE as TOO_MANY;
 pub use limit::{MOST_SHOWN, limit};
 pub use render::{render, render_headless, render_styled};

@@ -133,7 +133,7 @@ impl SourceFile {
     }
 
     /// The text that a span covers.
-    pub(crate) fn snippet(&self, span: Span) -> &str {
+    pub fn snippet(&self, span: Span) -> &str {
         self.text.get(span.start as usize..span.end as usize).unwrap_or("")
     }
 

@@ -77,6 +77,20 @@ mod launch {
         }
     }
 
+    /// The YAML files in a folder that are not launch files, sorted; none if there are more than three.
+    fn topologies_beside(folder: &Path) -> Vec<String> {
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        let files = std::fs::read_dir(folder).into_iter().flatten().filter_map(Result::ok).map(|entry| entry.path());
+        let is_topology = |path: &PathBuf| {
+            let is_yaml = path.extension().is_some_and(|extension| extension == "yaml" || extension == "yml");
+            is_yaml && !super::is_launch_file(path) && path.is_file()
+        };
+        let names = files.filter(is_topology).filter_map(|path| path.file_name()?.to_str().map(str::to_owned));
+        let mut names: Vec<String> = names.take(4).collect();
+        names.sort();
+        if names.len() > 3 { Vec::new() } else { names }
+    }
+
     impl Source<'_> {
         pub(super) fn launch_request(&self) -> Request {
             Request { kind: "launch", ..crate::load::request(self.path, self.arguments.max_size) }
@@ -90,7 +104,10 @@ mod launch {
             let names = |named: Option<&str>| {
                 let topology = folder.join(named.unwrap_or(TOPOLOGY));
                 if !topology.is_file() {
-                    return named.map_or(LaunchTopology::None, |_| LaunchTopology::Missing);
+                    return match named {
+                        Some(_) => LaunchTopology::Missing(topologies_beside(folder)),
+                        None => LaunchTopology::None,
+                    };
                 }
                 let names = self.topology.names(&topology).map(LaunchTopology::Names);
                 let names = names.unwrap_or_else(|| LaunchTopology::Wrong(shown_path(&topology)));

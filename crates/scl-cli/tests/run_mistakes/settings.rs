@@ -34,7 +34,7 @@ components:
             1 | defaults: {command: ls, restart: sometimes, environment: {}}
               |            ^^^^^^^
               |
-              = note: the keys are `alive_within`, `cpu`, `descriptors`, `essential`, `priority`, `ready_within`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
+              = help: `command` belongs into the entries of components
 
             error: [SCL1202] `restart` is `never`, `on_abnormal`, `on_failure` or `always`, not `sometimes`
              --> launch.yaml:1:34
@@ -48,7 +48,7 @@ components:
             1 | defaults: {command: ls, restart: sometimes, environment: {}}
               |                                             ^^^^^^^^^^^
               |
-              = note: the keys are `alive_within`, `cpu`, `descriptors`, `essential`, `priority`, `ready_within`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
+              = help: `environment` belongs at the top of the file
 
             error: [SCL1202] `restart` is `never`, `on_abnormal`, `on_failure` or `always`, not `on-failure`
              --> launch.yaml:5:14
@@ -93,6 +93,8 @@ components:
                |
             10 |     ready_within: 0s
                |                   ^^
+               |
+               = help: without `ready_within`, there is no limit: remove it
 
             error: [SCL1202] `alive_within` is a time like `500ms` or `3s`, not `soon`
               --> launch.yaml:11:19
@@ -125,18 +127,24 @@ components:
                |
             15 |   b: {command: ls, restart: true, restart_delay: 5s..1s, restart_limit: 5, cpu: [], priority: fifo:100, essential: off}
                |                             ^^^^
+               |
+               = help: did you mean `restart: always`?
 
             error: [SCL1202] `restart_delay` is a range like `100ms..5s`, or one time, not `5s..1s`
               --> launch.yaml:15:50
                |
             15 |   b: {command: ls, restart: true, restart_delay: 5s..1s, restart_limit: 5, cpu: [], priority: fifo:100, essential: off}
                |                                                  ^^^^^^
+               |
+               = help: did you mean `restart_delay: 1s..5s`?
 
             error: [SCL1202] `restart_limit` is a number of restarts and a time, like `5 in 1m`, not `5`
               --> launch.yaml:15:73
                |
             15 |   b: {command: ls, restart: true, restart_delay: 5s..1s, restart_limit: 5, cpu: [], priority: fifo:100, essential: off}
                |                                                                         ^
+               |
+               = help: did you mean `restart_limit: 5 in 1m`?
 
             error: [SCL1202] `cpu` is a list of processors like `[2, 3]`, counted from 0, or one of them, not a list
               --> launch.yaml:15:81
@@ -149,6 +157,8 @@ components:
                |
             15 |   b: {command: ls, restart: true, restart_delay: 5s..1s, restart_limit: 5, cpu: [], priority: fifo:100, essential: off}
                |                                                                                               ^^^^^^^^
+               |
+               = help: did you mean `priority: fifo:99`?
 
             error: [SCL1202] `essential` is `true` or `false`, not `off`
               --> launch.yaml:15:116
@@ -164,7 +174,9 @@ components:
             16 |   c: {command: ls, replay: a.mcap}
                |                    ^^^^^^
                |
-               = help: put one of them into a profile
+               = help: put one of them into a profile, or keep one alone
+               = help: play the recording: remove `command`
+               = help: run the program: remove `replay`
 
             error: [SCL1206] a `replay` needs no `build`
               --> launch.yaml:17:23
@@ -179,6 +191,8 @@ components:
                |
             18 |   e: {replay: [a.mcap]}
                |               ^^^^^^^^
+               |
+               = help: did you mean `replay: a.mcap`?
 
             error: [SCL1201] unknown key `repaly` in component `f`
               --> launch.yaml:19:7
@@ -223,7 +237,8 @@ default: {restart: always}
             2 |   a: {cmd: ls, folder: x, depends_on: b, respawn: true, watchdog: 1s, env: {A: 1}, max_restarts: 3, Grace: 1s}
               |                           ^^^^^^^^^^
               |
-              = help: did you mean `ready_within`?
+              = help: remove `depends_on`
+              = note: components start in any order: programs wait for their peers
 
             error: [SCL1201] unknown key `respawn` in component `a`
              --> launch.yaml:2:42
@@ -231,7 +246,7 @@ default: {restart: always}
             2 |   a: {cmd: ls, folder: x, depends_on: b, respawn: true, watchdog: 1s, env: {A: 1}, max_restarts: 3, Grace: 1s}
               |                                          ^^^^^^^
               |
-              = help: did you mean `restart`?
+              = help: write `restart: always`
 
             error: [SCL1201] unknown key `watchdog` in component `a`
              --> launch.yaml:2:57
@@ -255,7 +270,7 @@ default: {restart: always}
             2 |   a: {cmd: ls, folder: x, depends_on: b, respawn: true, watchdog: 1s, env: {A: 1}, max_restarts: 3, Grace: 1s}
               |                                                                                    ^^^^^^^^^^^^
               |
-              = help: did you mean `restart_limit`?
+              = help: write `restart_limit: 3 in 1m`
 
             error: [SCL1201] unknown key `Grace` in component `a`
              --> launch.yaml:2:101
@@ -288,7 +303,7 @@ fn defaults_are_a_mapping() {
             2 | defaults: always
               |           ^^^^^^
               |
-              = help: write `defaults: {restart: on_failure, stop_within: 3s}`
+              = help: write `defaults: {restart: always}`
 
         "#]],
     );

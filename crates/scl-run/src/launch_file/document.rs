@@ -7,7 +7,7 @@ use super::rules::{UNCHECKED, WRONG_VALUE};
 use crate::system_names::SystemNames;
 use scl_terminal::Problem;
 use scl_topology::advice::{Extent, Judged, try_advice};
-use scl_topology::diagnostic::{Diagnostic, Diagnostics, render};
+use scl_topology::diagnostic::{Diagnostic, Diagnostics, Edit, render};
 use scl_topology::parse::{Document, read_document};
 use scl_topology::source::{FileId, SourceFile, Sources};
 use scl_topology::yaml::Node;
@@ -117,8 +117,8 @@ pub enum LaunchTopology {
     None,
     /// The topology file at this path has errors, so names cannot be checked.
     Wrong(String),
-    /// The launch file names a topology file that does not exist.
-    Missing,
+    /// The launch file names a topology file that does not exist; these may be meant.
+    Missing(Vec<String>),
     /// The names in the topology.
     Names(SystemNames),
 }
@@ -144,9 +144,13 @@ pub fn check_launch_file(
     let known = if let LaunchTopology::Names(names) = &found { Some(names) } else { None };
     let mut diagnostics = document.read(known).err().unwrap_or_default();
     let of_topology = match (&found, document.topology()) {
-        (LaunchTopology::Missing, Some((path, field))) => {
+        (LaunchTopology::Missing(likely), Some((path, field))) => {
             let message = format!("the topology file does not exist: `{path}`");
-            Some(WRONG_VALUE.at(message, field.span, "").note("paths are relative to the folder of the launch file"))
+            let problem = WRONG_VALUE.at(message, field.span, "");
+            let problem = likely.iter().fold(problem, |problem, path| {
+                problem.suggest(format!("did you mean `{path}`?"), [Edit::new(field.span, path)])
+            });
+            Some(problem.note("paths are relative to the folder of the launch file"))
         }
         (LaunchTopology::Wrong(path), _) => {
             let problem =

@@ -1,15 +1,17 @@
 //! What a launch file says about one component, in `components` or in a profile.
 
-use super::super::command_line;
 use super::super::terminal::StandardInput;
+use super::command::command_words;
+use super::edits::flow_list;
 use super::keys;
+use super::likely::bare;
 use super::reader::{Keys, Reader, wrong};
 use super::rules::{CONTRADICTION, MISSING, WRONG_VALUE};
 use super::settings::Settings;
-use super::value::{path, placed_texts, text, texts};
+use super::unknown_key::names_program;
+use super::value::{path, placed_texts, texts};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
-use scl_topology::yaml::Node;
 
 /// A component and the program that runs it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -118,9 +120,12 @@ impl Reader<'_> {
     /// Reads the entry of a component, in `components` or in a profile.
     pub(super) fn read_entry(&mut self, field: Field<'_>, must_have_command: bool) -> Option<Entry> {
         let name = field.key;
-        self.check_known(name, field.key_span);
-        let help = format!("write `{name}: {{command: {}}}`", field.value.text().unwrap_or("./program"));
-        let entries = self.entries(field, &format!("the entry of component `{name}` is a mapping"), &help)?;
+        self.check_entry_name(name, field.key_span);
+        let message = format!("the entry of component `{name}` is a mapping");
+        let entries = self.entries(field, &message, |reader, problem| {
+            let problem = reader.as_one_mapping(reader.as_entry(problem, field), field);
+            problem.otherwise("`command` in it names the program")
+        })?;
         let keys = self.keys(entries, keys::COMPONENT, &format!("component `{name}`"));
         let source = match (keys.get("command"), keys.get("replay")) {
             (None, None) if !must_have_command => None,
@@ -129,17 +134,26 @@ impl Reader<'_> {
                 if let Some(replay) = replay {
                     let message = format!("component `{name}` has both a `command` and a `replay`");
                     let problem = CONTRADICTION.at(message, replay.key_span, "");
-                    self.report(problem.help("put one of them into a profile"));
+                    let edits = command.and_then(|command| self.remove_entry(command)).zip(self.remove_entry(replay));
+                    let problem = problem.help("put one of them into a profile, or keep one alone");
+                    self.report(match edits {
+                        Some((command, replay)) => problem
+                            .suggest("play the recording: remove `command`", [command])
+                            .suggest("run the program: remove `replay`", [replay]),
+                        None => problem,
+                    });
                 }
                 Some(Source::Command(self.read_command(field, command, &keys)))
             }
         };
+        self.check_path(keys.get("working_directory"));
+        self.check_path(keys.get("replay"));
         Some(Entry {
             name: name.to_owned(),
             build: keys.get("build").and_then(|field| self.read_build(field)),
             source,
             environment: self.read_environment(&keys),
-            opens: keys.get("opens").and_then(|field| self.read_opens(field)),
+            opens: keys.get("opens").and_then(|field| self.read_opens(field, name)),
             input: self.read_setting(&keys, "input", |value| StandardInput::of(value.text()?)),
             settings: self.read_settings(&keys),
             place: self.source.place(field.key_span),
@@ -151,33 +165,60 @@ impl Reader<'_> {
         let words = command_words(field.value);
         if words.is_none() {
             let problem = wrong(&WRONG_VALUE, "this `build` is not a command", field);
-            self.report(problem.help("write `build: make sensor` or `build: [make, sensor]`"));
+            self.report(problem.note("a command that builds the program is a text, or a list of its words"));
+        } else {
+            self.check_command(field);
         }
         words
     }
 
-    fn read_opens(&mut self, field: Field<'_>) -> Option<Opens> {
+    fn read_opens(&mut self, field: Field<'_>, component: &str) -> Option<Opens> {
         if field.value.text() == Some(Opens::ANY) {
             return Some(Opens::Any);
         }
         let Some(names) = placed_texts(field.value) else {
-            self.wrong_value(field);
+            match field.value.text() {
+                Some(name) if !name.is_empty() => {
+                    let is_any = matches!(bare(name).as_str(), "all" | "true" | "yes" | "every" | "everything" | "");
+                    let meant = if is_any { "any".to_owned() } else { flow_list(&[name]) };
+                    let message = format!("`opens` is {}, not `{name}`", keys::form_of("opens").description());
+                    let problem = wrong(&WRONG_VALUE, message, field);
+                    let problem = self.whole(problem, field, format!("opens: {meant}"));
+                    self.report(problem);
+                }
+                _ => self.wrong_value(field),
+            }
             return None;
         };
-        names.iter().for_each(|(name, place)| self.check_known(name, *place));
+        let is_own_gate = |(name, _): &(String, Span)| name.split('.').next() == Some(component) && name.contains('.');
+        if !names.is_empty() && names.iter().all(is_own_gate) {
+            let problem = WRONG_VALUE.at("`opens` lists components, not gates", names[0].1, "");
+            let problem = problem.note(format!("the program of `{component}` may open that component without it"));
+            self.report(match self.remove_entry(field) {
+                Some(edit) => problem.suggest("remove `opens`", [edit]),
+                None => problem,
+            });
+            return None;
+        }
+        names.iter().for_each(|(name, place)| self.check_entry_name(name, *place));
         Some(Opens::Also(names.into_iter().map(|(name, _)| name).collect()))
     }
 
     fn read_replay(&mut self, keys: &Keys<'_, '_>) -> Option<Source> {
         if let Some(build) = keys.get("build") {
-            self.report(CONTRADICTION.at("a `replay` needs no `build`", build.key_span, "").help("remove it"));
+            let problem = CONTRADICTION.at("a `replay` needs no `build`", build.key_span, "");
+            self.report(match self.remove_entry(build) {
+                Some(edit) => problem.propose("remove it", [edit]),
+                None => problem,
+            });
         }
         self.read_setting(keys, "replay", path).map(Source::Replay)
     }
 
     fn read_command(&mut self, entry: Field<'_>, command: Option<Field<'_>>, keys: &Keys<'_, '_>) -> Vec<String> {
         let words = command.and_then(|command| command_words(command.value));
-        let is_reported = command.is_none() && (keys.may_have("command") || keys.may_have("replay"));
+        let has_other = || keys.fields.list.iter().any(|field| names_program(field.key));
+        let is_reported = command.is_none() && (keys.may_have("command") || keys.may_have("replay") || has_other());
         if words.is_none() && !is_reported {
             let name = entry.key;
             let message = format!("component `{name}` has no usable `command`");
@@ -185,21 +226,19 @@ impl Reader<'_> {
                 Some(command) => wrong(&WRONG_VALUE, message, command),
                 None => MISSING.at(message, entry.key_span, ""),
             };
-            self.report(problem.help(format!("write `command: ./{name}` or `command: [./{name}, --verbose]`")));
+            // A list of one list.
+            let inner = command.and_then(|command| match command.value.items() {
+                Some([inner]) => Some((command, texts(inner).filter(|words| !words.is_empty())?)),
+                _ => None,
+            });
+            let problem = match inner {
+                Some((command, words)) => self.whole(problem, command, format!("command: {}", flow_list(&words))),
+                None => problem,
+            };
+            self.report(problem.note("a command is a text, or a list of the program and its arguments"));
+        } else if let Some(command) = command {
+            self.check_command(command);
         }
         words.unwrap_or_default()
     }
-
-    fn check_known(&mut self, name: &str, at: Span) {
-        if let Some(known) = self.known {
-            self.check_among(name, at, &known.components, "the topology");
-        }
-    }
-}
-
-/// The program and arguments of a command: a list as it is, the words of a text. `None` if the value is not a command.
-fn command_words(value: &Node) -> Option<Vec<String>> {
-    let line = text(value).filter(|line| !line.trim().is_empty());
-    let words = line.map(command_line::words).or_else(|| texts(value))?;
-    words.first().is_some_and(|program| !program.is_empty()).then_some(words)
 }

@@ -4,13 +4,17 @@ mod address;
 mod together;
 
 use super::super::deployment::{Deployment, Host};
+use super::edits::flow_list;
 use super::keys;
+use super::likely::likely;
 use super::reader::{Keys, Reader, wrong};
 use super::rules::{CONTRADICTION, MISSING, WRONG_NAME, WRONG_VALUE};
-use super::value::{flag, number, path, placed_texts};
+use super::value::{flag, path, placed_texts, port as port_of, texts};
+use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
 use scl_topology::yaml::Node;
+use std::collections::HashSet;
 use std::path::PathBuf;
 
 /// The longest name of a host: a label of DNS.
@@ -42,32 +46,51 @@ struct HostEntry {
     components: Vec<(String, Span)>,
 }
 
-const EXAMPLE: &str = "write `hosts: {board: {address: 192.0.2.10, components: [sensor]}}`";
-const GATEWAY_EXAMPLE: &str = "write `gateway: {port: 7447, certificates: ./keys}`";
+/// Maximum number of hosts for which a missing list is proposed: each looks at all others.
+const MOST_HOSTS: usize = 64;
+
+const ALLOWED: &str = "each host has an entry with its `address` and its `components`";
+
+/// What `gateway` may be, the usual one first; the port is the one that gateways use by convention.
+const GATEWAYS: [(&str, &str); 3] = [
+    ("port: 7447", "with all hosts on this machine"),
+    ("port: 7447, certificates: ./keys", "with certificates, which `scl gateway keys` makes"),
+    ("port: 7447, insecure: true", "without certificates, so that everybody on the network can listen and send"),
+];
 
 impl Reader<'_> {
     /// Reads `hosts` and `gateway`; `None` without hosts. The folder of the certificates is as written.
     pub(super) fn read_deployment(&mut self, top: &Keys<'_, '_>) -> Option<Deployment> {
-        let gateway = top.get("gateway").map(|field| self.read_gateway(field));
-        let Some(field) = top.get("hosts") else {
-            if let Some(gateway) = gateway.filter(|_| !top.may_have("hosts")) {
+        let gateway = top.section("gateway").map(|field| self.read_gateway(field));
+        let Some(field) = top.section("hosts") else {
+            if let Some(gateway) =
+                gateway.filter(|_| !top.may_have("hosts") && !self.missing_sections.contains(&"hosts"))
+            {
                 let message = "`gateway` has no effect without `hosts`";
-                self.report(CONTRADICTION.at(message, gateway.place, "").help(EXAMPLE));
+                let problem = CONTRADICTION.at(message, gateway.place, "");
+                let edit = top.get("gateway").and_then(|field| self.remove_entry(field));
+                let problem = match edit {
+                    Some(edit) => problem.suggest("remove `gateway`", [edit]),
+                    None => problem,
+                };
+                self.report(problem.note("`hosts` says which components run on which host"));
             }
             return None;
         };
-        let entries = self.entries(field, "`hosts` is a mapping from names to entries", EXAMPLE)?;
+        let message = "`hosts` is a mapping from names to entries";
+        let entries =
+            self.entries(field, message, |reader, problem| reader.as_mapping(problem, field).otherwise(ALLOWED))?;
         if entries.is_empty() {
-            self.report(wrong(&MISSING, "`hosts` is empty", field).help(EXAMPLE));
+            self.report(wrong(&MISSING, "`hosts` is empty", field).help(ALLOWED));
         }
         let started = top.names_of("components");
         let fields = self.names(entries, "`hosts`").list;
         let count = fields.len();
-        let hosts: Vec<HostEntry> = fields.into_iter().filter_map(|host| self.read_host(host, &started)).collect();
+        let hosts: Vec<HostEntry> = fields.into_iter().filter_map(|host| self.read_host(host)).collect();
         if hosts.len() == count {
             self.check_placement(&hosts, &started, field.key_span);
         }
-        self.check_addresses(&hosts, gateway.as_ref(), field.key_span);
+        self.check_addresses(&hosts, gateway.as_ref().zip(top.section("gateway")), field);
         let port = gateway.as_ref().and_then(|gateway| gateway.port);
         let host = |entry: HostEntry| Host {
             name: entry.name,
@@ -83,33 +106,53 @@ impl Reader<'_> {
     }
 
     fn read_gateway(&mut self, field: Field<'_>) -> Gateway {
-        let entries = self.entries(field, "`gateway` is a mapping", GATEWAY_EXAMPLE);
+        let entries = self.entries(field, "`gateway` is a mapping", |reader, problem| {
+            let port = likely("port", field.value).values.into_iter().next();
+            let port = port.or_else(|| port_of(field.value).map(|port| port.to_string()));
+            let problem = GATEWAYS.iter().fold(problem, |problem, (entry, what)| {
+                let entry = port.as_ref().map(|port| entry.replace("7447", port));
+                let edit = entry.and_then(|entry| {
+                    let entry = format!("gateway: {{{entry}}}");
+                    Some((reader.replace_entry(field, entry.clone())?, entry))
+                });
+                match edit {
+                    Some((edit, entry)) => problem.suggest(format!("{what}: `{entry}`"), [edit]),
+                    None => problem,
+                }
+            });
+            problem.otherwise("it has the keys `port`, and `certificates` or `insecure`")
+        });
         let keys = entries.map(|entries| self.keys(entries, keys::GATEWAY, "`gateway`"));
         let keys = keys.as_ref();
         // If `gateway` is not a mapping, that was reported already; do not report missing keys as well.
         let may_have = |key| keys.is_none_or(|keys| keys.may_have(key));
         Gateway {
             place: field.key_span,
-            port: keys.and_then(|keys| self.read_setting(keys, "port", port)),
+            port: keys.and_then(|keys| self.read_setting(keys, "port", port_of)),
             has_port: may_have("port"),
             certificates: keys.and_then(|keys| self.read_setting(keys, "certificates", path)),
             has_certificates: may_have("certificates"),
-            insecure: keys.and_then(|keys| self.read_setting(keys, "insecure", flag)).unwrap_or_default(),
+            // A wrong value is reported, and no missing certificates beside it.
+            insecure: keys.is_some_and(|keys| {
+                self.read_setting(keys, "insecure", flag).unwrap_or_else(|| keys.get("insecure").is_some())
+            }),
         }
     }
 
-    fn read_host(&mut self, field: Field<'_>, started: &[String]) -> Option<HostEntry> {
+    fn read_host(&mut self, field: Field<'_>) -> Option<HostEntry> {
         self.check_host_name(field)?;
         let name = field.key;
-        let help = format!("write `{name}: {{address: 192.0.2.10, components: [sensor]}}`");
-        let entries = self.entries(field, &format!("the entry of host `{name}` is a mapping"), &help)?;
+        let message = format!("the entry of host `{name}` is a mapping");
+        let entries = self.entries(field, &message, |reader, problem| {
+            reader.as_one_mapping(problem, field).otherwise("it has an `address` and a list of `components`")
+        })?;
         let keys = self.keys(entries, keys::HOST, &format!("host `{name}`"));
         Some(HostEntry {
             name: name.to_owned(),
             address: self.read_address(field, &keys),
-            port: self.read_setting(&keys, "port", port),
+            port: self.read_setting(&keys, "port", port_of),
             has_port: keys.get("port").is_some(),
-            components: self.read_names(field, &keys, started),
+            components: self.read_names(field, &keys),
         })
     }
 
@@ -126,30 +169,68 @@ impl Reader<'_> {
                 "a host name has up to {LONGEST_NAME} letters, digits, `_` and `-`, and starts with a letter or digit"
             ),
         };
-        self.report(WRONG_NAME.at(format!("`{name}` cannot be the name of a host"), field.key_span, "").note(note));
+        let problem = WRONG_NAME.at(format!("`{name}` cannot be the name of a host"), field.key_span, "").note(note);
+        let allowed: String = name.chars().map(|letter| if is_allowed(letter) { letter } else { '-' }).collect();
+        let allowed = allowed.trim_matches(['-', '_']);
+        let is_other = name != Deployment::AUTHORITY && !allowed.is_empty() && allowed.len() <= LONGEST_NAME;
+        self.report(match is_other {
+            true => problem.suggest(format!("write `{allowed}`"), [Edit::new(field.key_span, allowed)]),
+            false => problem,
+        });
         None
     }
 
-    fn read_names(&mut self, host: Field<'_>, keys: &Keys<'_, '_>, started: &[String]) -> Vec<(String, Span)> {
+    fn read_names(&mut self, host: Field<'_>, keys: &Keys<'_, '_>) -> Vec<(String, Span)> {
         let field = keys.get("components");
         let names = field.and_then(|field| placed_texts(field.value)).filter(|names| !names.is_empty());
         let Some(names) = names else {
             let message = format!("host `{}` has no list of `components`", host.key);
             let problem = match field {
                 Some(field) => Some(wrong(&WRONG_VALUE, message, field)),
-                None if keys.may_have("components") => None,
+                None if keys.may_have("components") || self.is_named_by_component(host.key) => None,
                 None => Some(MISSING.at(message, host.key_span, "")),
             };
-            problem
-                .into_iter()
-                .for_each(|problem| self.report(problem.help("write `components: [sensor, controller]`")));
+            if let Some(problem) = problem {
+                let problem = self.listed(problem, host, field);
+                self.report(problem.otherwise("it lists the components that run there"));
+            }
             return Vec::new();
         };
-        names.iter().for_each(|(name, place)| self.check_is_component(name, *place, started));
+        names.iter().for_each(|(name, place)| self.check_component(name, *place));
         names
     }
-}
 
-fn port(value: &Node) -> Option<u16> {
-    number(value).and_then(|number| u16::try_from(number).ok()).filter(|port| *port != 0)
+    /// Proposes the list of a host: the words that stand there, or what is on no other host.
+    fn listed(&self, problem: Diagnostic, host: Field<'_>, list: Option<Field<'_>>) -> Diagnostic {
+        if let Some((field, text)) = list.and_then(|field| Some((field, field.value.text()?))) {
+            let words: Vec<&str> = text.split([',', ' ']).filter(|word| !word.is_empty()).collect();
+            return self.whole(problem, field, format!("components: {}", flow_list(&words)));
+        }
+        let names = |node: Option<&Node>| -> Vec<String> {
+            let entries = node.and_then(Node::entries).unwrap_or_default();
+            entries.iter().filter_map(|(key, _)| key.text()).map(str::to_owned).collect()
+        };
+        let started = names(self.top_value("components"));
+        let all = self.known.map_or(&started, |known| &known.components);
+        let hosts = self.top_value("hosts").and_then(Node::entries).unwrap_or_default();
+        if hosts.len() > MOST_HOSTS {
+            return problem;
+        }
+        let lists = hosts.iter().filter_map(|(_, host)| host.entries()).flatten();
+        let lists = lists.filter(|(key, _)| key.text() == Some("components"));
+        let placed: HashSet<String> = lists.filter_map(|(_, list)| texts(list)).flatten().collect();
+        let left: Vec<&String> = all.iter().filter(|name| !placed.contains(*name)).collect();
+        if left.is_empty() || left.len() > 8 {
+            return problem;
+        }
+        let entry = format!("components: {}", flow_list(&left));
+        let edit = match list {
+            Some(field) => self.replace_entry(field, entry.clone()),
+            None => self.add_entry(host.value, &entry),
+        };
+        match edit {
+            Some(edit) => problem.suggest(format!("what is on no other host: `{entry}`"), [edit]),
+            None => problem,
+        }
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::super::policy::Restart;
 use super::super::terminal::StandardInput;
+use super::likely::is_bare;
 use scl_text::list::either;
 
 /// A key of a mapping.
@@ -31,6 +32,8 @@ pub(super) enum Form {
     Processors,
     Priority,
     Port,
+    /// A positive number.
+    Count,
     /// Something else, as this description says.
     Other(&'static str),
 }
@@ -50,12 +53,14 @@ impl Form {
             Form::Flag => "`true` or `false`".to_owned(),
             Form::Processors => "a list of processors like `[2, 3]`, counted from 0, or one of them".to_owned(),
             Form::Priority => "`fifo:1` to `fifo:99`".to_owned(),
+            Form::Count => "a number like `4096`".to_owned(),
             Form::Port => "a number, 1 to 65535".to_owned(),
             Form::Other(description) => description.to_owned(),
         }
     }
 }
 
+/// A key with nothing but a command as its value.
 const KEY: Key = Key { name: "", also: &[], form: COMMAND, default: "", meaning: "", in_defaults: false };
 
 /// Whether a key at the top of the file is the user's own, which is ignored as in a topology file.
@@ -65,10 +70,16 @@ pub(super) fn is_own(key: &str) -> bool {
 
 /// The keys at the top of the file.
 pub(super) const TOP: &[Key] = &[
-    Key { name: "build", meaning: "Runs first, in the folder of the launch file.", default: "nothing", ..KEY },
+    Key {
+        name: "build",
+        also: &["make", "prebuild"],
+        meaning: "Runs first, in the folder of the launch file.",
+        default: "nothing",
+        ..KEY
+    },
     Key {
         name: "components",
-        also: &["nodes", "services", "processes"],
+        also: &["nodes", "services", "processes", "programs", "apps", "containers", "tasks", "units", "component"],
         form: Form::Other("a mapping from names to entries"),
         default: "required",
         meaning: "The components to start.",
@@ -84,7 +95,7 @@ pub(super) const TOP: &[Key] = &[
     },
     Key {
         name: "environment",
-        also: &["env"],
+        also: &["env", "variables", "vars", "envs", "environ"],
         form: VARIABLES,
         default: "none",
         meaning: "Variables for all programs and builds, added to those of `scl run`.",
@@ -100,7 +111,7 @@ pub(super) const TOP: &[Key] = &[
     },
     Key {
         name: "hosts",
-        also: &["machines"],
+        also: &["machines", "host", "computers"],
         form: Form::Other("a mapping from names to [entries](#hosts)"),
         default: "one host",
         meaning: "Which components run on which host, chosen with `--host`. See [Hosts](#hosts).",
@@ -108,6 +119,7 @@ pub(super) const TOP: &[Key] = &[
     },
     Key {
         name: "profiles",
+        also: &["profile", "variants", "configurations"],
         form: Form::Other("a mapping from names to mappings like `components`"),
         default: "none",
         meaning: "Other programs or settings for components, chosen with `--profile`.",
@@ -115,6 +127,7 @@ pub(super) const TOP: &[Key] = &[
     },
     Key {
         name: "topology",
+        also: &["topology_file", "wiring", "system_file"],
         form: PATH,
         default: "`topology.yaml`, if there is one",
         meaning: "The topology file, relative to the folder of the launch file.",
@@ -122,6 +135,7 @@ pub(super) const TOP: &[Key] = &[
     },
     Key {
         name: "transport",
+        also: &["rmw", "middleware", "protocol"],
         form: Form::Word(&scl::TransportKind::WORDS),
         default: "the environment's, or `ipc`",
         meaning: "The transport of all connections. See [Transports](#transports).",
@@ -140,7 +154,7 @@ pub(super) const TOP: &[Key] = &[
 pub(super) const COMPONENT: &[Key] = &[
     Key {
         name: "alive_within",
-        also: &["watchdog", "watchdog_sec"],
+        also: &["watchdog", "watchdog_sec", "watchdog_timeout", "heartbeat", "alive"],
         form: Form::Duration,
         default: "no limit",
         meaning: "Longest time between two signs of life. See [Readiness and watchdog](#readiness-and-watchdog).",
@@ -148,20 +162,33 @@ pub(super) const COMPONENT: &[Key] = &[
     },
     Key {
         name: "build",
+        also: &["make", "compile", "build_command"],
         default: "nothing",
         meaning: "Builds the program. Runs before any component starts, in the component's folder.",
         ..KEY
     },
     Key {
         name: "command",
-        also: &["cmd", "run", "exec", "program", "args"],
+        also: &[
+            "cmd",
+            "run",
+            "exec",
+            "program",
+            "exec_start",
+            "executable",
+            "entrypoint",
+            "script",
+            "path",
+            "binary",
+            "main",
+        ],
         default: "this or `replay` is required",
         meaning: "The program and its arguments.",
         ..KEY
     },
     Key {
         name: "cpu",
-        also: &["cpus", "affinity", "cores"],
+        also: &["cpus", "affinity", "cores", "cpuset", "cpuset_cpus", "cpu_affinity", "taskset", "processors"],
         form: Form::Processors,
         default: "all",
         meaning: "The processors that the program may use.",
@@ -169,15 +196,15 @@ pub(super) const COMPONENT: &[Key] = &[
     },
     Key {
         name: "descriptors",
-        also: &["nofile", "ulimit", "ulimits", "fds"],
-        form: Form::Other("a number like `4096`"),
+        also: &["nofile", "ulimit", "ulimits", "fds", "limit_nofile", "min_fds", "open_files"],
+        form: Form::Count,
         default: "as `scl run`",
         meaning: "How many file descriptors the program may open. See [Processors and priority](#processors-and-priority).",
         in_defaults: true,
     },
     Key {
         name: "environment",
-        also: &["env"],
+        also: &["env", "variables", "vars", "envs", "environ"],
         form: VARIABLES,
         default: "none",
         meaning: "Variables for this program. They win over those of all programs.",
@@ -185,7 +212,7 @@ pub(super) const COMPONENT: &[Key] = &[
     },
     Key {
         name: "essential",
-        also: &["required", "critical"],
+        also: &["required", "critical", "mandatory"],
         form: Form::Flag,
         default: "`true`",
         meaning: "Whether its failure stops the other components.",
@@ -193,7 +220,7 @@ pub(super) const COMPONENT: &[Key] = &[
     },
     Key {
         name: "input",
-        also: &["stdin", "tty", "terminal", "interactive", "stdin_open"],
+        also: &["stdin", "tty", "terminal", "interactive", "stdin_open", "standard_input", "console"],
         form: Form::Word(&StandardInput::WORDS),
         default: "`empty`",
         meaning: "The program's standard input. One component may have the terminal. See [The terminal](#the-terminal).",
@@ -209,7 +236,7 @@ pub(super) const COMPONENT: &[Key] = &[
     },
     Key {
         name: "priority",
-        also: &["nice", "sched", "scheduler"],
+        also: &["sched", "scheduler", "rtprio", "cpu_scheduling_priority", "realtime", "rt_priority"],
         form: Form::Priority,
         default: "an ordinary program",
         meaning: "Real-time priority of the program. See [Processors and priority](#processors-and-priority).",
@@ -217,7 +244,7 @@ pub(super) const COMPONENT: &[Key] = &[
     },
     Key {
         name: "ready_within",
-        also: &["depends_on", "after", "startup_timeout"],
+        also: &["startup_timeout", "start_timeout", "timeout_start_sec", "ready_timeout", "listen_timeout", "timeout"],
         form: Form::Duration,
         default: "no limit",
         meaning: "How long it may take to be ready. See [Readiness and watchdog](#readiness-and-watchdog).",
@@ -225,7 +252,7 @@ pub(super) const COMPONENT: &[Key] = &[
     },
     Key {
         name: "replay",
-        also: &["play", "recording"],
+        also: &["play", "recording", "bag", "rosbag", "playback", "mcap"],
         form: PATH,
         default: "none",
         meaning: "In place of a command: plays the component from this recording, from the working directory.",
@@ -233,7 +260,7 @@ pub(super) const COMPONENT: &[Key] = &[
     },
     Key {
         name: "restart",
-        also: &["respawn", "autorestart"],
+        also: &["respawn", "autorestart", "restart_policy", "on_exit"],
         form: Form::Word(&Restart::WORDS),
         default: "`never`",
         meaning: "When the program is started again after it has ended.",
@@ -241,7 +268,7 @@ pub(super) const COMPONENT: &[Key] = &[
     },
     Key {
         name: "restart_delay",
-        also: &["respawn_delay", "restart_sec", "backoff"],
+        also: &["respawn_delay", "restart_sec", "backoff", "exp_backoff_restart_delay", "restart_backoff"],
         form: Form::DelayRange,
         default: "`100ms..5s`",
         meaning: "Time before a restart. It doubles with each restart, and is reset after a minute without one.",
@@ -249,7 +276,7 @@ pub(super) const COMPONENT: &[Key] = &[
     },
     Key {
         name: "restart_limit",
-        also: &["max_restarts", "retries"],
+        also: &["max_restarts", "retries", "respawn_max_retries", "start_limit_burst", "startretries", "max_retries"],
         form: Form::RestartLimit,
         default: "`5 in 1m`",
         meaning: "A component that would need more restarts than that has failed.",
@@ -257,7 +284,17 @@ pub(super) const COMPONENT: &[Key] = &[
     },
     Key {
         name: "stop_within",
-        also: &["grace", "stop_timeout", "timeout"],
+        also: &[
+            "grace",
+            "stop_timeout",
+            "timeout",
+            "stop_grace_period",
+            "timeout_stop_sec",
+            "stopwaitsecs",
+            "kill_timeout",
+            "termination_grace_period_seconds",
+            "sigkill_timeout",
+        ],
         form: Form::Duration,
         default: "`--grace`, or `5s`",
         meaning: "How long it may take to stop before it is killed.",
@@ -265,7 +302,7 @@ pub(super) const COMPONENT: &[Key] = &[
     },
     Key {
         name: "working_directory",
-        also: &["folder", "directory", "cwd", "working_dir", "dir"],
+        also: &["folder", "directory", "cwd", "working_dir", "workdir", "dir", "chdir"],
         form: PATH,
         default: "the folder of the launch file",
         meaning: "Where the program and its build run, relative to the folder of the launch file.",
@@ -326,6 +363,12 @@ pub(super) const GATEWAY: &[Key] = &[
         ..KEY
     },
 ];
+
+/// Whether a word, without case and marks, is another tool's name for a key.
+pub(super) fn is_called(key: &Key, bare_word: &str) -> bool {
+    let first = bare_word.as_bytes().first();
+    key.also.iter().any(|name| name.as_bytes().first() == first && is_bare(name, bare_word))
+}
 
 /// Returns the form of the value of a key. The name must be that of a known key.
 pub(super) fn form_of(name: &str) -> Form {

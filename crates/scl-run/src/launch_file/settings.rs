@@ -2,11 +2,12 @@
 
 use super::super::policy::{Policy, Restart, RestartDelay, RestartLimit};
 use super::keys::{Form, form_of};
+use super::likely::{Likely, bare, likely};
 use super::reader::{Keys, Reader, wrong};
 use super::rules::WRONG_VALUE;
-use super::value::{flag, number, path, shown, texts};
-use scl_terminal::{closest_name, parse_duration};
-use scl_topology::diagnostic::Edit;
+use super::value::{flag, number, path, processors, shown, texts};
+use scl_terminal::parse_duration;
+use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::parse::Field;
 use scl_topology::yaml::{Node, NodeKind};
 use std::time::Duration;
@@ -89,25 +90,71 @@ impl Reader<'_> {
 
     /// Reports a value that does not have the form that its key needs.
     pub(super) fn wrong_value(&mut self, field: Field<'_>) {
-        let form = form_of(field.key);
-        self.wrong_form(field, form, &format!("`{}`", field.key));
+        self.wrong_form(field, field.key, &format!("`{}`", field.key));
     }
 
-    /// Reports a value that does not have this form; `what` names the value in the message.
-    pub(super) fn wrong_form(&mut self, field: Field<'_>, form: Form, what: &str) {
+    /// Reports a value that does not have the form of `key`; `what` names the value in the message.
+    pub(super) fn wrong_form(&mut self, field: Field<'_>, key: &str, what: &str) {
         if matches!(field.value.kind, NodeKind::Unread) {
             return;
         }
+        let form = form_of(key);
         let message = format!("{what} is {}, not {}", form.description(), shown_value(form, field.value));
-        let problem = wrong(&WRONG_VALUE, message, field);
-        let meant = field.value.text().and_then(|text| likely(form, text.trim()));
-        let Some(meant) = meant else { return self.report(problem) };
-        let help = format!("did you mean `{}: {meant}`?", field.key);
-        let edits = [Edit::new(field.value.span, meant)];
-        // A number without a unit may have been meant in milliseconds.
-        let is_certain = form != Form::Duration;
-        self.report(if is_certain { problem.propose(help, edits) } else { problem.suggest(help, edits) });
+        let problem = self.with_template(wrong(&WRONG_VALUE, message, field), field.value);
+        if is_unlimited(key, field.value)
+            && let Some(edit) = self.remove_entry(field)
+        {
+            let text = format!("without `{}`, there is no limit: remove it", field.key);
+            return self.report(problem.suggest(text, [edit]));
+        }
+        let Likely { values, is_certain } = likely(key, field.value);
+        let meant = |value: &str| {
+            let help = format!("did you mean `{}: {value}`?", field.key);
+            // An empty value has no place of its own.
+            (help, [Edit::new(field.value.span, value)])
+        };
+        let problem = values.iter().fold(problem, |problem, value| match meant(value) {
+            (help, edits) if is_certain => problem.propose(help, edits),
+            (help, edits) => problem.suggest(help, edits),
+        });
+        let advice = match key {
+            _ if !values.is_empty() => None,
+            "cpu"
+                if field.value.text().is_some_and(|text| {
+                    text.contains(|letter: char| letter == '.' || letter == '%' || letter.is_alphabetic())
+                }) =>
+            {
+                Some("an amount of computing time cannot be set")
+            }
+            "descriptors" => Some("the largest possible number is what `ulimit -Hn` prints"),
+            "restart_delay" => Some("the first time is the shorter one"),
+            _ => None,
+        };
+        self.report(problem.notes(advice));
     }
+
+    /// Adds a note to the problem of a value that is a placeholder of a template.
+    pub(super) fn with_template(&self, problem: Diagnostic, value: &Node) -> Diagnostic {
+        let written = self.written(value.span);
+        let is_placeholder = written.starts_with("{{") || written.starts_with("${") || written.starts_with("<%");
+        match is_placeholder {
+            true => problem.note("placeholders of templates and of the shell are not replaced here"),
+            false => problem,
+        }
+    }
+}
+
+/// Whether the value of a time limit says that there is none.
+fn is_unlimited(key: &str, value: &Node) -> bool {
+    let is_limit = matches!(key, "ready_within" | "alive_within" | "cpu" | "descriptors");
+    let text = value.text().map(bare).unwrap_or_default();
+    let is_zero = || {
+        matches!(key, "ready_within" | "alive_within")
+            && (text == "0" || any_duration(&text).is_some_and(|time| time.is_zero()))
+    };
+    is_limit
+        && (matches!(text.as_str(), "none" | "infinity" | "inf" | "never" | "off" | "all" | "any" | "false")
+            || is_zero())
 }
 
 /// Describes a wrong value. Where a list is expected, a list is shown with its items.
@@ -116,66 +163,26 @@ fn shown_value(form: Form, value: &Node) -> String {
     items.map_or_else(|| shown(value), |items| format!("`[{}]`", items.join(", ")))
 }
 
-/// Guesses what was meant by a wrong value.
-fn likely(form: Form, text: &str) -> Option<String> {
-    match form {
-        Form::Word(words) => closest_name(&text.replace(['-', ' '], "_"), words.iter().copied()).map(str::to_owned),
-        Form::Flag => match text.to_lowercase().as_str() {
-            "yes" | "on" | "y" | "1" => Some("true".to_owned()),
-            "no" | "off" | "n" | "0" => Some("false".to_owned()),
-            other => closest_name(other, ["true", "false"]).map(str::to_owned),
-        },
-        Form::Port => text.parse::<u16>().ok().filter(|port| *port != 0).map(|port| port.to_string()),
-        // Assume seconds for a number without a unit, as most other tools do.
-        Form::Duration => Some(format!("{text}s")).filter(|meant| limit(meant).is_some()),
-        Form::DelayRange => {
-            let meant = text.replacen("...", "..", 1).replacen('-', "..", 1).replacen(" to ", "..", 1);
-            restart_delay(&meant).map(|_| meant)
-        }
-        Form::RestartLimit => {
-            let meant = text.replace('/', " in ").replace(" per ", " in ");
-            restart_limit(&meant).map(|_| meant)
-        }
-        Form::Priority => {
-            let meant = format!("fifo:{}", text.rsplit([':', ' ', '-']).next().unwrap_or(text));
-            priority(&meant).map(|_| meant)
-        }
-        _ => None,
-    }
-}
-
 fn any_duration(text: &str) -> Option<Duration> {
     parse_duration(text.trim()).ok()
 }
 
 /// Parses a time limit, which must not be zero.
-fn limit(text: &str) -> Option<Duration> {
+pub(super) fn limit(text: &str) -> Option<Duration> {
     any_duration(text).filter(|time| !time.is_zero())
 }
 
-fn restart_delay(text: &str) -> Option<RestartDelay> {
+pub(super) fn restart_delay(text: &str) -> Option<RestartDelay> {
     let (first, longest) = text.split_once("..").unwrap_or((text, text));
     let (first, longest) = (any_duration(first)?, any_duration(longest)?);
     (first <= longest).then_some(RestartDelay { first, longest })
 }
 
-fn restart_limit(text: &str) -> Option<RestartLimit> {
+pub(super) fn restart_limit(text: &str) -> Option<RestartLimit> {
     let (count, within) = text.split_once(" in ")?;
     Some(RestartLimit { count: count.trim().parse().ok()?, within: limit(within)? })
 }
 
-fn processors(value: &Node) -> Option<Vec<usize>> {
-    let processor = |value: &Node| {
-        let number = number(value).and_then(|number| usize::try_from(number).ok());
-        number.filter(|number| *number < rustix::thread::CpuSet::MAX_CPU)
-    };
-    match value.items() {
-        Some(numbers) if !numbers.is_empty() => numbers.iter().map(processor).collect(),
-        Some(_) => None,
-        None => Some(vec![processor(value)?]),
-    }
-}
-
-fn priority(text: &str) -> Option<u8> {
+pub(super) fn priority(text: &str) -> Option<u8> {
     text.strip_prefix("fifo:")?.parse().ok().filter(|priority| (1..=99).contains(priority))
 }

@@ -1,12 +1,14 @@
 //! `transport` and `transports`: the transport of all connections, and of single ones.
 
-use super::keys;
-use super::reader::{Keys, Reader, unknown_name};
+use super::names::unknown_gate;
+use super::reader::{Keys, Reader};
 use super::rules::WRONG_NAME;
 use scl::TransportKind;
 use scl_terminal::quoted_list;
+use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
+use scl_topology::suggest::similar;
 use scl_topology::yaml::Node;
 
 /// The transports that the file chooses.
@@ -34,7 +36,13 @@ impl Transports {
 impl Reader<'_> {
     pub(super) fn read_transports(&mut self, top: &Keys<'_, '_>) -> Transports {
         let all = self.read_setting(top, "transport", transport);
-        let gates = self.named_entries(top, "transports", "write `transports: {camera.frames: shm}`");
+        let gates = self.named_entries(top, "transports", |reader, problem, field| {
+            let problem = match field.value.text() {
+                Some(word) => reader.whole(problem, field, format!("transport: {word}")),
+                None => reader.as_one_mapping(problem, field),
+            };
+            problem.otherwise("it names gates as `component.gate`, each with its transport")
+        });
         Transports { all, of_gates: gates.into_iter().filter_map(|field| self.read_gate(field)).collect() }
     }
 
@@ -43,7 +51,7 @@ impl Reader<'_> {
         self.check_gate(name, field.key_span);
         let read = transport(field.value);
         if read.is_none() {
-            self.wrong_form(field, keys::form_of("transport"), &format!("the transport of `{name}`"));
+            self.wrong_form(field, "transport", &format!("the transport of `{name}`"));
         }
         Some((name.to_owned(), read?))
     }
@@ -52,11 +60,19 @@ impl Reader<'_> {
     fn check_gate(&mut self, name: &str, at: Span) {
         let parts = name.split_once('.').filter(|(component, gate)| is_word(component) && is_word(gate));
         let Some((component, _)) = parts else {
-            let message = format!("a gate is named like `camera.frames`, not `{name}`");
-            return self.report(WRONG_NAME.at(message, at, ""));
+            let problem = WRONG_NAME.at(format!("a gate is named `component.gate`, not `{name}`"), at, "");
+            let problem = self.gates_like(problem, name, at);
+            return self.report(problem);
         };
         let Some(known) = self.known.filter(|known| !known.gates.iter().any(|gate| gate == name)) else { return };
-        let problem = unknown_name(format!("unknown gate `{name}`"), name, at, &known.gates);
+        let is_far = || similar(name, known.gates.iter().map(String::as_str)).is_empty();
+        // A component that is wrong at several places is one mistake.
+        if !known.components.iter().any(|it| it == component) && (self.started.contains(component) || is_far()) {
+            let is_written = (at.end - at.start) as usize == name.len();
+            let at = if is_written { Span { end: at.start + component.len() as u32, ..at } } else { at };
+            return self.check_component(component, at);
+        }
+        let problem = unknown_gate(name, at, &known.gates);
         let of_component = |gate: &&String| gate.split_once('.').is_some_and(|(owner, _)| owner == component);
         let own: Vec<&String> = known.gates.iter().filter(of_component).collect();
         self.report(problem.note(if known.components.iter().any(|it| it == component) {
@@ -67,6 +83,30 @@ impl Reader<'_> {
         } else {
             format!("the topology has the components {}", quoted_list(&known.components))
         }));
+    }
+}
+
+impl Reader<'_> {
+    /// Adds the gates that a name without a dot, or with too many, may mean: those of a component, or one of that name.
+    fn gates_like(&self, problem: Diagnostic, name: &str, at: Span) -> Diagnostic {
+        let gates = self.known.map(|known| known.gates.as_slice()).unwrap_or_default();
+        let last = name.rsplit(['.', '/', ':']).next().unwrap_or(name);
+        let parts: Vec<&str> = name.split(['.', '/', ':']).filter(|part| !part.is_empty()).collect();
+        let fits = |gate: &&String| match gate.split_once('.') {
+            Some((component, gate)) if parts.len() == 1 => component == name || gate == name,
+            Some((component, gate)) => parts.contains(&component) && gate == last,
+            None => false,
+        };
+        // A connection names two gates.
+        let ends: Vec<&str> = name.split([' ', ',', '>', '-', '=', '[', ']']).filter(|end| end.contains('.')).collect();
+        let is_end = |gate: &&String| ends.len() > 1 && ends.contains(&gate.as_str());
+        let fitting: Vec<&String> = gates.iter().filter(|gate| fits(gate) || is_end(gate)).take(4).collect();
+        if fitting.len() > 3 || (at.end - at.start) as usize != name.len() {
+            return problem;
+        }
+        fitting.iter().fold(problem, |problem, gate| {
+            problem.suggest(format!("did you mean `{gate}`?"), [Edit::new(at, gate.as_str())])
+        })
     }
 }
 

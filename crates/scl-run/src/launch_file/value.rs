@@ -33,6 +33,24 @@ pub(super) fn number(value: &Node) -> Option<u64> {
     }
 }
 
+/// A list of processors, or one of them; at least one.
+pub(super) fn processors(value: &Node) -> Option<Vec<usize>> {
+    let processor = |value: &Node| {
+        let number = number(value).and_then(|number| usize::try_from(number).ok());
+        number.filter(|number| *number < rustix::thread::CpuSet::MAX_CPU)
+    };
+    match value.items() {
+        Some(numbers) if !numbers.is_empty() => numbers.iter().map(processor).collect(),
+        Some(_) => None,
+        None => Some(vec![processor(value)?]),
+    }
+}
+
+/// The number of a port.
+pub(super) fn port(value: &Node) -> Option<u16> {
+    number(value).and_then(|number| u16::try_from(number).ok()).filter(|port| *port != 0)
+}
+
 /// The texts of a list; `None` if the value is not a list, or if an item is not a text.
 pub(super) fn texts(value: &Node) -> Option<Vec<String>> {
     value.items()?.iter().map(|item| text(item).map(str::to_owned)).collect()

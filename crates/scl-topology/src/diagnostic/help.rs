@@ -138,7 +138,7 @@ impl Diagnostic {
 
     /// Adds a help with one change for each word; a single one is proposed as certain. `lead` is the text before and
     /// after the words.
-    pub(crate) fn choose<'w>(
+    pub fn choose<'w>(
         self,
         (before, after): (&'static str, &'static str),
         ways: impl IntoIterator<Item = (&'w str, Edit)>,
@@ -245,7 +245,7 @@ impl Diagnostic {
 
 /// Returns what to remove so that an item or an entry disappears with its comma, or with its line. `None` if it shares
 /// its line with something else.
-pub(crate) fn removal(source: &SourceFile, span: Span) -> Option<Span> {
+pub fn removal(source: &SourceFile, span: Span) -> Option<Span> {
     let text = source.text();
     let (before, after) = (text.get(..span.start as usize)?, text.get(span.end as usize..)?);
     let line = source.line_range(span.start as usize);

@@ -54,7 +54,7 @@ gateway: {prt: 7447, insecure: yes}
             5 |   ground: {address: 192.0.2.20:7447, components: sensor, port: 70000}
               |                     ^^^^^^^^^^^^^^^
               |
-              = help: write `address: 192.0.2.20, port: 7447`
+              = help: write `address: 192.0.2.20`
 
             error: [SCL1202] host `ground` has no list of `components`
              --> ./launch.yaml:5:50
@@ -62,7 +62,7 @@ gateway: {prt: 7447, insecure: yes}
             5 |   ground: {address: 192.0.2.20:7447, components: sensor, port: 70000}
               |                                                  ^^^^^^
               |
-              = help: write `components: [sensor, controller]`
+              = help: write `components: [sensor]`
 
             error: [SCL1202] `port` is a number, 1 to 65535, not `70000`
              --> ./launch.yaml:5:64
@@ -76,6 +76,7 @@ gateway: {prt: 7447, insecure: yes}
             6 |   a b: {address: 192.0.2.30, components: [sensor]}
               |   ^^^
               |
+              = help: write `a-b`
               = note: a host name has up to 63 letters, digits, `_` and `-`, and starts with a letter or digit
 
             error: [SCL1207] `authority` cannot be the name of a host
@@ -92,7 +93,7 @@ gateway: {prt: 7447, insecure: yes}
             8 |   x: {}
               |   ^
               |
-              = help: write `address: 192.0.2.10`, as the other hosts reach it
+              = help: it is the IP address or the DNS name by which the other hosts reach it
 
             error: [SCL1204] host `x` has no list of `components`
              --> ./launch.yaml:8:3
@@ -100,7 +101,7 @@ gateway: {prt: 7447, insecure: yes}
             8 |   x: {}
               |   ^
               |
-              = help: write `components: [sensor, controller]`
+              = help: it lists the components that run there
 
             error: [SCL1203] the entry of host `y` is a mapping, not `192.0.2.50`
              --> ./launch.yaml:9:6
@@ -108,7 +109,7 @@ gateway: {prt: 7447, insecure: yes}
             9 |   y: 192.0.2.50
               |      ^^^^^^^^^^
               |
-              = help: write `y: {address: 192.0.2.10, components: [sensor]}`
+              = help: it has an `address` and a list of `components`
 
             error: [SCL1201] unknown key `prt` in `gateway`
               --> ./launch.yaml:10:11
@@ -152,7 +153,8 @@ gateway: {port: 7447}
             3 | hosts:
               | ^^^^^
               |
-              = help: add each to `components` of the host that runs it
+              = help: add `display` to `components` of host `board`
+              = help: add `display` to `components` of host `ground`
 
             error: [SCL1208] host `board` is not on loopback, and `gateway` has no `certificates`
              --> ./launch.yaml:4:20
@@ -160,7 +162,8 @@ gateway: {port: 7447}
             4 |   board: {address: 192.0.2.10, components: [sensor]}
               |                    ^^^^^^^^^^
               |
-              = help: write `gateway: {port: 7447, certificates: ./keys}`, and run `scl gateway keys`
+              = help: with certificates, which `scl gateway keys` makes: add `certificates: ./keys` to `gateway`
+              = help: without certificates, so that everybody on the network can listen and send: add `insecure: true` to `gateway`
               = note: without certificates everybody on the network could listen and send
 
             error: [SCL1208] the hosts `board` and `ground` have the same address, `192.0.2.10:7447`
@@ -181,7 +184,7 @@ gateway: {port: 7447}
             5 |   ground: {address: 192.0.2.10, components: [sensor, sensor]}
               |                                              ^^^^^^
               |
-              = help: remove it from one of the lists
+              = help: remove it from `ground`
 
             error: [SCL1208] component `sensor` is on two hosts, `board` and `ground`
              --> ./launch.yaml:5:54
@@ -191,7 +194,7 @@ gateway: {port: 7447}
             5 |   ground: {address: 192.0.2.10, components: [sensor, sensor]}
               |                                                      ^^^^^^
               |
-              = help: remove it from one of the lists
+              = help: remove it from `ground`
 
         "#]],
     );
@@ -206,7 +209,9 @@ gateway: {port: 7447}
             2 | hosts: {a: {address: 0.0.0.0, components: [sensor, display]}}
               | ^^^^^
               |
-              = help: write `gateway: {port: 7447, certificates: ./keys}`
+              = help: with all hosts on this machine: `gateway: {port: 7447}`
+              = help: with certificates, which `scl gateway keys` makes: `gateway: {port: 7447, certificates: ./keys}`
+              = help: without certificates, so that everybody on the network can listen and send: `gateway: {port: 7447, insecure: true}`
 
             error: [SCL1208] the other hosts cannot connect to `0.0.0.0`
              --> ./launch.yaml:2:22
@@ -229,7 +234,7 @@ gateway: {port: 7447}
             2 | hosts: []
               |        ^^
               |
-              = help: write `hosts: {board: {address: 192.0.2.10, components: [sensor]}}`
+              = help: each host has an entry with its `address` and its `components`
 
             error: [SCL1203] `gateway` is a mapping, not `7447`
              --> ./launch.yaml:3:10
@@ -237,7 +242,9 @@ gateway: {port: 7447}
             3 | gateway: 7447
               |          ^^^^
               |
-              = help: write `gateway: {port: 7447, certificates: ./keys}`
+              = help: with all hosts on this machine: `gateway: {port: 7447}`
+              = help: with certificates, which `scl gateway keys` makes: `gateway: {port: 7447, certificates: ./keys}`
+              = help: without certificates, so that everybody on the network can listen and send: `gateway: {port: 7447, insecure: true}`
 
         "#]],
     );
@@ -252,7 +259,8 @@ gateway: {port: 7447}
             2 | gateway: {port: 7447}
               | ^^^^^^^
               |
-              = help: write `hosts: {board: {address: 192.0.2.10, components: [sensor]}}`
+              = help: remove `gateway`
+              = note: `hosts` says which components run on which host
 
         "#]],
     );

@@ -1,8 +1,11 @@
 //! `address`: where the gateway of a host listens, and where the others find it.
 
+use super::super::edits::flow_word;
+use super::super::keys;
 use super::super::reader::{Keys, Reader, wrong};
 use super::super::rules::{HOSTS, MISSING, WRONG_VALUE};
 use super::super::value::{shown, text};
+use scl_topology::diagnostic::Edit;
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
 use std::net::{IpAddr, SocketAddr};
@@ -11,18 +14,37 @@ use std::net::{IpAddr, SocketAddr};
 const LONGEST: usize = 253;
 
 impl Reader<'_> {
-    pub(super) fn read_address(&mut self, host: Field<'_>, keys: &Keys<'_, '_>) -> Option<(String, Span)> {
-        let Some(field) = keys.get("address") else {
-            if !keys.may_have("address") {
+    pub(super) fn read_address(&mut self, host: Field<'_>, fields: &Keys<'_, '_>) -> Option<(String, Span)> {
+        let Some(field) = fields.get("address") else {
+            if !fields.may_have("address") {
                 let problem = MISSING.at(format!("host `{}` has no `address`", host.key), host.key_span, "");
-                self.report(problem.help("write `address: 192.0.2.10`, as the other hosts reach it"));
+                self.report(problem.help("it is the IP address or the DNS name by which the other hosts reach it"));
             }
             return None;
         };
         let text = text(field.value).unwrap_or_default();
-        if let Some(meant) = with_port(text) {
+        if let Some((address, port)) = parts(text) {
             let message = format!("`address` is an address alone, not {}", shown(field.value));
-            self.report(wrong(&WRONG_VALUE, message, field).help(format!("write `{meant}`")));
+            let problem = wrong(&WRONG_VALUE, message, field);
+            let entry = format!("address: {}", flow_word(&address));
+            let added = port.filter(|_| fields.get("port").is_none()).and_then(|port| {
+                let port = format!("port: {port}");
+                Some((self.add_entry(host.value, &port)?, port))
+            });
+            let edits = self.replace_entry(field, entry.clone()).map(|edit| match added {
+                Some((port, text)) if !port.span.eq(&edit.span) && port.span.start != edit.span.end => {
+                    (format!("write `{entry}, {text}`"), vec![edit, port])
+                }
+                // The address is the first or the last entry: write both in its place.
+                Some((_, text)) => {
+                    (format!("write `{entry}, {text}`"), vec![Edit::new(edit.span, self.both(field, &entry, &text))])
+                }
+                None => (format!("write `{entry}`"), vec![edit]),
+            });
+            self.report(match edits {
+                Some((help, edits)) => problem.propose(help, edits),
+                None => problem,
+            });
             return None;
         }
         if text.parse().is_ok_and(|address: IpAddr| address.is_unspecified()) {
@@ -31,10 +53,28 @@ impl Reader<'_> {
             return None;
         }
         if !is_address(text) {
-            self.wrong_value(field);
+            let form = keys::form_of("address").description();
+            let problem = wrong(&WRONG_VALUE, format!("`address` is {form}, not {}", shown(field.value)), field);
+            let problem = self.with_template(problem, field.value);
+            let meant = text.replace('_', "-");
+            let problem = match is_address(&meant) && !text.is_empty() {
+                true => problem.suggest(format!("write `address: {meant}`"), [Edit::new(field.value.span, meant)]),
+                false => problem,
+            };
+            self.report(problem);
             return None;
         }
         Some((text.to_owned(), field.value.span))
+    }
+
+    /// Two entries in the place of one.
+    fn both(&self, field: Field<'_>, one: &str, other: &str) -> String {
+        let column = self.source.line_column(field.key_span.start).column as usize - 1;
+        let line = self.source.line_text(self.source.line_column(field.key_span.start).line);
+        match line.len() - line.trim_start().len() == column {
+            true => format!("{one}\n{}{other}", " ".repeat(column)),
+            false => format!("{one}, {other}"),
+        }
     }
 }
 
@@ -55,22 +95,29 @@ fn is_dns_name(text: &str) -> bool {
     text.len() <= LONGEST && text.split('.').all(is_label) && !last.chars().all(|letter| letter.is_ascii_digit())
 }
 
-/// Returns the keys to write in place of an address with a port, such as `192.0.2.10:7447` or `tcp/192.0.2.10:7447`.
-fn with_port(text: &str) -> Option<String> {
-    let text = text.rsplit(['/', '@']).next()?;
-    let parts = match text.parse::<SocketAddr>() {
-        Ok(address) => (address.ip().to_string(), address.port()),
-        Err(_) => {
-            let (name, port) = text.split_once(':').filter(|(name, _)| is_dns_name(name))?;
-            (name.to_owned(), port.parse().ok()?)
-        }
-    };
-    Some(format!("address: {}, port: {}", parts.0, parts.1))
+/// Returns the address in a text like `192.0.2.10:7447`, `tcp://192.0.2.10:7447`, `pi@board.local` or `192.0.2.10/24`, and
+/// its port. `None` if the text is an address alone, or has none.
+fn parts(text: &str) -> Option<(String, Option<u16>)> {
+    let behind_scheme = text.split_once("://").map_or(text, |(_, rest)| rest);
+    let behind_scheme = ["tcp/", "udp/", "tls/", "tcp:", "udp:"]
+        .iter()
+        .find_map(|scheme| behind_scheme.strip_prefix(scheme))
+        .unwrap_or(behind_scheme);
+    let host = behind_scheme.rsplit('@').next()?.split('/').next()?;
+    if let Ok(address) = host.parse::<SocketAddr>() {
+        return Some((address.ip().to_string(), Some(address.port())));
+    }
+    let bare = host.trim_matches(['[', ']']);
+    if is_address(bare) {
+        return (bare != text).then(|| (bare.to_owned(), None));
+    }
+    let (name, port) = host.split_once(':').filter(|(name, _)| is_dns_name(name))?;
+    Some((name.to_owned(), Some(port.parse().ok()?)))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{is_address, with_port};
+    use super::{is_address, parts};
 
     #[test]
     fn addresses_are_those_of_ip_and_dns() {
@@ -86,14 +133,19 @@ mod tests {
     #[test]
     fn ports_are_told_apart() {
         for (text, meant) in [
-            ("192.0.2.10:7447", Some("address: 192.0.2.10, port: 7447")),
-            ("[::1]:1", Some("address: ::1, port: 1")),
-            ("tls/board.local:7447", Some("address: board.local, port: 7447")),
+            ("192.0.2.10:7447", Some(("192.0.2.10", Some(7447)))),
+            ("[::1]:1", Some(("::1", Some(1)))),
+            ("[::1]", Some(("::1", None))),
+            ("tls/board.local:7447", Some(("board.local", Some(7447)))),
+            ("tcp://board:1", Some(("board", Some(1)))),
+            ("pi@board", Some(("board", None))),
+            ("192.0.2.10/24", Some(("192.0.2.10", None))),
             ("::1", None),
             ("192.0.2.10", None),
             ("board:http", None),
         ] {
-            assert_eq!(with_port(text).as_deref(), meant, "{text}");
+            let found = parts(text);
+            assert_eq!(found.as_ref().map(|(address, port)| (address.as_str(), *port)), meant, "{text}");
         }
     }
 }

@@ -29,6 +29,7 @@ pub(in crate::parse) fn duplicate(second: &Field<'_>, first: Span, owner: &str) 
             "merge the two lists, or write the `- name: ...` of another component above the second"
         }
         NodeKind::Sequence { .. } => "merge the two lists",
+        NodeKind::Mapping { .. } => "merge the two into one, or remove one of them",
         _ => "remove one of them",
     };
     DUPLICATE

@@ -1,0 +1,271 @@
+//! Commands: their words, and what no program can have been meant to get.
+
+use super::super::command_line;
+use super::edits::{flow_list, flow_word};
+use super::reader::{Keys, Reader, wrong};
+use super::rules::WRONG_VALUE;
+use super::value::{text, texts};
+use scl_topology::diagnostic::{Diagnostic, Edit};
+use scl_topology::parse::Field;
+use scl_topology::source::Span;
+use scl_topology::yaml::Node;
+
+/// Operators of the shell that are no argument of any usual program.
+const OPERATORS: &[&str] = &["|", "||", "&&", ">", ">>", "2>", "2>>", "2>&1", "&>", "&>>", "1>"];
+
+/// Quotes of word processors.
+const CURLY: &[char] = &['“', '”', '„', '‘', '’', '«', '»'];
+
+/// Parts of a command that other tools write as keys of their own, in the order of the words.
+const PARTS: [&[&str]; 3] = [
+    &["interpreter", "entrypoint", "launchprefix", "prefix", "wrapper", "interpreterargs", "nodeargs"],
+    &["command", "cmd", "run", "exec", "program", "execstart", "executable", "script", "path", "binary", "main"],
+    &["args", "arguments", "argv", "argument", "flags", "options"],
+];
+
+/// Where a word belongs in a command, if it is a part of one.
+fn part(word: &str) -> Option<usize> {
+    let word = super::likely::bare(word);
+    PARTS.iter().position(|words| words.contains(&word.as_str()))
+}
+
+/// Whether a word is a key of other tools that gives only a part of a command.
+pub(super) fn is_part(word: &str) -> bool {
+    part(word).is_some()
+}
+
+/// The program and arguments of a command: a list as it is, the words of a text. `None` if the value is not a command.
+pub(super) fn command_words(value: &Node) -> Option<Vec<String>> {
+    let line = text(value).filter(|line| !line.trim().is_empty());
+    let words = line.map(command_line::words).or_else(|| texts(value))?;
+    words.first().is_some_and(|program| !program.is_empty()).then_some(words)
+}
+
+impl Reader<'_> {
+    /// Reports a command that is written as several keys. Returns whether it was.
+    pub(super) fn check_command_parts(&mut self, keys: &Keys<'_, '_>, unknown: &[Field<'_>], owner: &str) -> bool {
+        let is_part_here = |field: &&Field<'_>| is_part(field.key);
+        let mut parts: Vec<Field<'_>> = keys.fields.list.iter().filter(is_part_here).copied().collect();
+        let Some(told) = unknown.iter().find(is_part_here) else { return false };
+        // An entry point alone is the command.
+        if parts.len() < 2 || parts.iter().filter(|field| part(field.key) == Some(1)).count() > 1 {
+            return false;
+        }
+        let place = parts.iter().find(|field| field.key == "command").copied().unwrap_or(parts[0]);
+        parts.sort_by_key(|field| part(field.key));
+        let problem = super::unknown_key::problem(told.key, told.key_span, owner);
+        let others = unknown.iter().filter(|field| is_part(field.key) && field.key_span != told.key_span);
+        let problem = problem.labels(others.map(|field| (field.key_span, "unknown too")));
+        let edits = joined(&parts).and_then(|command| {
+            let others = parts.iter().filter(|field| field.key_span != place.key_span);
+            let mut edits: Vec<Edit> = others.map(|field| self.remove_entry(*field)).collect::<Option<_>>()?;
+            let command = format!("command: {command}");
+            edits.push(self.replace_entry(place, command.clone())?);
+            Some((command, edits))
+        });
+        let problem = match edits {
+            // A program of a package of another tool may have another path.
+            Some((command, edits)) if keys.fields.list.iter().any(|field| matches!(field.key, "pkg" | "package")) => {
+                problem.suggest(format!("write `{command}`"), edits)
+            }
+            Some((command, edits)) => problem.propose(format!("write `{command}`"), edits),
+            None => problem,
+        };
+        self.report(problem.otherwise("`command` has the program and all of its arguments"));
+        true
+    }
+
+    /// Reports words of a command that no program can have been meant to get.
+    pub(super) fn check_command(&mut self, field: Field<'_>) {
+        let problem = match field.value.items() {
+            Some(items) => self.wrong_list(field, items),
+            None => self.wrong_text(field),
+        };
+        problem.into_iter().for_each(|problem| self.report(problem));
+    }
+
+    fn wrong_list(&self, field: Field<'_>, items: &[Node]) -> Option<Diagnostic> {
+        let words = texts(field.value)?;
+        let (program, first) = (words.first()?, items.first()?);
+        // What a shell or a program on another host gets is its own language.
+        if words.iter().any(|word| word == "-c") || program.rsplit('/').next() == Some("ssh") {
+            return None;
+        }
+        if first.is_plain() && program.contains(' ') {
+            let message = format!("`{program}` is a single word of this list, so it is the name of the program");
+            let parts: Vec<&str> = program.split_whitespace().collect();
+            let split: Vec<String> = parts.iter().map(|part| flow_word(part)).collect();
+            let problem = WRONG_VALUE.at(message, first.span, "").note("a name with spaces is written in quotes");
+            let separator = self.separator(field.value, first);
+            let text = format!("write each word as an item: `{}`", split.join(", "));
+            return Some(problem.propose(text, [Edit::new(first.span, split.join(&separator))]));
+        }
+        for (item, word) in items.iter().zip(&words) {
+            if let Some(problem) = self.wrong_characters(item, word) {
+                return Some(problem);
+            }
+            let is_operator = OPERATORS.contains(&word.as_str());
+            let is_expanded = is_variable(word) && item.is_plain();
+            let is_home = word.starts_with("~/") && (item.is_plain() || item.span == first.span);
+            if is_operator || is_expanded || is_home {
+                let message = match is_operator {
+                    true => {
+                        format!("the program would get `{word}` as an argument: a list is executed without a shell")
+                    }
+                    false => format!("`{word}` is passed on as it is: a list is executed without a shell"),
+                };
+                let problem =
+                    WRONG_VALUE.at(message, item.span, "").note("a text is given to the shell if it needs one");
+                let quoted = words.iter().zip(items).map(|(word, item)| shell_word(word, item.is_plain()));
+                let line = flow_word(&quoted.collect::<Option<Vec<_>>>()?.join(" "));
+                let text = format!("write `{}: {line}`", field.key);
+                return Some(match self.replace_entry(field, format!("{}: {line}", field.key)) {
+                    Some(edit) => problem.suggest(text, [edit]),
+                    None => problem,
+                });
+            }
+            if let Some((option, value)) = word.split_once(' ').filter(|_| item.is_plain()) {
+                let is_option = option.starts_with("--") && !option.contains('=') && option.len() > 2;
+                if is_option && !value.contains(' ') {
+                    let message = format!("`{word}` is a single word of this list, so it is a single argument");
+                    let separator = self.separator(field.value, item);
+                    let text = format!("write two items: `{}, {}`", flow_word(option), flow_word(value));
+                    let edit = Edit::new(item.span, format!("{}{separator}{}", flow_word(option), flow_word(value)));
+                    let problem =
+                        WRONG_VALUE.at(message, item.span, "").note("an argument with spaces is written in quotes");
+                    return Some(problem.propose(text, [edit]));
+                }
+            }
+        }
+        None
+    }
+
+    fn wrong_text(&self, field: Field<'_>) -> Option<Diagnostic> {
+        let line = field.value.text()?;
+        let written = self.written(field.value.span);
+        if (field.value.is_plain() || written.starts_with('>')) && line.contains("\\ ") {
+            let breaks = continued_lines(written);
+            if let Some(first) = breaks.first() {
+                let start = field.value.span.start;
+                let at = |at: usize| Span { start: start + at as u32, end: start + at as u32 + 1, ..field.value.span };
+                let problem = WRONG_VALUE.at("this `\\` becomes a part of the next word", at(*first), "");
+                let problem = problem.note("YAML joins the lines of a text by a space, without any mark");
+                let edits = breaks.iter().map(|at_line| {
+                    let before = written[..*at_line].trim_end_matches(' ').len() as u32 + start;
+                    Edit::new(Span { start: before, ..at(*at_line) }, "")
+                });
+                return Some(problem.propose("remove the `\\` at the end of the line", edits));
+            }
+        }
+        if !field.value.is_plain() {
+            return None;
+        }
+        self.wrong_characters(field.value, line)
+    }
+
+    /// A problem of characters that a word processor has put into a command.
+    pub(super) fn wrong_characters(&self, value: &Node, text: &str) -> Option<Diagnostic> {
+        let is_start = |at: usize| text[..at].chars().next_back().is_none_or(|before| " =\"'".contains(before));
+        let quote = text.char_indices().find(|(at, letter)| CURLY.contains(letter) && is_start(*at));
+        let straight = |written: &str| {
+            let quote = |letter: char| if "‘’".contains(letter) { '\'' } else { '"' };
+            written
+                .chars()
+                .map(|letter| if CURLY.contains(&letter) { quote(letter) } else { letter })
+                .collect::<String>()
+        };
+        let written = self.written(value.span);
+        if let Some((_, letter)) = quote.filter(|_| value.is_plain()) {
+            let message = format!("`{letter}` is not a quote here: it becomes a part of the word");
+            let edit = Edit::new(value.span, straight(written));
+            return Some(
+                WRONG_VALUE.at(message, value.span, "").propose(format!("write `{}`", straight(written)), [edit]),
+            );
+        }
+        let dash = text.char_indices().find(|(at, letter)| "–—".contains(*letter) && is_start(*at))?;
+        if !value.is_plain()
+            || text[dash.0 + dash.1.len_utf8()..].chars().next().is_none_or(|next| !next.is_alphabetic())
+        {
+            return None;
+        }
+        let message = format!("`{}` is not the hyphen that options start with", dash.1);
+        let meant = written.replacen(dash.1, "--", 1);
+        let problem = WRONG_VALUE.at(message, value.span, "");
+        Some(problem.suggest(format!("write `{meant}`"), [Edit::new(value.span, meant)]))
+    }
+
+    /// What stands between the items of a list.
+    fn separator(&self, list: &Node, item: &Node) -> String {
+        match self.is_flow(list) {
+            true => ", ".to_owned(),
+            false => {
+                let column = self.source.line_column(list.span.start).column as usize - 1;
+                let dash = self.source.line_column(item.span.start).column as usize - 1;
+                format!("\n{}-{}", " ".repeat(column), " ".repeat(dash.saturating_sub(column + 1).max(1)))
+            }
+        }
+    }
+
+    /// Reports a path that starts like one of the shell.
+    pub(super) fn check_path(&mut self, field: Option<Field<'_>>) {
+        let Some((field, path)) = field.and_then(|field| Some((field, field.value.text()?))) else { return };
+        let is_of_shell = path.starts_with("~/") || path == "~" || field.value.is_plain() && is_variable(path);
+        let problem = match is_of_shell {
+            true => {
+                let message =
+                    format!("`{}` is a path as it is written: no shell replaces a part of `{path}`", field.key);
+                let problem = wrong(&WRONG_VALUE, message, field);
+                Some(problem.help("a path is absolute, or relative to the folder of the launch file"))
+            }
+            false => self.wrong_characters(field.value, path),
+        };
+        problem.into_iter().for_each(|problem| self.report(problem));
+    }
+}
+
+/// One command of its parts, as YAML.
+fn joined(parts: &[Field<'_>]) -> Option<String> {
+    let lines: Option<Vec<&str>> = parts.iter().map(|field| text(field.value)).collect();
+    if let Some(lines) = lines {
+        return Some(flow_word(&lines.join(" ")));
+    }
+    let mut words = Vec::new();
+    for field in parts {
+        match text(field.value) {
+            Some(line) => words.extend(shlex::split(line)?),
+            None => words.extend(texts(field.value)?),
+        }
+    }
+    Some(flow_list(&words))
+}
+
+/// Whether a shell would replace a part of a word by a variable or by the output of a command.
+fn is_variable(word: &str) -> bool {
+    word.split('$')
+        .skip(1)
+        .any(|rest| rest.starts_with(|next: char| next.is_ascii_alphabetic() || "_{(".contains(next)))
+}
+
+/// A word as a shell has to read it. What was not in quotes may be its syntax.
+fn shell_word(word: &str, is_plain: bool) -> Option<String> {
+    let is_syntax = OPERATORS.contains(&word) || is_plain && (is_variable(word) || word.starts_with("~/"));
+    match is_syntax {
+        true if word.contains(' ') => None,
+        true => Some(word.to_owned()),
+        false => shlex::try_quote(word).ok().map(|word| word.into_owned()),
+    }
+}
+
+/// The places of backslashes at the ends of lines.
+fn continued_lines(written: &str) -> Vec<usize> {
+    let mut breaks = Vec::new();
+    let mut start = 0;
+    for line in written.split_inclusive('\n') {
+        let content = line.trim_end();
+        if line.ends_with('\n') && content.ends_with('\\') && !content.ends_with("\\\\") {
+            breaks.push(start + content.len() - 1);
+        }
+        start += line.len();
+    }
+    breaks
+}
