@@ -11,10 +11,11 @@ mod deadlock;
 mod draft;
 mod duplicate_connection;
 mod duplicate_name;
+mod ends;
 mod exchange_type;
 mod feedback;
 mod finish;
-mod fitting_sender;
+mod fitting_gate;
 mod gate_kind;
 mod inference;
 mod island;
@@ -30,8 +31,10 @@ mod option;
 mod option_edit;
 mod pair_kinds;
 mod path_length;
+mod payload_fault;
 mod payload_type;
 mod peers;
+mod rename;
 mod repeated;
 mod reserved_name;
 mod rust_path;
@@ -41,6 +44,7 @@ mod self_connection;
 mod shared_socket;
 mod short_timeout;
 mod similar_name;
+mod suspect;
 mod system_name;
 #[cfg(test)]
 pub(crate) mod testing;
@@ -57,6 +61,7 @@ use crate::socket_paths::SocketPaths;
 use crate::source::Sources;
 use crate::topology::Topology;
 use draft::Draft;
+use rename::Renames;
 
 pub use all_rules::{ALL, find};
 pub use unknown_component::UNKNOWN as UNKNOWN_COMPONENT;
@@ -159,7 +164,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     if model.cut_off {
         return None;
     }
-    check_names(model, problems);
+    check_names(model, sources, problems);
     let mut draft = Draft::new(model, sources);
     let system = system_name::system_name(model, facts);
 
@@ -170,7 +175,8 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     option::check(&mut draft, problems);
     let codec = codec_name::check(&mut draft, problems);
 
-    connection_end::check(&mut draft, problems);
+    ends::check(&mut draft, problems);
+    payload_type::check_number(&draft, problems);
     duplicate_connection::check(&mut draft, problems);
     pair_kinds::check(&mut draft, problems);
     self_connection::check(&draft, problems);
@@ -202,11 +208,11 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     if problems.has_errors() { None } else { finish::finish(&draft, system, &codec, connection_room) }
 }
 
-fn check_names(model: &Model, problems: &mut Diagnostics) {
-    duplicate_name::check(model, problems);
-    name_spelling::check(model, problems);
-    keyword::check(model, problems);
+fn check_names(model: &Model, sources: &Sources, problems: &mut Diagnostics) {
+    let renames = Renames::of(model, sources);
+    name_spelling::check(model, &renames, problems);
+    keyword::check(model, &renames, problems);
     similar_name::check(model, problems);
     reserved_name::check(model, problems);
-    name_style::check(model, problems);
+    name_style::check(model, &renames, problems);
 }

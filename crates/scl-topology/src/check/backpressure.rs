@@ -1,7 +1,6 @@
 //! SCL0410: a receiver that would make its sender wait, and a sender that never waits.
 
 use super::draft::Draft;
-use super::unconnected::type_text;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::topology::{GateKind, WhenFull};
 
@@ -43,13 +42,18 @@ fn report(draft: &Draft<'_>, link: usize, source: usize, sink: usize) -> Diagnos
         _ => ("publisher", "subscriber"),
     };
     let headline = format!("`{}` would make `{}` wait, which it does not allow", draft.path(sink), draft.path(source));
-    let (gate, option) = (draft.gates[source].model, draft.gates[sink].option("when_full"));
-    let (name, kind, message) = (&gate.name.value, &gate.kind.value, type_text(draft, source));
+    let option = draft.gates[sink].option("when_full");
     RULE.at(headline, draft.links[link].model.span, "")
         .label(draft.gates[source].declaration(), format!("never waits for a {receiver}"))
         .labels(option.map(|it| (it.key.span.to(it.value.span), format!("makes the {sender} wait"))))
-        .help(format!("allow it on the {sender}: `{name}: {{{kind}: {message}, backpressure: true}}`"))
-        .help(format!("or let the {receiver} lose messages: `when_full: drop_oldest`"))
+        .suggest(
+            format!("allow it on the {sender}: write `backpressure: true` at `{}`", draft.path(source)),
+            [draft.with_option(source, "backpressure", "true")],
+        )
+        .suggest(
+            format!("or let the {receiver} lose messages: write `when_full: drop_oldest` at `{}`", draft.path(sink)),
+            [draft.with_option(sink, "when_full", "drop_oldest")],
+        )
 }
 
 #[cfg(test)]
@@ -63,21 +67,21 @@ mod tests {
         rule_example(
             &RULE,
             expect![[r#"
-            error: [SCL0410] `recorder.measurements` would make `sensor.measurements` wait, which it does not allow
-             --> topology.yaml:9:5
-              |
-            4 |       - measurements: {pub: Measurement}
-              |                        ---------------- never waits for a subscriber
-            ...
-            7 |       - measurements: {sub: Measurement, when_full: wait}
-              |                                          --------------- makes the publisher wait
-            8 | connections:
-            9 |   - [sensor.measurements, recorder.measurements]
-              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
-              |
-              = help: allow it on the publisher: `measurements: {pub: Measurement, backpressure: true}`
-              = help: or let the subscriber lose messages: `when_full: drop_oldest`
-        "#]],
+                error: [SCL0410] `recorder.measurements` would make `sensor.measurements` wait, which it does not allow
+                 --> topology.yaml:9:5
+                  |
+                4 |       - measurements: {pub: Measurement}
+                  |                        ---------------- never waits for a subscriber
+                ...
+                7 |       - measurements: {sub: Measurement, when_full: wait}
+                  |                                          --------------- makes the publisher wait
+                8 | connections:
+                9 |   - [sensor.measurements, recorder.measurements]
+                  |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+                  |
+                  = help: allow it on the publisher: write `backpressure: true` at `sensor.measurements`
+                  = help: or let the subscriber lose messages: write `when_full: drop_oldest` at `recorder.measurements`
+            "#]],
         );
     }
 }

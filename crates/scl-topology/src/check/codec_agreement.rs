@@ -42,7 +42,16 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
             .at(headline, draft.links[link].model.span, label)
             .label(a.span, "")
             .label(b.span, "")
-            .help("give both ends the same `codec`; an end without one takes the codec of the other");
+            .otherwise("both ends have one `codec`; an end without one takes the codec of the other");
+        let found = [(sink, a_word), (source, b_word)].into_iter().fold(found, |found, (gate, word)| {
+            match draft.gates[gate].option("codec") {
+                Some(_) => {
+                    let edit = draft.with_option(gate, "codec", word);
+                    found.suggest(format!("write `codec: {word}` at `{}`", draft.path(gate)), [edit])
+                }
+                None => found,
+            }
+        });
         problems.push(found);
     }
 }
@@ -58,20 +67,21 @@ mod tests {
         rule_example(
             &RULE,
             expect![[r#"
-            error: [SCL0608] the two ends of this connection use different codecs
-             --> topology.yaml:9:5
-              |
-            4 |       - attitude: {pub: Attitude, codec: json}
-              |                                   -----------
-            ...
-            7 |       - attitude: {sub: Attitude, codec: cbor}
-              |                                   -----------
-            8 | connections:
-            9 |   - [autopilot.attitude, blackbox.attitude]
-              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `json` is sent, `cbor` is expected
-              |
-              = help: give both ends the same `codec`; an end without one takes the codec of the other
-        "#]],
+                error: [SCL0608] the two ends of this connection use different codecs
+                 --> topology.yaml:9:5
+                  |
+                4 |       - attitude: {pub: Attitude, codec: json}
+                  |                                   -----------
+                ...
+                7 |       - attitude: {sub: Attitude, codec: cbor}
+                  |                                   -----------
+                8 | connections:
+                9 |   - [autopilot.attitude, blackbox.attitude]
+                  |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `json` is sent, `cbor` is expected
+                  |
+                  = help: write `codec: json` at `blackbox.attitude`
+                  = help: write `codec: cbor` at `autopilot.attitude`
+            "#]],
         );
     }
 }

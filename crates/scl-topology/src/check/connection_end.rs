@@ -1,11 +1,11 @@
-//! SCL0503: an end that is not `component.gate`. Finds the gates of all other ends, and passes unknown names on to the
-//! rules about components and gates.
+//! SCL0503: an end that is not `component.gate`.
 
 use super::draft::Draft;
-use super::{unknown_component, unknown_gate};
+use super::ends::{End, MOST_PLACES};
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
-use crate::source::Spanned;
+use crate::source::{Span, Spanned};
 use scl_text::list::{listed, shortened};
+use std::collections::HashMap;
 
 /// SCL0503.
 pub(crate) const RULE: Rule = Rule {
@@ -27,144 +27,167 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
-    for link in 0..draft.links.len() {
-        draft.links[link].ends = draft.links[link].model.ends.each_ref().map(|end| resolved(draft, &end.value));
-    }
-    // Mark all named gates first: suggestions prefer gates that no other connection names.
-    name_all(draft);
-    for (link, end) in (0..draft.links.len()).flat_map(|link| [(link, 0), (link, 1)]) {
-        if draft.links[link].ends[end].is_none() {
-            report(draft, link, end, problems);
+/// Maximum length of an end that is searched for names, in bytes: every place in it may be where the dot belongs.
+const LONGEST: usize = 160;
+
+/// Maximum number of gates that a search looks at.
+const SEARCHED: usize = 32;
+
+/// Maximum number of gates that a help names.
+const MOST: usize = 3;
+
+const FORM: &str = "an end is the name of a component, a dot and the name of one of its gates";
+const HEADLINE: &str = "a connection end is written `component.gate`";
+
+/// Reports ends of another shape. Those that have the same slip are one mistake.
+pub(super) fn check(draft: &mut Draft<'_>, ends: &[End], problems: &mut Diagnostics) {
+    let mut told: HashMap<String, Respelt> = HashMap::new();
+    let mut order: Vec<String> = Vec::new();
+    for &end in ends {
+        let text = &draft.links[end[0]].model.ends[end[1]];
+        match respelt(draft, &text.value) {
+            Some((label, gate)) => {
+                let path = draft.path(gate);
+                draft.gates[gate].named = true;
+                let edit = Edit::new(text.span, draft.sources.quoted_as(text.span, &path));
+                if !told.contains_key(&label) {
+                    order.push(label.clone());
+                }
+                let slip = told.entry(label).or_default();
+                slip.paths.push(path);
+                slip.edits.push(edit);
+            }
+            None => problems.push(misshapen(draft, end, text)),
         }
     }
-}
-
-fn resolved(draft: &Draft<'_>, text: &str) -> Option<usize> {
-    let (component, gate) = text.split_once('.')?;
-    draft.gate(component, gate)
-}
-
-/// Marks every gate that a connection names as connected, so that a broken connection is reported once.
-fn name_all(draft: &mut Draft<'_>) {
-    let whole = draft.links.iter().flat_map(|link| link.ends.into_iter().flatten());
-    let broken = draft.model.broken_ends.iter().filter_map(|end| resolved(draft, &end.value));
-    let named: Vec<usize> = whole.chain(broken).collect();
-    for gate in named {
-        draft.gates[gate].named = true;
+    for (label, slip) in order.into_iter().filter_map(|label| told.remove(&label).map(|slip| (label, slip))) {
+        let places: Vec<Span> = slip.edits.iter().map(|edit| edit.span).collect();
+        let help = match slip.paths.as_slice() {
+            [only] => format!("write `{only}`"),
+            paths => format!("write {}", listed(paths)),
+        };
+        let found = RULE.at(HEADLINE, places[0], label).propose(help, slip.edits).otherwise(FORM);
+        let others = places.iter().skip(1).take(MOST_PLACES);
+        problems.push(found.labels(others.map(|place| (*place, "and here"))));
     }
 }
 
-fn report(draft: &mut Draft<'_>, link: usize, end: usize, problems: &mut Diagnostics) {
-    let text = &draft.links[link].model.ends[end];
-    if text.value.is_empty() {
-        return;
-    }
-    match parts(&text.value) {
-        None => problems.push(misshapen(draft, text)),
-        Some((component, gate)) if draft.component(component).is_none() => {
-            unknown_component::check(draft, [link, end], [component, gate], problems);
-        }
-        Some((component, gate)) => unknown_gate::check(draft, [link, end], [component, gate], problems),
-    }
+/// Ends with one slip: the gates that they mean, and the changes.
+#[derive(Default)]
+struct Respelt {
+    paths: Vec<String>,
+    edits: Vec<Edit>,
 }
 
 /// Splits an end into component and gate. Returns `None` if it has another shape.
-fn parts(text: &str) -> Option<(&str, &str)> {
+pub(super) fn parts(text: &str) -> Option<(&str, &str)> {
     let (component, gate) = text.split_once('.')?;
-    let is_name = |name: &str| {
-        !name.is_empty() && name.chars().all(|letter| letter.is_alphanumeric() || letter == '_' || letter == '-')
-    };
+    let is_name = |name: &str| !name.is_empty() && name.chars().all(is_letter);
     (is_name(component) && is_name(gate)).then_some((component, gate))
 }
 
-fn misshapen(draft: &mut Draft<'_>, text: &Spanned<String>) -> Diagnostic {
-    let headline = "a connection end is written `component.gate`";
-    if let Some((mended, label)) = respelt(&text.value) {
-        let known = resolved(draft, &mended);
-        if let Some(gate) = known {
-            draft.gates[gate].named = true;
-        }
-        let found = RULE.at(headline, text.span, label);
-        let (help, edit) = (format!("write `{mended}`"), rewritten(draft, text, &mended));
-        return if known.is_some() { found.propose(help, [edit]) } else { found.suggest(help, [edit]) };
+fn is_letter(letter: char) -> bool {
+    letter.is_alphanumeric() || letter == '_' || letter == '-'
+}
+
+/// The gate that an end means, if it contains the names of a component and of its gate in this order and nothing else but
+/// marks, or names before or after them. Returns a label that names the slip, too.
+fn respelt(draft: &Draft<'_>, text: &str) -> Option<(String, usize)> {
+    if text.len() > LONGEST || text.contains('*') {
+        return None;
     }
-    let may_search = draft.may_search();
-    let owners = if may_search { owners(draft, &text.value) } else { Vec::new() };
-    if let Some(&gate) = owners.first() {
-        return without_component(draft, headline, text, gate, &owners);
+    let words: Vec<&str> = text.split(|letter| !is_letter(letter)).filter(|word| !word.is_empty()).collect();
+    let pairs = words.windows(2).map(|pair| (pair[0], pair[1]));
+    let mut found: Vec<usize> = pairs.filter_map(|(component, gate)| draft.gate(component, gate)).collect();
+    if let [only] = words.as_slice() {
+        found = split_anywhere(draft, only);
+    }
+    let &[gate] = found.as_slice() else { return None };
+    Some((slip(text, &words), gate))
+}
+
+/// The gates whose component and name a word without a dot consists of: `sensor_fix`, `sensorFix`.
+fn split_anywhere(draft: &Draft<'_>, word: &str) -> Vec<usize> {
+    let splits = word.char_indices().skip(1).filter_map(|(at, letter)| {
+        let (component, rest) = word.split_at(at);
+        let gate = rest.strip_prefix(['_', '-']).unwrap_or(rest);
+        let lower = letter.is_uppercase().then(|| gate.to_lowercase());
+        draft.gate(component, gate).or_else(|| draft.gate(component, &lower?))
+    });
+    splits.collect()
+}
+
+fn slip(text: &str, words: &[&str]) -> String {
+    match words {
+        [_, _, _, ..] => "only a component and its gate".to_owned(),
+        [component, gate] if text.starts_with(component) && text.ends_with(gate) => {
+            match text[component.len()..text.len() - gate.len()].trim() {
+                "" => "a space instead of a dot".to_owned(),
+                "." => "a space beside the dot".to_owned(),
+                mark => format!("`{mark}` instead of a dot"),
+            }
+        }
+        [_] => "no dot".to_owned(),
+        _ => "not only two names and a dot".to_owned(),
+    }
+}
+
+fn misshapen(draft: &mut Draft<'_>, end: End, text: &Spanned<String>) -> Diagnostic {
+    let found = |label: &str| RULE.at(HEADLINE, text.span, label);
+    if !draft.may_search() {
+        return found(oddity(&text.value).0);
+    }
+    let owners = draft.gates_named(&text.value).iter().copied().filter(|gate| !draft.gates[*gate].duplicate);
+    let owners: Vec<usize> = owners.take(SEARCHED).collect();
+    if !owners.is_empty() {
+        let names = listed(owners.iter().map(|&gate| draft.path(gate)));
+        let found = choose(draft, found("which component?"), end, text, &owners);
+        return found.otherwise(format!("gates of this name: {names}"));
     }
     if draft.component(&text.value).is_some() {
-        if !may_search {
-            return RULE.at(headline, text.span, "which gate?");
-        }
-        let gates: Vec<String> = draft.gates_of(&text.value).map(|gate| draft.path_and_kind(gate)).collect();
-        let note = format!("gates of `{}`: {}", text.value, shortened(&gates));
-        return RULE.at(headline, text.span, "which gate?").note(note);
+        let gates: Vec<usize> = draft.gates_of(&text.value).collect();
+        let names: Vec<String> = gates.iter().map(|&gate| draft.path_and_kind(gate)).collect();
+        let note = format!("gates of `{}`: {}", text.value, shortened(&names));
+        return choose(draft, found("which gate?"), end, text, &gates).note(note);
     }
     let (label, help) = oddity(&text.value);
-    RULE.at(headline, text.span, label).help(help)
+    found(label).help(help).about(label)
 }
 
-/// The gates of this name, of any component.
-fn owners(draft: &Draft<'_>, gate: &str) -> Vec<usize> {
-    let is_meant = |at: &usize| draft.gates[*at].model.name.value == gate && !draft.gates[*at].duplicate;
-    (0..draft.gates.len()).filter(is_meant).collect()
-}
-
-fn without_component(
-    draft: &mut Draft<'_>,
-    headline: &str,
-    text: &Spanned<String>,
-    gate: usize,
-    owners: &[usize],
-) -> Diagnostic {
-    let found = RULE.at(headline, text.span, "which component?");
-    let paths: Vec<String> = owners.iter().map(|&gate| draft.path(gate)).collect();
-    match paths.as_slice() {
-        [only] => {
-            let was_named = std::mem::replace(&mut draft.gates[gate].named, true);
-            let label = format!("only `{}` has a gate of this name", draft.component_name(gate));
-            let found = found.label(draft.gates[gate].model.name.span, label);
-            let (help, edit) = (format!("write `{only}`"), rewritten(draft, text, only));
-            if was_named { found.suggest(help, [edit]) } else { found.propose(help, [edit]) }
-        }
-        [_, _] | [_, _, _] => {
-            found.choose(("write ", ""), paths.iter().map(|path| (path.as_str(), rewritten(draft, text, path))))
-        }
-        _ => found.note(format!("gates of this name: {}", listed(&paths))),
+/// Proposes those of some gates that fit the other end, and of these the unconnected ones, if there are any.
+fn choose(draft: &mut Draft<'_>, found: Diagnostic, end: End, text: &Spanned<String>, gates: &[usize]) -> Diagnostic {
+    let fitting: Vec<usize> = gates.iter().copied().filter(|gate| draft.fits(end, *gate)).collect();
+    let open: Vec<usize> = fitting.iter().copied().filter(|gate| !draft.gates[*gate].named).collect();
+    let best = if open.is_empty() { &fitting } else { &open };
+    if best.len() > MOST {
+        return found;
     }
-}
-
-/// The replacement of an end.
-fn rewritten(draft: &Draft<'_>, text: &Spanned<String>, end: &str) -> Edit {
-    Edit::new(text.span, draft.sources.quoted_as(text.span, end))
-}
-
-/// Corrects an end with another separator or with spaces. Returns the corrected end, and a label that names the
-/// mistake.
-fn respelt(text: &str) -> Option<(String, String)> {
-    let separator = ["->", "::", "/", ":", " . ", " .", ". "].into_iter().find(|separator| text.contains(separator))?;
-    let mended = text.split(separator).map(str::trim).collect::<Vec<_>>().join(".");
-    parts(&mended)?;
-    let label = match separator.trim() {
-        "." => "a space beside the dot".to_owned(),
-        other => format!("`{other}` instead of a dot"),
+    best.iter().for_each(|gate| draft.gates[*gate].named = true);
+    let paths: Vec<String> = best.iter().map(|&gate| draft.path(gate)).collect();
+    let edit = |path: &str| Edit::new(text.span, draft.sources.quoted_as(text.span, path));
+    let found = match best.as_slice() {
+        [only] => found.label(draft.gates[*only].model.name.span, "this gate fits"),
+        _ => found,
     };
-    Some((mended, label))
+    let mut found = found.choose(("write ", ""), paths.iter().map(|path| (path.as_str(), edit(path))));
+    if open.is_empty() {
+        found.doubt();
+    }
+    found
 }
 
 /// Returns the label and the help for an end whose mistake nothing else explains.
 fn oddity(text: &str) -> (&'static str, &'static str) {
-    let dots = text.matches('.').count();
-    match text {
-        _ if text.contains('*') => ("no wildcards", "write one connection for each gate"),
-        _ if text.ends_with('.') => ("no gate after the dot", "write the gate after the dot"),
-        _ if text.starts_with('.') => ("no component before the dot", "write the component before the dot"),
-        _ if dots > 1 => ("more than one dot", "write the component and its gate, with one dot between them"),
-        _ if dots == 0 => ("no dot", "write the component, a dot and its gate"),
-        _ => ("not two names", "write the component, a dot and its gate"),
-    }
+    let label = match text {
+        _ if text.contains('*') => return ("no wildcards", "each gate has a connection of its own"),
+        _ if text.ends_with('.') => "no gate after the dot",
+        _ if text.starts_with('.') => "no component before the dot",
+        _ if text.contains('/') => "a slash, no dot",
+        _ if text.matches('.').count() > 1 => "more than one dot",
+        _ if !text.contains('.') => "no dot",
+        _ => "not two names",
+    };
+    (label, FORM)
 }
 
 #[cfg(test)]
@@ -178,17 +201,17 @@ mod tests {
         rule_example(
             &RULE,
             expect![[r#"
-            error: [SCL0503] a connection end is written `component.gate`
-             --> topology.yaml:9:6
-              |
-            4 |       - measurements: pub
-              |         ------------ only `sensor` has a gate of this name
-            ...
-            9 |   - [measurements, controller.sensor]
-              |      ^^^^^^^^^^^^ which component?
-              |
-              = help: write `sensor.measurements`
-        "#]],
+                error: [SCL0503] a connection end is written `component.gate`
+                 --> topology.yaml:9:6
+                  |
+                4 |       - measurements: pub
+                  |         ------------ this gate fits
+                ...
+                9 |   - [measurements, controller.sensor]
+                  |      ^^^^^^^^^^^^ which component?
+                  |
+                  = help: write `sensor.measurements`
+            "#]],
         );
     }
 
@@ -202,16 +225,16 @@ mod tests {
         };
         let told: String = ends.iter().map(|end| format!("{end:8} {}\n", advice(end))).collect();
         expect![[r#"
-            a.b.c    SCL0503 a connection end is written `component.gate` [write the component and its gate, with one dot between them]; SCL0501 unknown component `x` []
+            a.b.c    SCL0503 a connection end is written `component.gate` [an end is the name of a component, a dot and the name of one of its gates]; SCL0501 unknown component `x` []
             ui/ask   SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
             ui::ask  SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
-            ui->ask  SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
+            ui->ask  SCL0503 a connection end is written `component.gate` [an end is the name of a component, a dot and the name of one of its gates]; SCL0501 unknown component `x` []
             ui . ask SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
-            ui.      SCL0503 a connection end is written `component.gate` [write the gate after the dot]; SCL0501 unknown component `x` []
-            .ask     SCL0503 a connection end is written `component.gate` [write the component before the dot]; SCL0501 unknown component `x` []
-            ui.*     SCL0503 a connection end is written `component.gate` [write one connection for each gate]; SCL0501 unknown component `x` []
-            ui       SCL0503 a connection end is written `component.gate` []; SCL0501 unknown component `x` []
-            nothing  SCL0503 a connection end is written `component.gate` [write the component, a dot and its gate]; SCL0501 unknown component `x` []
+            ui.      SCL0503 a connection end is written `component.gate` [an end is the name of a component, a dot and the name of one of its gates]; SCL0501 unknown component `x` []
+            .ask     SCL0503 a connection end is written `component.gate` [an end is the name of a component, a dot and the name of one of its gates]; SCL0501 unknown component `x` []
+            ui.*     SCL0503 a connection end is written `component.gate` [each gate has a connection of its own]; SCL0501 unknown component `x` []
+            ui       SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
+            nothing  SCL0503 a connection end is written `component.gate` [an end is the name of a component, a dot and the name of one of its gates]; SCL0501 unknown component `x` []
         "#]].assert_eq(&told);
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! A part that a rule rejected is `None` here, and later rules pass over it, so that one mistake is reported once.
 
+use super::message_type::differ;
 use crate::model::{ComponentModel, ConnectionModel, GateModel, Model};
 use crate::source::{Sources, Span, Spanned};
 use crate::topology::{Codec, DeclaredOptions, GateKind, Payload};
@@ -27,6 +28,7 @@ pub(super) struct Draft<'m> {
     searches_left: usize,
     components_by_name: HashMap<&'m str, Vec<usize>>,
     gate_by_name: HashMap<(&'m str, &'m str), usize>,
+    gates_by_name: HashMap<&'m str, Vec<usize>>,
 }
 
 /// A component. If it is declared twice, it occurs twice.
@@ -43,6 +45,8 @@ pub(super) struct DraftGate<'m> {
     pub(super) kind: Option<GateKind>,
     /// `None` if the type is unusable; [`Payload::Bytes`] if there is none.
     pub(super) payload: Option<Payload>,
+    /// Whether the number of types does not suit the kind.
+    pub(super) is_misfit: bool,
     /// The gate that the type was taken over from, if it was.
     pub(super) payload_from: Option<usize>,
     /// The gate's own codec, or the one taken over.
@@ -52,8 +56,10 @@ pub(super) struct DraftGate<'m> {
     pub(super) options: DeclaredOptions,
     /// Whether an earlier gate of the component has its name.
     pub(super) duplicate: bool,
-    /// Whether a connection names the gate, whether or not the connection is valid.
+    /// Whether a connection names the gate or may mean it, whether or not the connection is valid.
     pub(super) named: bool,
+    /// How many ends of connections name the gate.
+    pub(super) uses: usize,
 }
 
 /// A connection.
@@ -78,6 +84,7 @@ impl<'m> Draft<'m> {
             searches_left: searches(model),
             components_by_name: HashMap::new(),
             gate_by_name: HashMap::new(),
+            gates_by_name: HashMap::new(),
         };
         for component in &model.components {
             draft.add_component(component);
@@ -92,6 +99,7 @@ impl<'m> Draft<'m> {
         for gate in &model.gates {
             let at = self.gates.len();
             let first = *self.gate_by_name.entry((&model.name.value, &gate.name.value)).or_insert(at);
+            self.gates_by_name.entry(&gate.name.value).or_default().push(at);
             self.gates.push(DraftGate::new(index, gate, first != at));
         }
         self.components.push(DraftComponent { model, gates: (first_gate..self.gates.len()).collect() });
@@ -119,6 +127,22 @@ impl<'m> Draft<'m> {
     /// A gate by its names; of a component that is declared twice, a gate of either declaration.
     pub(super) fn gate(&self, component: &str, gate: &str) -> Option<usize> {
         self.gate_by_name.get(&(component, gate)).copied()
+    }
+
+    /// The gate that an end names: `component.gate`.
+    pub(super) fn find(&self, end: &str) -> Option<usize> {
+        let (component, gate) = end.split_once('.')?;
+        self.gate(component, gate)
+    }
+
+    /// The gates of this name, of any component.
+    pub(super) fn gates_named(&self, gate: &str) -> &[usize] {
+        self.gates_by_name.get(gate).map_or(&[], Vec::as_slice)
+    }
+
+    /// How many connections name a gate of a component.
+    pub(super) fn uses_of(&self, component: &str) -> usize {
+        self.gates_of(component).map(|gate| self.gates[gate].uses).sum()
     }
 
     /// The gates of all declarations of a component, without repeated names.
@@ -158,13 +182,20 @@ impl<'m> Draft<'m> {
         links
     }
 
-    /// Whether the kind of a gate fits that at the other end of a connection, as far as both are known.
+    /// Whether a gate fits that at the other end of a connection, as far as both are known.
     pub(super) fn fits(&self, [link, end]: [usize; 2], gate: usize) -> bool {
-        let other = self.links[link].ends[1 - end].and_then(|other| self.gates[other].kind);
-        match (other, self.gates[gate].kind) {
-            (Some(other), Some(kind)) => kind == other.opposite(),
+        self.links[link].ends[1 - end].is_none_or(|other| self.may_connect(other, gate))
+    }
+
+    /// Whether kinds and types of two gates fit each other, as far as they are known.
+    pub(super) fn may_connect(&self, one: usize, two: usize) -> bool {
+        let (one, two) = (&self.gates[one], &self.gates[two]);
+        let kinds_fit = match (one.kind, two.kind) {
+            (Some(one), Some(two)) => one == two.opposite(),
             _ => true,
-        }
+        };
+        let types = [one, two].map(|gate| gate.payload.as_ref().map(Payload::types).unwrap_or_default());
+        kinds_fit && !types[0].iter().zip(&types[1]).any(|(one, two)| differ(one, two))
     }
 
     /// A gate in quotes with its kind, if that is known: `` `commands` (rep)``.
@@ -206,12 +237,14 @@ impl<'m> DraftGate<'m> {
             model,
             kind: None,
             payload: Some(Payload::Bytes),
+            is_misfit: false,
             payload_from: None,
             codec: None,
             codec_broken: false,
             options: DeclaredOptions::default(),
             duplicate,
             named: false,
+            uses: 0,
         }
     }
 

@@ -1,9 +1,10 @@
 //! SCL0301: two components of one name. SCL0302: two gates of one name in a component. A connection could not say which
 //! it means.
 
+use super::draft::Draft;
+use super::ends::{End, Fault, MOST_PLACES};
 use super::named::{Name, with_first};
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
-use crate::model::Model;
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 
 /// SCL0301.
 pub(crate) const COMPONENT: Rule = Rule {
@@ -37,19 +38,76 @@ pub(crate) const GATE: Rule = Rule {
 ",
 };
 
-pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
-    for (first, second) in repeated(model.components.iter().map(|component| &component.name)) {
+/// Maximum number of repeated names for which a new name is searched among those that connections use.
+const MOST_SEARCHES: usize = 16;
+
+/// Maximum number of unknown names, and of the places of each, that such a search looks at.
+const SEARCHED: usize = 32;
+
+/// Reports repeated names. If connections use an unknown name that fits the second declaration, it is proposed, and is
+/// not a fault of the connections.
+pub(super) fn check<'m>(draft: &Draft<'m>, faults: &mut Vec<(Fault<'m>, Vec<End>)>, problems: &mut Diagnostics) {
+    let mut searches = MOST_SEARCHES;
+    let components = &draft.model.components;
+    for (first, second) in repeated(components.iter().map(|component| &component.name)) {
         let headline = format!("component `{}` is declared twice", second.value);
         let found = report(&COMPONENT, headline, first, second);
-        problems.push(found.help("rename one of them, or merge their gates"));
+        let mut all = components.iter().filter(|_| searches > 0);
+        let declared = all.find(|component| std::ptr::eq(&component.name, second));
+        let fits = |fault: &Fault<'m>, ends: &[End]| match fault {
+            Fault::Component(_) => ends.iter().take(SEARCHED).all(|&[link, end]| {
+                let gate = draft.links[link].model.ends[end].value.split_once('.').map(|(_, gate)| gate);
+                declared
+                    .is_some_and(|component| component.gates.iter().any(|own| Some(own.name.value.as_str()) == gate))
+            }),
+            _ => false,
+        };
+        let found = rename(draft, found, second, take(faults, &mut searches, fits));
+        problems
+            .push(found.otherwise("a component is declared once, with all its gates; another one has another name"));
     }
-    for component in &model.components {
-        for (first, second) in repeated(component.gates.iter().map(|gate| &gate.name)) {
-            let headline = format!("component `{}` declares gate `{}` twice", component.name.value, second.value);
+    for component in &draft.components {
+        let gates = &component.model.gates;
+        for (first, second) in repeated(gates.iter().map(|gate| &gate.name)) {
+            let owner = &component.model.name.value;
+            let headline = format!("component `{owner}` declares gate `{}` twice", second.value);
             let found = report(&GATE, headline, first, second);
-            problems.push(found.help("gate names are unique within a component, whatever their kind"));
+            let at = gates
+                .iter()
+                .filter(|_| searches > 0)
+                .position(|gate| std::ptr::eq(&gate.name, second))
+                .map(|at| component.gates[at]);
+            let fits = |fault: &Fault<'m>, ends: &[End]| match fault {
+                Fault::Gate(other, _) => {
+                    owner == other && at.is_some_and(|at| ends.iter().take(SEARCHED).all(|end| draft.fits(*end, at)))
+                }
+                _ => false,
+            };
+            let found = rename(draft, found, second, take(faults, &mut searches, fits));
+            problems.push(found.otherwise("gate names are unique within a component, whatever their kind"));
         }
     }
+}
+
+/// Takes the only fault that fits, if there is one.
+fn take<'m>(
+    faults: &mut Vec<(Fault<'m>, Vec<End>)>,
+    searches: &mut usize,
+    fits: impl Fn(&Fault<'m>, &[End]) -> bool,
+) -> Option<(Fault<'m>, Vec<End>)> {
+    *searches = searches.checked_sub(1)?;
+    let mut fitting = (0..faults.len().min(SEARCHED)).filter(|&at| fits(&faults[at].0, &faults[at].1));
+    let only = fitting.next()?;
+    fitting.next().is_none().then(|| faults.remove(only))
+}
+
+/// Proposes the name that connections use for the second declaration.
+fn rename(draft: &Draft<'_>, found: Diagnostic, second: &Name, fault: Option<(Fault<'_>, Vec<End>)>) -> Diagnostic {
+    let Some((Fault::Component(name) | Fault::Gate(_, name), ends)) = fault else { return found };
+    let help = format!("rename the second one to `{name}`, which the connections name");
+    let edit = Edit::new(second.span, draft.sources.quoted_as(second.span, name));
+    let places = ends.iter().take(MOST_PLACES).map(|&[link, end]| draft.links[link].model.ends[end].span);
+    found.propose(help, [edit]).labels(places.map(|place| (place, "not declared")))
 }
 
 /// Returns each repeated name, preceded by its first occurrence.
@@ -73,17 +131,17 @@ mod tests {
         rule_example(
             &COMPONENT,
             expect![[r#"
-            error: [SCL0301] component `sensor` is declared twice
-             --> topology.yaml:4:11
-              |
-            2 |   - name: sensor
-              |           ------ first declaration
-            3 |     gates: []
-            4 |   - name: sensor
-              |           ^^^^^^ second declaration
-              |
-              = help: rename one of them, or merge their gates
-        "#]],
+                error: [SCL0301] component `sensor` is declared twice
+                 --> topology.yaml:4:11
+                  |
+                2 |   - name: sensor
+                  |           ------ first declaration
+                3 |     gates: []
+                4 |   - name: sensor
+                  |           ^^^^^^ second declaration
+                  |
+                  = help: a component is declared once, with all its gates; another one has another name
+            "#]],
         );
     }
 

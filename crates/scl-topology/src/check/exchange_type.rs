@@ -3,7 +3,7 @@
 
 use super::draft::Draft;
 use super::message_type::differ;
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::source::Span;
 use crate::topology::{Payload, TypeName};
 
@@ -78,9 +78,11 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
         let swapped = asked.0.dotted() == answered.1.dotted() && asked.1.dotted() == answered.0.dotted();
         match (requests, replies) {
             (false, false) => {}
-            _ if swapped => problems.push(swap(span, &draft.path(asker), asked, answered)),
-            (false, true) => problems.push(reply(span, asked, answered)),
-            (true, same) => problems.push(request(span, asked, answered, !same)),
+            _ if swapped => problems.push(with_ways(draft, swap(span, asked, answered), [asker, answerer])),
+            (false, true) => problems.push(with_ways(draft, reply(span, asked, answered), [asker, answerer])),
+            (true, same) => {
+                problems.push(with_ways(draft, request(span, asked, answered, !same), [asker, answerer]));
+            }
         }
     }
 }
@@ -92,6 +94,21 @@ fn exchange<'a>(draft: &'a Draft<'_>, gate: usize) -> Option<Exchange<'a>> {
     }
 }
 
+/// Suggests the types of one end at the other.
+fn with_ways(draft: &Draft<'_>, found: Diagnostic, [asker, answerer]: [usize; 2]) -> Diagnostic {
+    let ways = [[asker, answerer], [answerer, asker]];
+    ways.into_iter().fold(found, |found, [gate, other]| {
+        let types = draft.gates[other].payload.as_ref().map(ToString::to_string);
+        match (&draft.gates[gate].model.payload, types) {
+            (Some(own), Some(types)) => {
+                let edit = Edit::new(own.span, draft.sources.quoted_as(own.span, &types));
+                found.suggest(format!("write `{types}` at `{}`", draft.path(gate)), [edit])
+            }
+            _ => found,
+        }
+    })
+}
+
 fn request(span: Span, asked: Exchange<'_>, answered: Exchange<'_>, replies_agree: bool) -> Diagnostic {
     let label = format!("`{}` is asked, `{}` is understood", asked.0.dotted(), answered.0.dotted());
     let found = REQUESTS_DIFFER
@@ -99,8 +116,8 @@ fn request(span: Span, asked: Exchange<'_>, answered: Exchange<'_>, replies_agre
         .label(answered.0.span(), "the replier understands this")
         .label(asked.0.span(), "the requester sends this");
     match replies_agree {
-        true => found.help(format!("the reply types agree (`{}`)", asked.1.dotted())),
-        false => found.help(format!("the reply types differ too: {}", replies(asked, answered))),
+        true => found.note(format!("the reply types agree (`{}`)", asked.1.dotted())),
+        false => found.note(format!("the reply types differ too: {}", replies(asked, answered))),
     }
 }
 
@@ -109,7 +126,7 @@ fn reply(span: Span, asked: Exchange<'_>, answered: Exchange<'_>) -> Diagnostic 
         .at("the reply types of this connection differ", span, replies(asked, answered))
         .label(answered.1.span(), "the replier answers this")
         .label(asked.1.span(), "the requester expects this")
-        .help(format!("the request types agree (`{}`)", asked.0.dotted()))
+        .note(format!("the request types agree (`{}`)", asked.0.dotted()))
 }
 
 /// Says how the replies differ, both for their own report and for the report about the requests.
@@ -117,13 +134,13 @@ fn replies(asked: Exchange<'_>, answered: Exchange<'_>) -> String {
     format!("`{}` is answered, `{}` is expected", answered.1.dotted(), asked.1.dotted())
 }
 
-fn swap(span: Span, asker: &str, asked: Exchange<'_>, answered: Exchange<'_>) -> Diagnostic {
+fn swap(span: Span, asked: Exchange<'_>, answered: Exchange<'_>) -> Diagnostic {
     let (request, reply) = (answered.0.dotted(), answered.1.dotted());
     SWAPPED_TYPES
         .at("request and reply types are swapped on one end", span, "")
         .label(answered.0.span().to(answered.1.span()), format!("the replier takes `{request}` and answers `{reply}`"))
         .label(asked.0.span().to(asked.1.span()), "the requester has them the other way round")
-        .help(format!("on both ends the left type is what the `req` gate sends; swap them on `{asker}`"))
+        .note("on both ends the left type is what the `req` gate sends")
 }
 
 #[cfg(test)]
@@ -137,20 +154,22 @@ mod tests {
         rule_example(
             &REQUESTS_DIFFER,
             expect![[r#"
-            error: [SCL0602] the request types of this connection differ
-             --> topology.yaml:9:5
-              |
-            4 |       - commands: {rep: Command -> Status}
-              |                         ------- the replier understands this
-            ...
-            7 |       - commands: {req: Cmd -> Status}
-              |                         --- the requester sends this
-            8 | connections:
-            9 |   - [controller.commands, ui.commands]
-              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `Cmd` is asked, `Command` is understood
-              |
-              = help: the reply types agree (`Status`)
-        "#]],
+                error: [SCL0602] the request types of this connection differ
+                 --> topology.yaml:9:5
+                  |
+                4 |       - commands: {rep: Command -> Status}
+                  |                         ------- the replier understands this
+                ...
+                7 |       - commands: {req: Cmd -> Status}
+                  |                         --- the requester sends this
+                8 | connections:
+                9 |   - [controller.commands, ui.commands]
+                  |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `Cmd` is asked, `Command` is understood
+                  |
+                  = help: write `Command -> Status` at `ui.commands`
+                  = help: write `Cmd -> Status` at `controller.commands`
+                  = note: the reply types agree (`Status`)
+            "#]],
         );
     }
 
@@ -159,20 +178,22 @@ mod tests {
         rule_example(
             &REPLIES_DIFFER,
             expect![[r#"
-            error: [SCL0603] the reply types of this connection differ
-             --> topology.yaml:9:5
-              |
-            4 |       - commands: {rep: Command -> Status}
-              |                                    ------ the replier answers this
-            ...
-            7 |       - commands: {req: Command -> Ack}
-              |                                    --- the requester expects this
-            8 | connections:
-            9 |   - [controller.commands, ui.commands]
-              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `Status` is answered, `Ack` is expected
-              |
-              = help: the request types agree (`Command`)
-        "#]],
+                error: [SCL0603] the reply types of this connection differ
+                 --> topology.yaml:9:5
+                  |
+                4 |       - commands: {rep: Command -> Status}
+                  |                                    ------ the replier answers this
+                ...
+                7 |       - commands: {req: Command -> Ack}
+                  |                                    --- the requester expects this
+                8 | connections:
+                9 |   - [controller.commands, ui.commands]
+                  |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `Status` is answered, `Ack` is expected
+                  |
+                  = help: write `Command -> Status` at `ui.commands`
+                  = help: write `Command -> Ack` at `controller.commands`
+                  = note: the request types agree (`Command`)
+            "#]],
         );
     }
 
@@ -181,20 +202,22 @@ mod tests {
         rule_example(
             &SWAPPED_TYPES,
             expect![[r#"
-            error: [SCL0604] request and reply types are swapped on one end
-             --> topology.yaml:9:5
-              |
-            4 |       - commands: {rep: Command -> Status}
-              |                         ----------------- the replier takes `Command` and answers `Status`
-            ...
-            7 |       - commands: {req: Status -> Command}
-              |                         ----------------- the requester has them the other way round
-            8 | connections:
-            9 |   - [controller.commands, ui.commands]
-              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
-              |
-              = help: on both ends the left type is what the `req` gate sends; swap them on `ui.commands`
-        "#]],
+                error: [SCL0604] request and reply types are swapped on one end
+                 --> topology.yaml:9:5
+                  |
+                4 |       - commands: {rep: Command -> Status}
+                  |                         ----------------- the replier takes `Command` and answers `Status`
+                ...
+                7 |       - commands: {req: Status -> Command}
+                  |                         ----------------- the requester has them the other way round
+                8 | connections:
+                9 |   - [controller.commands, ui.commands]
+                  |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+                  |
+                  = help: write `Command -> Status` at `ui.commands`
+                  = help: write `Status -> Command` at `controller.commands`
+                  = note: on both ends the left type is what the `req` gate sends
+            "#]],
         );
     }
 }

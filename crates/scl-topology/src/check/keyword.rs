@@ -2,6 +2,7 @@
 //! usable. SCL0315: a keyword of C++ or Python: the same file is read by programs in these languages.
 
 use super::named::{Noun, is_well_formed, names};
+use super::rename::Renames;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::keywords::{is_cpp, is_python};
 use crate::model::Model;
@@ -54,8 +55,8 @@ const ALTERNATIVES: [(&str, &str); 12] = [
     ("override", "manual"),
 ];
 
-pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
-    check_foreign(model, problems);
+pub(super) fn check<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
+    check_foreign(model, renames, problems);
     for (noun, name) in names(model).filter(|(noun, _)| *noun != Noun::System) {
         if is_unusable(noun, &name.value) {
             problems.push(unusable(noun, name));
@@ -64,7 +65,7 @@ pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
     for component in &model.components {
         for gate in component.gates.iter().filter(|gate| is_well_formed(&gate.name.value)) {
             if is_keyword(&gate_field(&gate.name.value)) {
-                problems.push(escaped(&component.name.value, &gate.name));
+                problems.push(escaped(renames, &component.name.value, &gate.name));
             }
         }
     }
@@ -94,18 +95,18 @@ fn unusable(noun: Noun, name: &Spanned<String>) -> Diagnostic {
     let others: Vec<&str> = ["crate", "self", "Self", "super", "_"].into_iter().filter(|other| other != word).collect();
     UNUSABLE
         .at(headline, name.span, "")
-        .help("choose another name")
+        .help("the name is any other word of letters, digits, `_` and `-`")
         .note(format!("not usable either: {}", scl_text::list::listed(others)))
 }
 
-fn escaped(component: &str, name: &Spanned<String>) -> Diagnostic {
+fn escaped<'m>(renames: &Renames<'m>, component: &str, name: &'m Spanned<String>) -> Diagnostic {
     let field = gate_field(&name.value);
     let label = format!("in Rust code you will have to write `{}.r#{field}`", gate_field(component));
     let other = ALTERNATIVES.iter().find(|(word, _)| *word == field);
     let other = other.map_or_else(|| format!("{field}_"), |(_, other)| (*other).to_owned());
     OF_RUST
         .at(format!("gate name `{}` is a Rust keyword", name.value), name.span, label)
-        .help(format!("choose another name, for example `{other}`"))
+        .suggest(format!("choose another name, for example `{other}`"), renames.edits(Noun::Gate, name, &other))
         .note(
             "checked against the keywords of editions 2015 to 2024 and the reserved ones (`gen`, `try`, `yield`, ...)",
         )
@@ -128,7 +129,7 @@ pub(crate) const FOREIGN: Rule = Rule {
 ",
 };
 
-fn check_foreign(model: &Model, problems: &mut Diagnostics) {
+fn check_foreign<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
     for (noun, name) in names(model).filter(|(_, name)| is_well_formed(&name.value)) {
         let field = gate_field(&name.value);
         let spellings = match noun {
@@ -139,12 +140,17 @@ fn check_foreign(model: &Model, problems: &mut Diagnostics) {
             Noun::Gate => vec![field],
             Noun::Component => vec![field, component_type(&name.value)],
         };
-        problems.extend(spellings.iter().find_map(|spelling| find_foreign(noun, name, spelling)));
+        problems.extend(spellings.iter().find_map(|spelling| find_foreign(renames, noun, name, spelling)));
     }
 }
 
 /// `spelling` is the name in the case of a field, a module or a class.
-fn find_foreign(noun: Noun, name: &Spanned<String>, spelling: &str) -> Option<Diagnostic> {
+fn find_foreign<'m>(
+    renames: &Renames<'m>,
+    noun: Noun,
+    name: &'m Spanned<String>,
+    spelling: &str,
+) -> Option<Diagnostic> {
     let start = format!("{} name `{}`", noun.word(), name.value);
     let languages = [("C++", is_cpp(spelling)), ("Python", is_python(spelling))];
     let languages: Vec<&str> = languages.into_iter().filter(|(_, has_it)| *has_it).map(|(name, _)| name).collect();
@@ -162,7 +168,9 @@ fn find_foreign(noun: Noun, name: &Spanned<String>, spelling: &str) -> Option<Di
         [] => spelling.replace("__", "_"),
         _ => format!("{}_{}", spelling.to_ascii_lowercase(), noun.word()),
     };
-    let found = FOREIGN.at(headline, name.span, label).help(format!("choose another name, for example `{another}`"));
+    let found = FOREIGN
+        .at(headline, name.span, label)
+        .suggest(format!("choose another name, for example `{another}`"), renames.edits(noun, name, &another));
     Some(found.note("programs in C++ and Python read the same file"))
 }
 
@@ -200,7 +208,7 @@ mod tests {
                 2 |   - name: crate
                   |           ^^^^^
                   |
-                  = help: choose another name
+                  = help: the name is any other word of letters, digits, `_` and `-`
                   = note: not usable either: `self`, `Self`, `super`, `_`
             "#]],
         );

@@ -2,7 +2,7 @@
 //! if it alone differs from all its peers.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::topology::{GateKind, Payload, TypeName};
 use scl_text::list::listed;
 use std::collections::BTreeMap;
@@ -89,9 +89,34 @@ fn connection_differs(draft: &Draft<'_>, hub: usize, peers: &[Peer]) -> Diagnost
     };
     let label = format!("`{sent}` is sent, `{expected}` is expected");
     let found = with_type(draft, RULE.at(headline, draft.links[link].model.span, label), hub);
-    with_peers(draft, found, peers)
-        .help(format!("use `{sent}` on both ends, if `{}` takes it as it is", draft.component_name(sink)))
-        .help("or put a component between them that converts")
+    let found = with_peers(draft, found, peers);
+    let [sent_by, taken_by] =
+        if is_source(draft, hub) { [vec![source], ends_of(peers)] } else { [ends_of(peers), vec![sink]] };
+    let found = with_type_at(draft, found, &taken_by, sent);
+    let found = with_type_at(draft, found, &sent_by, expected);
+    found.otherwise("both ends have one type, or a component between them converts")
+}
+
+fn ends_of(peers: &[Peer]) -> Vec<usize> {
+    peers.iter().map(|&(_, peer)| peer).collect()
+}
+
+/// Suggests another type for some gates, unless one of them takes its type from elsewhere.
+fn with_type_at(draft: &Draft<'_>, found: Diagnostic, gates: &[usize], to: &str) -> Diagnostic {
+    let edits: Option<Vec<Edit>> = gates.iter().map(|&gate| retyped(draft, gate, to)).collect();
+    match edits.filter(|edits| !edits.is_empty()) {
+        Some(edits) => {
+            let paths = listed(gates.iter().map(|&gate| draft.path(gate)));
+            found.suggest(format!("write `{to}` at {paths}"), edits)
+        }
+        None => found,
+    }
+}
+
+/// The change of a gate's own type.
+fn retyped(draft: &Draft<'_>, gate: usize, to: &str) -> Option<Edit> {
+    let written = draft.gates[gate].model.payload.as_ref()?;
+    Some(Edit::new(written.span, draft.sources.quoted_as(written.span, to)))
 }
 
 fn hub_differs(draft: &Draft<'_>, hub: usize, peers: &[Peer]) -> Diagnostic {
@@ -104,7 +129,12 @@ fn hub_differs(draft: &Draft<'_>, hub: usize, peers: &[Peer]) -> Diagnostic {
     let place = message(draft, hub).map_or(draft.gates[hub].model.span, TypeName::span);
     let found = with_peers(draft, RULE.at(headline, place, verb), peers);
     let paths = peers.iter().map(|&(_, peer)| draft.path(peer));
-    found.help(format!("use `{theirs}` for `{path}` too")).note(format!("the other ends agree: {}", listed(paths)))
+    let found = found.note(format!("the other ends agree: {}", listed(paths)));
+    match retyped(draft, hub, theirs) {
+        Some(edit) => found.suggest(format!("write `{theirs}` at `{path}`"), [edit]),
+        None => found,
+    }
+    .otherwise("both ends have one type, or a component between them converts")
 }
 
 fn with_peers(draft: &Draft<'_>, found: Diagnostic, peers: &[Peer]) -> Diagnostic {
@@ -145,21 +175,21 @@ mod tests {
         rule_example(
             &RULE,
             expect![[r#"
-            error: [SCL0601] the two ends of this connection use different message types
-             --> topology.yaml:9:5
-              |
-            4 |       - attitude: {pub: Attitude}
-              |                         -------- sent
-            ...
-            7 |       - attitude: {sub: Telemetry}
-              |                         --------- expected
-            8 | connections:
-            9 |   - [autopilot.attitude, blackbox.attitude]
-              |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `Attitude` is sent, `Telemetry` is expected
-              |
-              = help: use `Attitude` on both ends, if `blackbox` takes it as it is
-              = help: or put a component between them that converts
-        "#]],
+                error: [SCL0601] the two ends of this connection use different message types
+                 --> topology.yaml:9:5
+                  |
+                4 |       - attitude: {pub: Attitude}
+                  |                         -------- sent
+                ...
+                7 |       - attitude: {sub: Telemetry}
+                  |                         --------- expected
+                8 | connections:
+                9 |   - [autopilot.attitude, blackbox.attitude]
+                  |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ `Attitude` is sent, `Telemetry` is expected
+                  |
+                  = help: write `Attitude` at `blackbox.attitude`
+                  = help: write `Telemetry` at `autopilot.attitude`
+            "#]],
         );
     }
 
@@ -188,24 +218,24 @@ connections:
             "SCL0601",
             yaml.trim_start(),
             expect![[r#"
-            error: [SCL0601] `gps.fix` sends `Fix`, but all its receivers expect `Place`
-              --> topology.yaml:4:20
-               |
-             4 |       - fix: {pub: Fix}
-               |                    ^^^ sent
-            ...
-             7 |       - fix: {sub: Place}
-               |                    ----- expected
-            ...
-            10 |       - fix: {sub: Place}
-               |                    ----- expected
-            ...
-            13 |       - fix: {sub: Place}
-               |                    ----- expected
-               |
-               = help: use `Place` for `gps.fix` too
-               = note: the other ends agree: `log.fix`, `view.fix`, `pilot.fix`
-        "#]],
+                error: [SCL0601] `gps.fix` sends `Fix`, but all its receivers expect `Place`
+                  --> topology.yaml:4:20
+                   |
+                 4 |       - fix: {pub: Fix}
+                   |                    ^^^ sent
+                ...
+                 7 |       - fix: {sub: Place}
+                   |                    ----- expected
+                ...
+                10 |       - fix: {sub: Place}
+                   |                    ----- expected
+                ...
+                13 |       - fix: {sub: Place}
+                   |                    ----- expected
+                   |
+                   = help: write `Place` at `gps.fix`
+                   = note: the other ends agree: `log.fix`, `view.fix`, `pilot.fix`
+            "#]],
         );
     }
 
@@ -234,24 +264,23 @@ connections:
             "SCL0601",
             yaml.trim_start(),
             expect![[r#"
-            error: [SCL0601] 2 connections of `gps.fix` use different message types at their two ends
-              --> topology.yaml:15:5
-               |
-             4 |       - fix: {pub: Fix}
-               |                    --- sent
-            ...
-             7 |       - fix: {sub: Place}
-               |                    ----- expected
-            ...
-            13 |       - fix: {sub: Position}
-               |                    -------- expected
-            14 | connections:
-            15 |   - [gps.fix, log.fix]
-               |     ^^^^^^^^^^^^^^^^^^ `Fix` is sent, `Place` is expected
-               |
-               = help: use `Fix` on both ends, if `log` takes it as it is
-               = help: or put a component between them that converts
-        "#]],
+                error: [SCL0601] 2 connections of `gps.fix` use different message types at their two ends
+                  --> topology.yaml:15:5
+                   |
+                 4 |       - fix: {pub: Fix}
+                   |                    --- sent
+                ...
+                 7 |       - fix: {sub: Place}
+                   |                    ----- expected
+                ...
+                13 |       - fix: {sub: Position}
+                   |                    -------- expected
+                14 | connections:
+                15 |   - [gps.fix, log.fix]
+                   |     ^^^^^^^^^^^^^^^^^^ `Fix` is sent, `Place` is expected
+                   |
+                   = help: write `Fix` at `log.fix`, `pilot.fix`
+            "#]],
         );
     }
 }

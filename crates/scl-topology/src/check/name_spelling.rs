@@ -3,6 +3,7 @@
 //! SCL0305: a name that starts with a digit or a hyphen, which no programming language can spell.
 
 use super::named::{Noun, is_allowed, may_start, names};
+use super::rename::Renames;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::model::Model;
 use crate::source::Spanned;
@@ -23,18 +24,18 @@ pub(crate) const CHARACTERS: Rule = Rule {
 ",
 };
 
-pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
+pub(super) fn check<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
     for (noun, name) in names(model) {
         if let Some(what) = forbidden(&name.value) {
-            problems.push(wrong_character(noun, name, &what));
+            problems.push(wrong_character(renames, noun, name, &what));
         }
         if let Some(letter) = name.value.chars().find(|&letter| is_foreign(letter)) {
-            problems.push(foreign_letter(noun, name, letter));
+            problems.push(foreign_letter(renames, noun, name, letter));
         }
         let first = name.value.chars().next();
         let spelt = name.value.chars().all(is_allowed) && !name.value.contains("--");
         if let Some(first) = first.filter(|&first| spelt && !may_start(first)) {
-            problems.push(wrong_start(noun, name, first));
+            problems.push(wrong_start(renames, noun, name, first));
         }
     }
 }
@@ -62,11 +63,14 @@ fn described(letter: char) -> String {
     }
 }
 
-fn wrong_character(noun: Noun, name: &Spanned<String>, what: &str) -> Diagnostic {
+fn wrong_character<'m>(renames: &Renames<'m>, noun: Noun, name: &'m Spanned<String>, what: &str) -> Diagnostic {
     let headline = format!("a {} name cannot contain {what}", noun.word());
     let found = CHARACTERS.at(headline, name.span, "allowed: a-z A-Z 0-9 _ -");
     let mended = mended(&name.value);
-    let found = if mended.is_empty() { found } else { found.help(format!("write `{mended}`")) };
+    let found = match mended.is_empty() {
+        true => found,
+        false => found.propose(format!("write `{mended}`"), renames.edits(noun, name, &mended)),
+    };
     match noun {
         Noun::System => found,
         _ if what.starts_with("two") => found.note("`--` separates the two ends in the name of a socket"),
@@ -79,11 +83,13 @@ fn wrong_character(noun: Noun, name: &Spanned<String>, what: &str) -> Diagnostic
 /// Joins the runs of ASCII letters and digits of a name with single `_`.
 fn mended(name: &str) -> String {
     let words = name.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
-    words.collect::<Vec<_>>().join("_")
+    let joined = words.collect::<Vec<_>>().join("_");
+    // A title, such as `Signal Detector`, has capitals that a name does not need.
+    if name.contains(' ') { joined.to_ascii_lowercase() } else { joined }
 }
 
 /// The usual ASCII replacements of letters that a keyboard may lack.
-const TRANSLITERATIONS: [(&str, &str); 19] = [
+const TRANSLITERATIONS: [(&str, &str); 21] = [
     ("äæ", "ae"),
     ("öø", "oe"),
     ("ü", "ue"),
@@ -103,25 +109,32 @@ const TRANSLITERATIONS: [(&str, &str); 19] = [
     ("ýÿ", "y"),
     ("ł", "l"),
     ("ř", "r"),
+    ("ﬁ", "fi"),
+    ("ﬂ", "fl"),
 ];
 
 fn is_foreign(letter: char) -> bool {
     !letter.is_ascii() && letter.is_alphabetic()
 }
 
-fn foreign_letter(noun: Noun, name: &Spanned<String>, letter: char) -> Diagnostic {
+fn foreign_letter<'m>(renames: &Renames<'m>, noun: Noun, name: &'m Spanned<String>, letter: char) -> Diagnostic {
     let code = u32::from(letter);
     let headline = format!(
         "{} name `{}` contains the letter `{letter}` (U+{code:04X}), which is not ASCII",
         noun.word(),
         name.value
     );
-    let help = retyped(&name.value).map_or("write the name in ASCII letters".to_owned(), |it| format!("write `{it}`"));
-    LETTER
+    let found = LETTER
         .at(&*headline, name.span, "allowed: a-z A-Z 0-9 _ -")
         .about(&*headline)
-        .help(help)
-        .note("names are ASCII, so that the file, the socket paths and all language bindings agree")
+        .note("names are ASCII, so that the file, the socket paths and all language bindings agree");
+    match retyped(&name.value) {
+        Some(name_in_ascii) => {
+            let edits = renames.edits(noun, name, &name_in_ascii);
+            found.propose(format!("write `{name_in_ascii}`"), edits)
+        }
+        None => found.help("a name consists of ASCII letters, digits, `_` and `-`"),
+    }
 }
 
 /// The name in ASCII, if each of its letters has a usual replacement.
@@ -162,30 +175,30 @@ const ORDINALS: [(&str, &str); 9] = [
     ("9th", "ninth"),
 ];
 
-fn wrong_start(noun: Noun, name: &Spanned<String>, first: char) -> Diagnostic {
+fn wrong_start<'m>(renames: &Renames<'m>, noun: Noun, name: &'m Spanned<String>, first: char) -> Diagnostic {
     let headline = format!("a {} name must start with a letter", noun.word());
     let start = if first == '-' { "starts with a hyphen" } else { "starts with a digit" };
     let ways = alternatives(&name.value);
-    START
-        .at(headline, name.span, start)
-        .help(ways.map_or("put a word before it".to_owned(), |it| format!("for example {it}")))
+    let found = START.at(headline, name.span, start).otherwise("a name starts with a letter or `_`");
+    let edits = |way: &str| renames.edits(noun, name, way);
+    let mut found = found.choose_all(("write ", ""), ways.iter().map(|way| (way.as_str(), edits(way))));
+    found.doubt();
+    found
 }
 
 /// Suggests other names: `2nd_sensor` could be `second_sensor` or `sensor_2`.
-fn alternatives(name: &str) -> Option<String> {
+fn alternatives(name: &str) -> Vec<String> {
     let digits: String = name.chars().take_while(char::is_ascii_digit).collect();
     let ordinal = ORDINALS.iter().find(|(short, _)| name.starts_with(short));
     let rest = ordinal.map_or(&name[digits.len()..], |(short, _)| &name[short.len()..]);
     let rest = rest.trim_matches(['_', '-']);
     let moved = match (rest.is_empty(), digits.is_empty()) {
-        (true, _) => return None,
-        (false, true) => format!("`{rest}`"),
-        (false, false) => format!("`{rest}_{digits}`"),
+        (true, _) => return Vec::new(),
+        (false, true) => rest.to_owned(),
+        (false, false) => format!("{rest}_{digits}"),
     };
-    Some(match ordinal {
-        Some((_, word)) => format!("`{word}_{rest}` or {moved}"),
-        None => moved,
-    })
+    let word = ordinal.map(|(_, word)| format!("{word}_{rest}"));
+    word.into_iter().chain([moved]).collect()
 }
 
 #[cfg(test)]
@@ -251,7 +264,7 @@ mod tests {
         expect![[r#"
             SCL0304 component name `höhensensor` contains the letter `ö` (U+00F6), which is not ASCII [write `hoehensensor`]
             SCL0304 component name `Größe` contains the letter `ö` (U+00F6), which is not ASCII [write `Groesse`]
-            SCL0304 component name `φ` contains the letter `φ` (U+03C6), which is not ASCII [write the name in ASCII letters]
+            SCL0304 component name `φ` contains the letter `φ` (U+03C6), which is not ASCII [a name consists of ASCII letters, digits, `_` and `-`]
             SCL0304 component name `cafés` contains the letter `é` (U+00E9), which is not ASCII [write `cafes`]
             SCL0304 component name `αx` contains the Greek letter `α` (U+03B1), which looks like `a` [retype the name in ASCII: `ax`]
         "#]].assert_eq(&told);
@@ -262,14 +275,14 @@ mod tests {
         rule_example(
             &START,
             expect![[r#"
-            error: [SCL0305] a component name must start with a letter
-             --> topology.yaml:2:11
-              |
-            2 |   - name: 2nd_sensor
-              |           ^^^^^^^^^^ starts with a digit
-              |
-              = help: for example `second_sensor` or `sensor_2`
-        "#]],
+                error: [SCL0305] a component name must start with a letter
+                 --> topology.yaml:2:11
+                  |
+                2 |   - name: 2nd_sensor
+                  |           ^^^^^^^^^^ starts with a digit
+                  |
+                  = help: write `second_sensor` or `sensor_2`
+            "#]],
         );
     }
 
@@ -279,10 +292,10 @@ mod tests {
         let advice = |name: &str| advice(&format!("components:\n  - name: '{name}'\n    gates: []\n"));
         let told: String = names.iter().map(|name| format!("{}\n", advice(name))).collect();
         expect![[r#"
-            SCL0305 a component name must start with a letter [for example `sensors_3`]
-            SCL0305 a component name must start with a letter [put a word before it]
-            SCL0305 a component name must start with a letter [for example `left`]
-            SCL0305 a component name must start with a letter [for example `first_row` or `row_1`]
+            SCL0305 a component name must start with a letter [write `sensors_3`]
+            SCL0305 a component name must start with a letter [a name starts with a letter or `_`]
+            SCL0305 a component name must start with a letter [write `left`]
+            SCL0305 a component name must start with a letter [write `first_row` or `row_1`]
         "#]]
         .assert_eq(&told);
     }

@@ -2,6 +2,7 @@
 //! SCL0314: a name in another style than the fields and modules of Rust.
 
 use super::named::{Noun, is_well_formed, names};
+use super::rename::Renames;
 use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::model::Model;
 use crate::rust_name::{component_type, gate_field};
@@ -39,9 +40,9 @@ const PRELUDE: [(&str, &str); 15] = [
     ("Iterator", "core::iter::Iterator"),
 ];
 
-pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
+pub(super) fn check<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
     check_prelude(model, problems);
-    check_snake_case(model, problems);
+    check_snake_case(model, renames, problems);
 }
 
 fn check_prelude(model: &Model, problems: &mut Diagnostics) {
@@ -73,12 +74,16 @@ pub(crate) const NOT_SNAKE_CASE: Rule = Rule {
 ",
 };
 
-fn check_snake_case(model: &Model, problems: &mut Diagnostics) {
+fn check_snake_case<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
     for (noun, name) in names(model).filter(|(noun, name)| *noun != Noun::System && is_well_formed(&name.value)) {
         let snake = gate_field(&name.value);
         if snake != name.value {
             let headline = format!("{} name `{}` is not snake_case", noun.word(), name.value);
-            problems.push(NOT_SNAKE_CASE.at(headline, name.span, "").help(format!("write `{snake}`")));
+            problems.push(
+                NOT_SNAKE_CASE
+                    .at(headline, name.span, "")
+                    .suggest(format!("write `{snake}`"), renames.edits(noun, name, &snake)),
+            );
         }
     }
 }

@@ -2,7 +2,10 @@
 //! every other connection.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use super::fitting_gate::FittingGates;
+use super::unconnected::type_text;
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
+use crate::grammar;
 use crate::topology::GateKind;
 
 /// SCL0505.
@@ -50,6 +53,7 @@ pub(crate) const OTHER_PATTERN: Rule = Rule {
 };
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
+    let senders = FittingGates::of(draft);
     for link in 0..draft.links.len() {
         let [Some(a), Some(b)] = draft.links[link].ends else { continue };
         let (Some(kind_a), Some(kind_b)) = (draft.gates[a].kind, draft.gates[b].kind) else { continue };
@@ -59,14 +63,21 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
         if kind_a.opposite() == kind_b {
             draft.links[link].flow = Some(if kind_a.is_source() { (a, b) } else { (b, a) });
         } else if kind_a == kind_b {
-            problems.push(same_direction(draft, link, [a, b], kind_a));
-        } else {
-            problems.push(different_patterns(draft, link, [a, b], [kind_a, kind_b]));
+            problems.push(same_direction(draft, &senders, link, [a, b], kind_a));
+        } else if !draft.gates[a].is_misfit && !draft.gates[b].is_misfit {
+            // The kind of a gate with too few or too many types may be wrong, which is reported already.
+            problems.push(different_patterns(draft, &senders, link, [a, b], [kind_a, kind_b]));
         }
     }
 }
 
-fn same_direction(draft: &Draft<'_>, link: usize, [a, b]: [usize; 2], kind: GateKind) -> Diagnostic {
+fn same_direction(
+    draft: &Draft<'_>,
+    senders: &FittingGates<'_>,
+    link: usize,
+    [a, b]: [usize; 2],
+    kind: GateKind,
+) -> Diagnostic {
     let (both, one, nobody) = match kind {
         GateKind::Pub => ("publish", "sends", "nobody receives"),
         GateKind::Sub => ("subscribe", "receives", "nobody sends"),
@@ -75,20 +86,19 @@ fn same_direction(draft: &Draft<'_>, link: usize, [a, b]: [usize; 2], kind: Gate
         GateKind::Push => ("push", "sends", "nobody receives"),
         GateKind::Pull => ("pull", "receives", "nobody sends"),
     };
-    let wanted = kind.opposite();
-    let (word, other) = (kind.word(), wanted.word());
+    let other = kind.opposite().word();
     let headline = format!("both ends of this connection {both}");
-    let fitting = [fitting(draft, a, b), fitting(draft, b, a)];
     let found = SAME_DIRECTION
         .at(headline, draft.links[link].model.span, nobody)
         .label(draft.gates[a].model.kind.span, one)
         .label(draft.gates[b].model.kind.span, format!("{one} too"))
-        .help(format!("a `{word}` gate connects to a `{other}` gate; should one of the two be `{other}`?"))
-        .helps(fitting.iter().flatten());
-    match fitting {
-        [None, None] => found.note(nobody_is(draft, [a, b], other)),
-        _ => found,
-    }
+        .help(format!("a `{}` gate connects to a `{other}` gate", kind.word()));
+    let partners = [partners(draft, senders, [link, 0]), partners(draft, senders, [link, 1])];
+    let found = match partners.iter().all(Vec::is_empty) {
+        true => found.note(nobody_is(draft, [a, b], other)),
+        false => found,
+    };
+    with_ways(draft, found, link, partners)
 }
 
 fn nobody_is(draft: &Draft<'_>, [a, b]: [usize; 2], kind: &str) -> String {
@@ -99,16 +109,61 @@ fn nobody_is(draft: &Draft<'_>, [a, b]: [usize; 2], kind: &str) -> String {
     }
 }
 
-fn different_patterns(draft: &Draft<'_>, link: usize, [a, b]: [usize; 2], kinds: [GateKind; 2]) -> Diagnostic {
+fn different_patterns(
+    draft: &Draft<'_>,
+    senders: &FittingGates<'_>,
+    link: usize,
+    [a, b]: [usize; 2],
+    kinds: [GateKind; 2],
+) -> Diagnostic {
     let [a_word, b_word] = kinds.map(GateKind::word);
     let headline = format!("a `{a_word}` gate cannot be connected to a `{b_word}` gate");
-    OTHER_PATTERN
+    let found = OTHER_PATTERN
         .at(headline, draft.links[link].model.span, "")
         .label(draft.gates[a].model.span, doing(kinds[0]))
         .label(draft.gates[b].model.span, doing(kinds[1]))
-        // The end with an obvious partner comes first.
-        .helps([fitting(draft, b, a), fitting(draft, a, b)].into_iter().flatten())
-        .note("pairs that fit: pub - sub, req - rep, push - pull")
+        .note("pairs that fit: pub - sub, req - rep, push - pull");
+    with_ways(draft, found, link, [partners(draft, senders, [link, 0]), partners(draft, senders, [link, 1])])
+}
+
+/// Suggests other gates for one of the ends, first those of the component that the end names, and other kinds for the
+/// two gates.
+fn with_ways(draft: &Draft<'_>, mut found: Diagnostic, link: usize, partners: [Vec<usize>; 2]) -> Diagnostic {
+    let [Some(a), Some(b)] = draft.links[link].ends else { return found };
+    for (end, partners) in partners.into_iter().enumerate() {
+        let span = draft.links[link].model.ends[end].span;
+        let stays = draft.path([b, a][end]);
+        for partner in partners {
+            let path = draft.path(partner);
+            let edit = Edit::new(span, draft.sources.quoted_as(span, &path));
+            found = found.suggest(format!("connect `{stays}` to {}", draft.path_and_kind(partner)), [edit]);
+        }
+    }
+    for [gate, partner] in [[a, b], [b, a]] {
+        if let Some((kind, edits)) = other_kind(draft, gate, partner) {
+            found = found.suggest(format!("make `{}` a `{}` gate", draft.path(gate), kind.word()), edits);
+        }
+    }
+    found
+}
+
+/// The changes that give a gate the kind that fits its partner: with the partner's types if their number differs, and
+/// without the options that the new kind does not have.
+fn other_kind(draft: &Draft<'_>, gate: usize, partner: usize) -> Option<(GateKind, Vec<Edit>)> {
+    let kind = draft.gates[partner].kind?.opposite();
+    let (model, old) = (draft.gates[gate].model, draft.gates[gate].kind?);
+    let asks = |kind: GateKind| matches!(kind, GateKind::Req | GateKind::Rep);
+    let mut edits = vec![Edit::new(model.kind.span, kind.word())];
+    if let Some(payload) = model.payload.as_ref().filter(|_| asks(kind) != asks(old)) {
+        edits.push(Edit::new(payload.span, type_text(draft, partner)));
+    }
+    for option in &model.options {
+        let key = option.key.value.as_str();
+        if grammar::option(key).is_some_and(|option| option.fits(old) && !option.fits(kind)) {
+            edits.push(draft.without_option(gate, key)?);
+        }
+    }
+    Some((kind, edits))
 }
 
 fn doing(kind: GateKind) -> &'static str {
@@ -122,18 +177,24 @@ fn doing(kind: GateKind) -> &'static str {
     }
 }
 
-/// What `gate` could be connected to in the component of `other`: the gate of its own name, else the only one that
-/// fits.
-fn fitting(draft: &Draft<'_>, gate: usize, other: usize) -> Option<String> {
-    let wanted = draft.gates[gate].kind?.opposite();
-    let fits: Vec<usize> = draft
-        .gates_of(draft.component_name(other))
-        .filter(|&at| at != gate && at != other && draft.gates[at].kind == Some(wanted))
-        .collect();
+/// The gates that the other end could be connected to instead of this one: in the same component the gate of its own
+/// name, else the only one that fits; in other components the senders that fit a receiver.
+fn partners(draft: &Draft<'_>, senders: &FittingGates<'_>, [link, end]: [usize; 2]) -> Vec<usize> {
+    let [Some(gate), Some(other)] = [draft.links[link].ends[1 - end], draft.links[link].ends[end]] else {
+        return Vec::new();
+    };
+    let own = draft.gates_of(draft.component_name(other));
+    let fits: Vec<usize> = own.filter(|&at| at != gate && at != other && draft.may_connect(gate, at)).collect();
     let name = &draft.gates[gate].model.name.value;
     let namesake = fits.iter().find(|&&at| draft.gates[at].model.name.value == *name);
-    let best = namesake.or(if fits.len() == 1 { fits.first() } else { None })?;
-    Some(format!("`{}` fits {}", draft.path(gate), draft.path_and_kind(*best)))
+    match namesake.or(if fits.len() == 1 { fits.first() } else { None }) {
+        Some(best) => vec![*best],
+        None if draft.gates[gate].model.payload.is_some() => {
+            let is_sender = |at: &usize| draft.gates[*at].kind.is_some_and(GateKind::is_source);
+            senders.for_gate(draft, gate).into_iter().filter(is_sender).filter(|at| *at != other).collect()
+        }
+        None => Vec::new(),
+    }
 }
 
 #[cfg(test)]
@@ -147,21 +208,23 @@ mod tests {
         rule_example(
             &SAME_DIRECTION,
             expect![[r#"
-            error: [SCL0505] both ends of this connection publish
-             --> topology.yaml:9:5
-              |
-            4 |       - fix: pub
-              |              --- sends
-            ...
-            7 |       - rate: pub
-              |               --- sends too
-            8 | connections:
-            9 |   - [gps.fix, imu.rate]
-              |     ^^^^^^^^^^^^^^^^^^^ nobody receives
-              |
-              = help: a `pub` gate connects to a `sub` gate; should one of the two be `sub`?
-              = note: no gate of `gps` or `imu` is a `sub`
-        "#]],
+                error: [SCL0505] both ends of this connection publish
+                 --> topology.yaml:9:5
+                  |
+                4 |       - fix: pub
+                  |              --- sends
+                ...
+                7 |       - rate: pub
+                  |               --- sends too
+                8 | connections:
+                9 |   - [gps.fix, imu.rate]
+                  |     ^^^^^^^^^^^^^^^^^^^ nobody receives
+                  |
+                  = help: a `pub` gate connects to a `sub` gate
+                  = help: make `gps.fix` a `sub` gate
+                  = help: make `imu.rate` a `sub` gate
+                  = note: no gate of `gps` or `imu` is a `sub`
+            "#]],
         );
     }
 
@@ -170,22 +233,23 @@ mod tests {
         rule_example(
             &OTHER_PATTERN,
             expect![[r#"
-            error: [SCL0506] a `pub` gate cannot be connected to a `req` gate
-              --> topology.yaml:11:5
-               |
-             5 |       - events: pub
-               |         ----------- publishes, gets no answer
-            ...
-             8 |       - commands: req
-               |         ------------- asks, waits for an answer
-            ...
-            11 |   - [controller.events, ui.commands]
-               |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
-               |
-               = help: `ui.commands` fits `controller.commands` (rep)
-               = help: `controller.events` fits `ui.events` (sub)
-               = note: pairs that fit: pub - sub, req - rep, push - pull
-        "#]],
+                error: [SCL0506] a `pub` gate cannot be connected to a `req` gate
+                  --> topology.yaml:11:5
+                   |
+                 5 |       - events: pub
+                   |         ----------- publishes, gets no answer
+                ...
+                 8 |       - commands: req
+                   |         ------------- asks, waits for an answer
+                ...
+                11 |   - [controller.events, ui.commands]
+                   |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+                   |
+                   = help: connect `ui.commands` to `controller.commands` (rep)
+                   = help: make `controller.events` a `rep` gate
+                   = help: make `ui.commands` a `sub` gate
+                   = note: pairs that fit: pub - sub, req - rep, push - pull
+            "#]],
         );
     }
 
@@ -207,21 +271,23 @@ connections:
             "SCL0505",
             yaml.trim_start(),
             expect![[r#"
-            error: [SCL0505] both ends of this connection publish
-              --> topology.yaml:10:5
-               |
-             4 |       - fix: pub
-               |              --- sends
-            ...
-             7 |       - fix_out: pub
-               |                  --- sends too
-            ...
-            10 |   - [gps.fix, pilot.fix_out]
-               |     ^^^^^^^^^^^^^^^^^^^^^^^^ nobody receives
-               |
-               = help: a `pub` gate connects to a `sub` gate; should one of the two be `sub`?
-               = help: `gps.fix` fits `pilot.fix` (sub)
-        "#]],
+                error: [SCL0505] both ends of this connection publish
+                  --> topology.yaml:10:5
+                   |
+                 4 |       - fix: pub
+                   |              --- sends
+                ...
+                 7 |       - fix_out: pub
+                   |                  --- sends too
+                ...
+                10 |   - [gps.fix, pilot.fix_out]
+                   |     ^^^^^^^^^^^^^^^^^^^^^^^^ nobody receives
+                   |
+                   = help: a `pub` gate connects to a `sub` gate
+                   = help: connect `gps.fix` to `pilot.fix` (sub)
+                   = help: make `gps.fix` a `sub` gate
+                   = help: make `pilot.fix_out` a `sub` gate
+            "#]],
         );
     }
 }

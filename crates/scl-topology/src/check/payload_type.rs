@@ -2,10 +2,11 @@
 //! of every other gate.
 
 use super::draft::{Draft, DraftGate};
-use super::named;
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use super::payload_fault::{self, Fault};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::source::{Span, Spanned};
 use crate::topology::{GateKind, Payload, TypeName};
+use std::collections::HashMap;
 
 /// SCL0403.
 pub(crate) const NO_TYPE_NAME: Rule = Rule {
@@ -49,6 +50,9 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
         };
         let read = read_payload(draft, gate, written, problems);
         let gate = &mut draft.gates[at];
+        let types = written.value.split("->");
+        gate.is_misfit =
+            gate.kind.is_some() && read.is_none() && types.clone().all(|part| payload_fault::of(part.trim()).is_none());
         gate.payload = if gate.payload.is_some() { read } else { None };
     }
 }
@@ -63,19 +67,23 @@ fn read_payload(
     let mut types = Vec::new();
     for (at, part) in parts.iter().enumerate() {
         let span = if parts.len() == 1 { written.span } else { draft.part(written.span, part, at > 0) };
-        match fault(part) {
+        match payload_fault::of(part) {
             None => types.push(TypeName { dotted: (*part).to_owned(), span, in_schemas: false }),
-            Some(fault) => problems.push(no_type(part, span, fault)),
+            Some(_) if let Some(meant) = payload_fault::exchange(gate.kind, &written.value) => {
+                let edit = Edit::new(written.span, draft.sources.quoted_as(written.span, &meant));
+                let headline = format!("`{}` cannot be a message type", written.value.trim());
+                let found = NO_TYPE_NAME.at(headline, written.span, "request and reply are joined by `->`");
+                let found = found.about(written.value.trim());
+                problems.push(found.propose(format!("write `{meant}`"), [edit]));
+                return None;
+            }
+            Some(fault) => problems.push(no_type(draft, part, [span, written.span], fault)),
         }
     }
     if types.len() != parts.len() {
         return None;
     }
-    let fitted = fit(gate.kind?, types);
-    if fitted.is_none() {
-        problems.push(misfit(gate, gate.kind?, written, &parts));
-    }
-    fitted
+    fit(gate.kind?, types)
 }
 
 fn fit(kind: GateKind, types: Vec<TypeName>) -> Option<Payload> {
@@ -88,10 +96,36 @@ fn fit(kind: GateKind, types: Vec<TypeName>) -> Option<Payload> {
     }
 }
 
-fn misfit(gate: &DraftGate<'_>, kind: GateKind, written: &Spanned<String>, parts: &[&str]) -> Diagnostic {
-    let name = &gate.model.name.value;
+/// Reports types that are too few or too many for the kind of their gate. Looks at the gates at the other ends of its
+/// connections, so it runs once those are known.
+pub(super) fn check_number(draft: &Draft<'_>, problems: &mut Diagnostics) {
+    let mut partners: HashMap<usize, usize> = HashMap::new();
+    for link in &draft.links {
+        if let [Some(one), Some(two)] = link.ends {
+            partners.entry(one).or_insert(two);
+            partners.entry(two).or_insert(one);
+        }
+    }
+    for (at, gate) in draft.gates.iter().enumerate().filter(|(_, gate)| gate.is_misfit) {
+        let (Some(written), Some(kind)) = (gate.model.payload.as_ref(), gate.kind) else { continue };
+        let parts: Vec<&str> = written.value.split("->").map(str::trim).collect();
+        let partner = partners.get(&at).map(|partner| &draft.gates[*partner]);
+        problems.push(misfit(draft, gate, kind, written, &parts, partner));
+    }
+}
+
+fn misfit(
+    draft: &Draft<'_>,
+    gate: &DraftGate<'_>,
+    kind: GateKind,
+    written: &Spanned<String>,
+    parts: &[&str],
+    partner: Option<&DraftGate<'_>>,
+) -> Diagnostic {
     let word = kind.word();
     let given = format!("{} types are given", parts.len());
+    let types = |types: &str| Edit::new(written.span, draft.sources.quoted_as(written.span, types));
+    let kind_edit = |kind: GateKind| Edit::new(gate.model.kind.span, kind.word());
     match (kind, parts) {
         (GateKind::Req | GateKind::Rep, [only]) => {
             let takes = match kind {
@@ -99,64 +133,65 @@ fn misfit(gate: &DraftGate<'_>, kind: GateKind, written: &Spanned<String>, parts
                 _ => "what it is asked and what it answers",
             };
             let headline = format!("a `{word}` gate needs two types, {takes}");
-            WRONG_NUMBER_OF_TYPES
-                .at(headline, written.span, "only one type is given")
-                .help(format!("write `{name}: {{{word}: {only} -> Status}}`"))
+            let found = WRONG_NUMBER_OF_TYPES.at(headline, written.span, "only one type is given");
+            let found = match partner.and_then(|partner| partner.payload.as_ref()) {
+                Some(both @ Payload::Exchange { .. }) => {
+                    let both = both.to_string();
+                    found.propose(format!("write `{both}`, as at the other end"), [types(&both)])
+                }
+                _ => found,
+            };
+            let both = format!("request and reply are joined by `->`: `{only} -> ` and the type of the reply");
+            let one_way = |found: Diagnostic, other: GateKind| {
+                let does = if other.is_source() { "sends" } else { "receives" };
+                let help = format!("write `{}` if it only {does} `{only}`", other.word());
+                found.suggest(help, [kind_edit(other)])
+            };
+            match partner.and_then(|partner| partner.kind) {
+                Some(GateKind::Req | GateKind::Rep) => found.otherwise(both),
+                Some(other) => one_way(found, other.opposite()).help(both),
+                None if kind == GateKind::Req => one_way(one_way(found.help(both), GateKind::Sub), GateKind::Pub),
+                None => one_way(one_way(found.help(both), GateKind::Pub), GateKind::Sub),
+            }
         }
         (GateKind::Req | GateKind::Rep, _) => {
             let headline = format!("a `{word}` gate has two types, a request and its reply");
-            let (first, last) = (parts[0], parts[parts.len() - 1]);
-            WRONG_NUMBER_OF_TYPES
-                .at(headline, written.span, given)
-                .help(format!("write `{name}: {{{word}: {first} -> {last}}}`"))
+            let found = WRONG_NUMBER_OF_TYPES.at(headline, written.span, given);
+            let pairs = [(parts[0], parts[1]), (parts[0], parts[parts.len() - 1])];
+            let ways = pairs.map(|(request, reply)| format!("{request} -> {reply}"));
+            let mut found = found.choose(("write ", ""), ways.iter().map(|way| (way.as_str(), types(way))));
+            found.doubt();
+            found
         }
         _ => {
             let (does, meant) = match kind {
-                GateKind::Pub | GateKind::Push => ("sends one type and gets no answer", "req"),
-                _ => ("receives one type and gives no answer", "rep"),
+                GateKind::Pub | GateKind::Push => ("sends one type and gets no answer", GateKind::Req),
+                _ => ("receives one type and gives no answer", GateKind::Rep),
             };
-            let headline = format!("a `{word}` gate {does}; did you mean `{meant}`?");
-            WRONG_NUMBER_OF_TYPES
-                .at(headline, written.span, given)
-                .help(format!("write `{name}: {{{word}: {}}}`", parts[0]))
-                .help(format!("or `{name}: {{{meant}: {}}}`", written.value.trim()))
+            let headline = format!("a `{word}` gate {does}");
+            let found = WRONG_NUMBER_OF_TYPES.at(headline, written.span, given);
+            let found = found.suggest(format!("write `{}` alone, if there is no answer", parts[0]), [types(parts[0])]);
+            match parts.len() {
+                2 => found.suggest(format!("write `{}`, if there is one", meant.word()), [kind_edit(meant)]),
+                _ => found,
+            }
         }
     }
 }
 
-/// Why a text is no type name, and what to write instead.
-fn fault(text: &str) -> Option<(&'static str, String)> {
-    let is_word = |word: &str| word != "_" && named::is_word(word);
-    if text.split('.').all(is_word) {
-        return None;
-    }
-    let dotted = text.trim_start_matches("::").replace("::", ".");
-    let owned = text.trim_start_matches('&').trim_start_matches("mut ").trim();
-    let owned = if owned == "str" { "String" } else { owned };
-    Some(match text {
-        "" => ("nothing here", "write a type, for example `Status`".to_owned()),
-        _ if text.starts_with('&') => ("a reference", format!("use an owned type: `{owned}`")),
-        _ if dotted != text && dotted.split('.').all(is_word) => ("a Rust path", format!("write `{dotted}`")),
-        _ if text.contains('<') => ("a type with parameters", "give it a name in Rust: `type Name = ...;`".to_owned()),
-        _ if text.starts_with(['(', '[']) => ("a type without a name", "make a struct of it, and name it".to_owned()),
-        _ if text.starts_with("dyn ") || text.starts_with("impl ") => {
-            ("a trait", "use a type, such as a struct or an enum".to_owned())
-        }
-        _ if text.contains("..") || text.starts_with('.') || text.ends_with('.') => {
-            ("a part between the dots is empty", "write each part of the name".to_owned())
-        }
-        _ => ("not a dotted name", "write a name such as `uav.Measurement`".to_owned()),
-    })
-}
-
-fn no_type(text: &str, span: Span, (label, help): (&str, String)) -> Diagnostic {
+fn no_type(draft: &Draft<'_>, text: &str, [span, whole]: [Span; 2], fault: Fault) -> Diagnostic {
     let headline = match text {
         "" => "a message type is missing".to_owned(),
         _ => format!("`{text}` cannot be a message type"),
     };
-    NO_TYPE_NAME.at(headline, span, label).help(help).note(
-        "a message type is a dotted name, such as `uav.Measurement`: words of letters, digits and `_`, joined by `.`",
-    )
+    let ways: Vec<(&str, Edit)> =
+        fault.meant.iter().map(|name| (name.as_str(), Edit::new(span, draft.sources.quoted_as(span, name)))).collect();
+    let found = NO_TYPE_NAME.at(headline, span, fault.label).about(text).choose(("write ", ""), ways);
+    match fault.is_bytes {
+        true => found.propose(format!("write nothing after the colon: {}", fault.allowed), [Edit::new(whole, "")]),
+        false => found,
+    }
+    .otherwise(fault.allowed)
 }
 
 #[cfg(test)]
@@ -170,15 +205,14 @@ mod tests {
         rule_example(
             &NO_TYPE_NAME,
             expect![[r#"
-            error: [SCL0403] `&str` cannot be a message type
-             --> topology.yaml:4:29
-              |
-            4 |       - measurements: {pub: "&str"}
-              |                             ^^^^^^ a reference
-              |
-              = help: use an owned type: `String`
-              = note: a message type is a dotted name, such as `uav.Measurement`: words of letters, digits and `_`, joined by `.`
-        "#]],
+                error: [SCL0403] `&str` cannot be a message type
+                 --> topology.yaml:4:29
+                  |
+                4 |       - measurements: {pub: "&str"}
+                  |                             ^^^^^^ a reference
+                  |
+                  = help: write `String`
+            "#]],
         );
     }
 
@@ -187,14 +221,16 @@ mod tests {
         rule_example(
             &WRONG_NUMBER_OF_TYPES,
             expect![[r#"
-            error: [SCL0404] a `req` gate needs two types, what it asks and what it gets back
-             --> topology.yaml:4:25
-              |
-            4 |       - commands: {req: Command}
-              |                         ^^^^^^^ only one type is given
-              |
-              = help: write `commands: {req: Command -> Status}`
-        "#]],
+                error: [SCL0404] a `req` gate needs two types, what it asks and what it gets back
+                 --> topology.yaml:4:25
+                  |
+                4 |       - commands: {req: Command}
+                  |                         ^^^^^^^ only one type is given
+                  |
+                  = help: request and reply are joined by `->`: `Command -> ` and the type of the reply
+                  = help: write `sub` if it only receives `Command`
+                  = help: write `pub` if it only sends `Command`
+            "#]],
         );
     }
 
@@ -219,18 +255,18 @@ mod tests {
         let told: String = gates.iter().map(|gate| format!("{gate:16} {}\n", advice(gate))).collect();
         expect![[r#"
             pub: 'nav::Fix'  SCL0403 `nav::Fix` cannot be a message type [write `nav.Fix`]
-            pub: 'Vec<u8>'   SCL0403 `Vec<u8>` cannot be a message type [give it a name in Rust: `type Name = ...;`]
-            pub: '&mut T'    SCL0403 `&mut T` cannot be a message type [use an owned type: `T`]
-            pub: '(A, B)'    SCL0403 `(A, B)` cannot be a message type [make a struct of it, and name it]
-            pub: 'dyn T'     SCL0403 `dyn T` cannot be a message type [use a type, such as a struct or an enum]
-            pub: a..b        SCL0403 `a..b` cannot be a message type [write each part of the name]
-            pub: a.2         SCL0403 `a.2` cannot be a message type [write a name such as `uav.Measurement`]
-            pub: _           SCL0403 `_` cannot be a message type [write a name such as `uav.Measurement`]
-            pub: A -> B      SCL0404 a `pub` gate sends one type and gets no answer; did you mean `req`? [write `x: {pub: A}` | or `x: {req: A -> B}`]
-            sub: A -> B      SCL0404 a `sub` gate receives one type and gives no answer; did you mean `rep`? [write `x: {sub: A}` | or `x: {rep: A -> B}`]
-            rep: A           SCL0404 a `rep` gate needs two types, what it is asked and what it answers [write `x: {rep: A -> Status}`]
-            req: A -> B -> C SCL0404 a `req` gate has two types, a request and its reply [write `x: {req: A -> C}`]
-            req: 'A ->'      SCL0403 a message type is missing [write a type, for example `Status`]
+            pub: 'Vec<u8>'   SCL0403 `Vec<u8>` cannot be a message type [write nothing after the colon: a gate without a type carries bytes]
+            pub: '&mut T'    SCL0403 `&mut T` cannot be a message type [write `T`]
+            pub: '(A, B)'    SCL0403 `(A, B)` cannot be a message type [several values are the fields of one message or struct]
+            pub: 'dyn T'     SCL0403 `dyn T` cannot be a message type [a type is a struct or an enum]
+            pub: a..b        SCL0403 `a..b` cannot be a message type [write `a.b`]
+            pub: a.2         SCL0403 `a.2` cannot be a message type [a type is a dotted name; its parts are words of letters, digits and `_`]
+            pub: _           SCL0403 `_` cannot be a message type [a type is a dotted name; its parts are words of letters, digits and `_`]
+            pub: A -> B      SCL0404 a `pub` gate sends one type and gets no answer [write `A` alone, if there is no answer]
+            sub: A -> B      SCL0404 a `sub` gate receives one type and gives no answer [write `A` alone, if there is no answer | write `rep`, if there is one]
+            rep: A           SCL0404 a `rep` gate needs two types, what it is asked and what it answers [request and reply are joined by `->`: `A -> ` and the type of the reply | write `pub` if it only sends `A` | write `sub` if it only receives `A`]
+            req: A -> B -> C SCL0404 a `req` gate has two types, a request and its reply [write `A -> B` or `A -> C`]
+            req: 'A ->'      SCL0403 a message type is missing [a type is a dotted name; its parts are words of letters, digits and `_`]
         "#]].assert_eq(&told);
     }
 }

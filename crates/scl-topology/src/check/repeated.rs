@@ -1,8 +1,7 @@
-//! Mistakes that are made once and show at several places: an unknown name that several connections use is most often
-//! misspelt in its declaration, and a gate of the wrong kind fits none of its connections. They are reported at the
-//! first place, with the other places as labels.
+//! Mistakes that are made once and show at several places: an unknown type at several gates, and a gate of the wrong kind
+//! that fits none of its connections. They are reported at the first place, with the other places as labels.
 
-use super::{backpressure, codec_agreement, exchange_type, message_type, pair_kinds, unknown_component, unknown_gate};
+use super::{backpressure, codec_agreement, exchange_type, message_type, pair_kinds};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule};
 use crate::source::Span;
 use std::collections::HashMap;
@@ -29,14 +28,8 @@ pub(super) fn tell_once(problems: &mut Diagnostics) {
         let places = others.iter().filter_map(|other| other.primary.as_ref());
         places.take(MOST).for_each(|label| found.add_label(label.span, "and here"));
         if !others.is_empty() {
-            let is_end = [&unknown_component::UNKNOWN, &unknown_gate::RULE].contains(&found.rule);
-            let what = if is_end { "connections name it" } else { "places have it" };
-            found.notes.push(format!("{} {what}", others.len() + 1));
+            found.notes.push(format!("{} places have it", others.len() + 1));
             found.join_proposals(others);
-            if is_end {
-                // The mistake may be in the one declaration rather than in all of these places.
-                found.doubt();
-            }
         }
         true
     });
@@ -125,7 +118,7 @@ connections:
                 12 |   - [sensor.b, controller.b]
                    |                ---------- and here
                    |
-                   = help: did you mean `contoller`?
+                   = help: rename `contoller` to `controller`, as the connections call it
                    = note: declared components: `contoller`, `sensor`
                    = note: 2 connections name it
             "#]],

@@ -14,7 +14,8 @@ pub(super) fn check(draft: &mut Draft<'_>, facts: &Facts, problems: &mut Diagnos
     }
     for gate in &mut draft.gates {
         let types = gate.payload.as_ref().map(Payload::types).unwrap_or_default();
-        let found: Vec<Diagnostic> = types.into_iter().filter(|name| !name.in_schemas()).filter_map(diagnose).collect();
+        let rust = types.into_iter().filter(|name| !name.in_schemas());
+        let found: Vec<Diagnostic> = rust.filter_map(|name| diagnose(name, facts.messages.is_some())).collect();
         if !found.is_empty() {
             problems.extend(found);
             gate.payload = None;
@@ -22,11 +23,70 @@ pub(super) fn check(draft: &mut Draft<'_>, facts: &Facts, problems: &mut Diagnos
     }
 }
 
-fn diagnose(name: &TypeName) -> Option<Diagnostic> {
+fn diagnose(name: &TypeName, has_schemas: bool) -> Option<Diagnostic> {
     let dotted = name.dotted();
+    if let Some((_, rust)) = SCALARS.iter().find(|(word, _)| *word == dotted) {
+        let headline = format!("`{dotted}` is not a type of Rust or of the `schemas`");
+        let found = NO_TYPE_NAME.at(headline, name.span(), "a type of another language");
+        let found = match rust.is_empty() || has_schemas {
+            true => found,
+            false => found.did_you_mean(dotted, &[rust]),
+        };
+        return Some(
+            found.help("a type is a message of the `schemas`, or a Rust path such as `crate.` and the type's name"),
+        );
+    }
     let (word, why) = unusable_part(dotted)?;
     let headline = format!("`{dotted}` cannot be a message type: Rust cannot name it");
-    Some(NO_TYPE_NAME.at(headline, name.span(), format!("`{word}` {why}")).help("write the path of a type"))
+    Some(NO_TYPE_NAME.at(headline, name.span(), format!("`{word}` {why}")).help("a type is the path of a Rust type"))
+}
+
+/// Scalars and other types of no shape in other languages, with the Rust types that correspond to them.
+const SCALARS: [(&str, &str); 33] = [
+    ("double", "f64"),
+    ("float", "f32"),
+    ("float32", "f32"),
+    ("float64", "f64"),
+    ("int", "i32"),
+    ("long", "i64"),
+    ("int8", "i8"),
+    ("int16", "i16"),
+    ("int32", "i32"),
+    ("int64", "i64"),
+    ("uint", "u32"),
+    ("uint8", "u8"),
+    ("uint16", "u16"),
+    ("uint32", "u32"),
+    ("uint64", "u64"),
+    ("int8_t", "i8"),
+    ("int16_t", "i16"),
+    ("int32_t", "i32"),
+    ("int64_t", "i64"),
+    ("uint8_t", "u8"),
+    ("uint16_t", "u16"),
+    ("uint32_t", "u32"),
+    ("uint64_t", "u64"),
+    ("byte", "u8"),
+    ("string", "String"),
+    ("str", "String"),
+    ("boolean", "bool"),
+    ("Any", ""),
+    ("any", ""),
+    ("object", ""),
+    ("number", ""),
+    ("list", ""),
+    ("dict", ""),
+];
+
+/// Whether a word is a scalar of another language.
+pub(super) fn is_scalar(word: &str) -> bool {
+    SCALARS.iter().any(|(other, _)| *other == word)
+}
+
+/// Whether a word in small letters is a type of Rust, which every file has in scope.
+pub(super) fn is_rust(word: &str) -> bool {
+    const TYPES: &str = "bool char f32 f64 i8 i16 i32 i64 i128 isize u8 u16 u32 u64 u128 usize";
+    TYPES.split(' ').any(|other| other == word)
 }
 
 /// The first part that cannot be where it is, and why. A path may start with `crate`, `self` or several `super`, and
@@ -72,7 +132,8 @@ mod tests {
     #[test]
     fn a_type_that_rust_cannot_name_is_refused() {
         let yaml = "components:\n  - name: a\n    gates:\n      - x: {pub: nav.fn, unconnected: ok}\n";
-        let expected = "SCL0403 `nav.fn` cannot be a message type: Rust cannot name it [write the path of a type]";
+        let expected =
+            "SCL0403 `nav.fn` cannot be a message type: Rust cannot name it [a type is the path of a Rust type]";
         assert_eq!(advice(yaml), expected);
         // A message of a schema gets another name in Rust.
         let yaml = format!("schemas: [nav.proto]\n{yaml}");

@@ -1,7 +1,7 @@
 //! SCL0412: a codec that cannot carry a message of the schemas. Gates with the same codec are reported together.
 
 use super::draft::{Draft, DraftGate};
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::source::Span;
 use crate::topology::{Codec, Payload, TypeName};
 use scl_text::list::listed;
@@ -59,10 +59,19 @@ fn report(draft: &Draft<'_>, codec: Span, word: &str, gates: &[usize]) -> Diagno
     let first = gates.first().and_then(|&gate| schema_type(&draft.gates[gate]));
     let dotted = first.map_or("", TypeName::dotted);
     let headline = format!("the codec `{word}` cannot carry `{dotted}`, a message of the `schemas`");
+    let ways = ["protobuf", "json"];
+    let replaced = |way: &str| match draft.sources.snippet(codec).starts_with("codec") {
+        true => format!("codec: {way}"),
+        false => draft.sources.quoted_as(codec, way),
+    };
     let found = RULE
         .at(headline, codec, "carries Rust types only")
         .labels(first.map(|name| (name.span(), "a message of the `schemas`")))
-        .help("use `protobuf` (the default), or `json` for protobuf's canonical JSON");
+        .choose(
+            ("write ", " (protobuf's canonical JSON)"),
+            ways.into_iter().map(|way| (way, Edit::new(codec, replaced(way)))),
+        )
+        .otherwise("messages of the `schemas` have the codec `protobuf` (the default) or `json`");
     match gates.len() {
         0 | 1 => found,
         _ => found.note(format!("gates with this codec: {}", listed(gates.iter().map(|&gate| draft.path(gate))))),
@@ -81,16 +90,16 @@ mod tests {
             &RULE,
             Some(&["uav.Measurement"]),
             expect![[r#"
-            error: [SCL0412] the codec `cbor` cannot carry `uav.Measurement`, a message of the `schemas`
-             --> topology.yaml:5:46
-              |
-            5 |       - measurements: {pub: uav.Measurement, codec: cbor}
-              |                             ---------------  ^^^^^^^^^^^ carries Rust types only
-              |                             |
-              |                             a message of the `schemas`
-              |
-              = help: use `protobuf` (the default), or `json` for protobuf's canonical JSON
-        "#]],
+                error: [SCL0412] the codec `cbor` cannot carry `uav.Measurement`, a message of the `schemas`
+                 --> topology.yaml:5:46
+                  |
+                5 |       - measurements: {pub: uav.Measurement, codec: cbor}
+                  |                             ---------------  ^^^^^^^^^^^ carries Rust types only
+                  |                             |
+                  |                             a message of the `schemas`
+                  |
+                  = help: write `protobuf` or `json` (protobuf's canonical JSON)
+            "#]],
         );
     }
 
@@ -117,18 +126,18 @@ connections:
             yaml.trim_start(),
             Some(&["uav.Measurement"]),
             expect![[r#"
-            error: [SCL0412] the codec `raw` cannot carry `uav.Measurement`, a message of the `schemas`
-             --> topology.yaml:2:8
-              |
-            2 | codec: raw
-              |        ^^^ carries Rust types only
-            ...
-            6 |       - measurements: {pub: uav.Measurement}
-              |                             --------------- a message of the `schemas`
-              |
-              = help: use `protobuf` (the default), or `json` for protobuf's canonical JSON
-              = note: gates with this codec: `sensor.measurements`, `pilot.sensor`, `pilot.commands`
-        "#]],
+                error: [SCL0412] the codec `raw` cannot carry `uav.Measurement`, a message of the `schemas`
+                 --> topology.yaml:2:8
+                  |
+                2 | codec: raw
+                  |        ^^^ carries Rust types only
+                ...
+                6 |       - measurements: {pub: uav.Measurement}
+                  |                             --------------- a message of the `schemas`
+                  |
+                  = help: write `protobuf` or `json` (protobuf's canonical JSON)
+                  = note: gates with this codec: `sensor.measurements`, `pilot.sensor`, `pilot.commands`
+            "#]],
         );
     }
 

@@ -4,6 +4,7 @@
 //! where the macro is called, unless it is nearly the name of a message.
 
 use super::draft::Draft;
+use super::rust_path::{is_rust, is_scalar};
 use super::{Facts, SchemaMessages};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::suggest::{same_parts, similar};
@@ -43,7 +44,9 @@ pub(super) fn check(draft: &mut Draft<'_>, facts: &Facts, problems: &mut Diagnos
                 continue;
             }
             let meant = known.nearest(name.dotted(), || draft.may_search());
-            if known.has_root(name.dotted()) || !meant.is_empty() {
+            let is_bare =
+                || !name.dotted().contains('.') && name.dotted().starts_with(|first: char| first.is_lowercase());
+            if known.has_root(name.dotted()) || !meant.is_empty() || is_bare() && !is_rust(name.dotted()) {
                 problems.push(report(draft, schemas, &known, name, &meant));
                 unknown = true;
             }
@@ -59,6 +62,8 @@ struct Known<'s> {
     roots: BTreeSet<&'s str>,
     /// The names by their last part.
     by_last: HashMap<&'s str, Vec<&'s str>>,
+    /// The names by themselves and by their last part, both [`folded`].
+    by_folded: HashMap<String, Vec<&'s str>>,
 }
 
 impl<'s> Known<'s> {
@@ -68,10 +73,16 @@ impl<'s> Known<'s> {
         let packages = packages.filter(|package| !package.is_empty());
         let roots = all.iter().copied().chain(packages).map(root).chain(["google"]).collect();
         let mut by_last: HashMap<&str, Vec<&str>> = HashMap::new();
+        let mut by_folded: HashMap<String, Vec<&str>> = HashMap::new();
         for name in &all {
-            by_last.entry(name.rsplit('.').next().unwrap_or_default()).or_default().push(name);
+            let last = name.rsplit('.').next().unwrap_or_default();
+            by_last.entry(last).or_default().push(name);
+            by_folded.entry(folded(last)).or_default().push(name);
+            if last != *name {
+                by_folded.entry(folded(name)).or_default().push(name);
+            }
         }
-        Self { all, roots, by_last }
+        Self { all, roots, by_last, by_folded }
     }
 
     /// Returns true if the type can only be one of the schemas, because its first part belongs to them.
@@ -91,7 +102,12 @@ impl<'s> Known<'s> {
                 false => Vec::new(),
             };
         }
-        let Some((first, rest)) = dotted.split_once('.') else { return self.without_package(dotted) };
+        let Some((first, rest)) = dotted.split_once('.') else { return self.without_package(dotted, may_search) };
+        // `rover_msgs.Event`, `rover_pb2.Event`: the package with the name of a tool's module.
+        let extended = first.split('_').filter_map(|word| self.all.get(format!("{word}.{rest}").as_str()).copied());
+        if let Some(found) = some(extended.collect()) {
+            return found;
+        }
         let swapped: Vec<&str> = dotted.rsplit('.').collect();
         if let Some(&name) = self.all.get(swapped.join(".").as_str()) {
             return vec![name];
@@ -111,11 +127,25 @@ impl<'s> Known<'s> {
         all().filter(fits).take(MOST).collect()
     }
 
-    /// `Measurement` means `uav.Measurement`, and `Mesurement` a message that has no package.
-    fn without_package(&self, name: &str) -> Vec<&'s str> {
-        let same_end = self.by_last.get(name).map(|names| names.iter().copied().take(MOST).collect());
-        same_end.unwrap_or_else(|| similar(name, self.roots.iter().copied().filter(|root| self.all.contains(root))))
+    /// `Measurement`, `measurement`, `uavMeasurement` and `uav_measurement` mean `uav.Measurement`, and `Mesurement`
+    /// that or a message that has no package.
+    fn without_package(&self, name: &str, mut may_search: impl FnMut() -> bool) -> Vec<&'s str> {
+        let found = |names: Option<&Vec<&'s str>>| names.map(|names| names.iter().copied().take(MOST).collect());
+        let folded = folded(name);
+        if let Some(names) = found(self.by_last.get(name)).or_else(|| found(self.by_folded.get(&folded))) {
+            return names;
+        }
+        if !may_search() {
+            return Vec::new();
+        }
+        let ends = similar(name, self.by_last.keys().copied());
+        ends.iter().flat_map(|end| &self.by_last[end]).copied().take(MOST).collect()
     }
+}
+
+/// A name in small letters, without the marks that separate its words.
+fn folded(name: &str) -> String {
+    name.chars().filter(char::is_ascii_alphanumeric).map(|letter| letter.to_ascii_lowercase()).collect()
 }
 
 fn some(names: Vec<&str>) -> Option<Vec<&str>> {
@@ -139,10 +169,11 @@ fn report(
         let place = schemas.iter().position(declares).and_then(|at| draft.model.schemas.get(at))?;
         Some((place.span, format!("declares `{only}`")))
     });
-    let is_path = !known.has_root(name.dotted());
-    let path = is_path.then(|| format!("if it is a Rust type of your own, write its path: `crate.{}`", name.dotted()));
+    let is_path = !known.has_root(name.dotted()) && !is_scalar(name.dotted());
+    let path = is_path.then(|| format!("a Rust type of your own has a path: `crate.{}`", name.dotted()));
     let found = RULE
         .at(headline, name.span(), "not in the schemas")
+        .about(name.dotted())
         .labels(declared)
         .did_you_mean(name.dotted(), meant)
         .helps(path);
@@ -203,7 +234,7 @@ components:
                   |                             ^^^^^^^^^^^ not in the schemas
                   |
                   = help: did you mean `uav.Measurement`?
-                  = help: if it is a Rust type of your own, write its path: `crate.Measurement`
+                  = help: a Rust type of your own has a path: `crate.Measurement`
                   = note: message types in `schemas`: `uav.Measurement`
             "#]],
         );

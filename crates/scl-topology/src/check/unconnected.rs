@@ -3,10 +3,10 @@
 //! more than a warning for each of its gates.
 
 use super::draft::{Draft, DraftComponent};
-use super::fitting_sender::FittingSenders;
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use super::fitting_gate::FittingGates;
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
+use crate::source::Span;
 use crate::topology::GateKind;
-use scl_text::list::listed;
 
 /// SCL0701.
 pub(crate) const NO_RECEIVER: Rule = Rule {
@@ -115,7 +115,7 @@ fn without_section(found: Vec<Diagnostic>) -> Option<Diagnostic> {
 
 fn each_gate(draft: &Draft<'_>) -> Vec<Diagnostic> {
     let mut problems = Vec::new();
-    let senders = FittingSenders::of(draft);
+    let fitting = FittingGates::of(draft);
     for component in &draft.components {
         let open: Vec<usize> = component.gates.iter().copied().filter(|&gate| is_open(draft, gate)).collect();
         let warned = open.iter().filter(|&&gate| draft.gates[gate].kind != Some(GateKind::Req)).count();
@@ -127,8 +127,8 @@ fn each_gate(draft: &Draft<'_>) -> Vec<Diagnostic> {
         }
         for gate in open {
             match draft.gates[gate].kind {
-                Some(GateKind::Req) => problems.push(no_replier(draft, gate)),
-                Some(kind) if !lonely => problems.push(no_peer(draft, gate, kind, &senders)),
+                Some(kind @ GateKind::Req) => problems.push(no_peer(draft, gate, kind, &fitting)),
+                Some(kind) if !lonely => problems.push(no_peer(draft, gate, kind, &fitting)),
                 _ => {}
             }
         }
@@ -147,48 +147,68 @@ fn lonely_component(draft: &Draft<'_>, component: &DraftComponent<'_>, open: &[u
     let gates: Vec<String> = open.iter().map(|&gate| draft.name_and_kind(gate)).collect();
     LONELY_COMPONENT
         .at(headline, name.span, format!("{} gates, 0 connections", component.gates.len()))
-        .help("connect it or remove it")
+        .help("each gate has a connection or the option `unconnected: ok`")
         .note(format!("gates without a peer: {}", gates.join(", ")))
 }
 
-fn no_peer(draft: &Draft<'_>, gate: usize, kind: GateKind, senders: &FittingSenders<'_>) -> Diagnostic {
+fn no_peer(draft: &Draft<'_>, gate: usize, kind: GateKind, fitting: &FittingGates<'_>) -> Diagnostic {
     let place = draft.gates[gate].model.name.span;
     let path = draft.path(gate);
-    let no_receiver =
-        |does, label| NO_RECEIVER.at(format!("nobody {does} `{path}`"), place, label).help(ways_out(draft, gate));
-    match kind {
-        GateKind::Pub => no_receiver("subscribes to", "its messages are dropped"),
-        GateKind::Push => no_receiver("pulls from", "its messages go nowhere"),
-        GateKind::Rep => NO_REQUESTER
-            .at(format!("nobody sends requests to `{path}`"), place, "")
-            .help("connect it, or write `unconnected: ok`"),
-        _ => never_receives(draft, gate, kind, senders),
-    }
+    let found = match kind {
+        GateKind::Pub => NO_RECEIVER.at(format!("nobody subscribes to `{path}`"), place, "its messages are dropped"),
+        GateKind::Push => NO_RECEIVER.at(format!("nobody pulls from `{path}`"), place, "its messages go nowhere"),
+        GateKind::Rep => NO_REQUESTER.at(format!("nobody sends requests to `{path}`"), place, ""),
+        GateKind::Req => {
+            let headline = format!("gate `{path}` is not connected; every request would wait until its timeout");
+            NO_REPLIER.at(headline, place, "nobody answers")
+        }
+        GateKind::Sub | GateKind::Pull => {
+            let headline = format!("gate `{path}` is not connected; it will never receive a message");
+            NO_SENDER.at(headline, place, "")
+        }
+    };
+    with_ways(draft, found, gate, kind, fitting)
 }
 
-fn never_receives(draft: &Draft<'_>, gate: usize, kind: GateKind, senders: &FittingSenders<'_>) -> Diagnostic {
-    let headline = format!("gate `{}` is not connected; it will never receive a message", draft.path(gate));
-    let found = NO_SENDER.at(headline, draft.gates[gate].model.name.span, "");
-    let fitting = senders.for_gate(draft, gate);
-    if fitting.is_empty() {
-        return found.help(ways_out(draft, gate));
-    }
-    let who = if kind == GateKind::Pull { "pushers" } else { "publishers" };
-    found.help(format!("{who} of a fitting type: {}", listed(fitting.into_iter().map(|sender| draft.path(sender)))))
+/// Suggests the connections to gates that fit, and the mark of a gate that is meant to be unconnected.
+fn with_ways(
+    draft: &Draft<'_>,
+    found: Diagnostic,
+    gate: usize,
+    kind: GateKind,
+    fitting: &FittingGates<'_>,
+) -> Diagnostic {
+    // A receiver or requester that has a peer already expects no other.
+    let is_free = |at: &usize| kind == GateKind::Sub || kind == GateKind::Req || !draft.gates[*at].named;
+    let fitting: Vec<usize> = fitting.for_gate(draft, gate).into_iter().filter(is_free).collect();
+    let found = fitting.iter().fold(found, |found, &other| {
+        let pair = match kind.is_source() {
+            true => format!("[{}, {}]", draft.path(gate), draft.path(other)),
+            false => format!("[{}, {}]", draft.path(other), draft.path(gate)),
+        };
+        match new_connection(draft, &pair) {
+            Some(edit) => found.suggest(format!("add the connection `{pair}`"), [edit]),
+            None => found.help(format!("a connection of gates that fit: `{pair}`")),
+        }
+    });
+    let found = match fitting.is_empty() {
+        true => found.help(format!("a `{}` gate connects to a `{}` gate", kind.word(), kind.opposite().word())),
+        false => found,
+    };
+    let mark = draft.with_option(gate, "unconnected", "ok");
+    found.suggest("or write `unconnected: ok`, if that is intended", [mark])
 }
 
-fn no_replier(draft: &Draft<'_>, gate: usize) -> Diagnostic {
-    let headline = format!("gate `{}` is not connected; every request would wait until its timeout", draft.path(gate));
-    NO_REPLIER
-        .at(headline, draft.gates[gate].model.name.span, "nobody answers")
-        .help("connect it to a `rep` gate")
-        .help("or write `unconnected: ok`")
-}
-
-fn ways_out(draft: &Draft<'_>, gate: usize) -> String {
-    let model = draft.gates[gate].model;
-    let (name, kind, types) = (&model.name.value, &model.kind.value, type_text(draft, gate));
-    format!("connect it, remove it, or write `{name}: {{{kind}: {types}, unconnected: ok}}`")
+/// The change that adds a line below the last connection, if each has a line of its own.
+fn new_connection(draft: &Draft<'_>, pair: &str) -> Option<Edit> {
+    let last = draft.model.connections.last()?.span;
+    let file = draft.sources.file(last.file);
+    let line = file.line_range(last.start as usize);
+    let (head, tail) = (&file.text()[line.start..last.start as usize], file.text().get(last.end as usize..line.end)?);
+    let rest = tail.trim_start();
+    let indent = head.strip_suffix("- ").filter(|indent| indent.trim().is_empty())?;
+    let end = Span { start: line.end as u32, end: line.end as u32, ..last };
+    (rest.is_empty() || rest.starts_with('#')).then(|| Edit::new(end, format!("\n{indent}- {pair}")))
 }
 
 /// The type of a gate as written in the file; empty for a gate without one.
@@ -214,7 +234,8 @@ mod tests {
                 4 |       - events: pub
                   |         ^^^^^^ its messages are dropped
                   |
-                  = help: connect it, remove it, or write `events: {pub: , unconnected: ok}`
+                  = help: a `pub` gate connects to a `sub` gate
+                  = help: or write `unconnected: ok`, if that is intended
             "#]],
         );
     }
@@ -230,7 +251,8 @@ mod tests {
                 4 |       - sensor: sub
                   |         ^^^^^^
                   |
-                  = help: connect it, remove it, or write `sensor: {sub: , unconnected: ok}`
+                  = help: a `sub` gate connects to a `pub` gate
+                  = help: or write `unconnected: ok`, if that is intended
             "#]],
         );
     }
@@ -240,15 +262,15 @@ mod tests {
         rule_example(
             &NO_REPLIER,
             expect![[r#"
-            error: [SCL0703] gate `ui.commands` is not connected; every request would wait until its timeout
-             --> topology.yaml:4:9
-              |
-            4 |       - commands: req
-              |         ^^^^^^^^ nobody answers
-              |
-              = help: connect it to a `rep` gate
-              = help: or write `unconnected: ok`
-        "#]],
+                error: [SCL0703] gate `ui.commands` is not connected; every request would wait until its timeout
+                 --> topology.yaml:4:9
+                  |
+                4 |       - commands: req
+                  |         ^^^^^^^^ nobody answers
+                  |
+                  = help: a `req` gate connects to a `rep` gate
+                  = help: or write `unconnected: ok`, if that is intended
+            "#]],
         );
     }
 
@@ -257,14 +279,15 @@ mod tests {
         rule_example(
             &NO_REQUESTER,
             expect![[r#"
-            warning: [SCL0704] nobody sends requests to `controller.commands`
-             --> topology.yaml:4:9
-              |
-            4 |       - commands: rep
-              |         ^^^^^^^^
-              |
-              = help: connect it, or write `unconnected: ok`
-        "#]],
+                warning: [SCL0704] nobody sends requests to `controller.commands`
+                 --> topology.yaml:4:9
+                  |
+                4 |       - commands: rep
+                  |         ^^^^^^^^
+                  |
+                  = help: a `rep` gate connects to a `req` gate
+                  = help: or write `unconnected: ok`, if that is intended
+            "#]],
         );
     }
 
@@ -279,7 +302,7 @@ mod tests {
                 2 |   - name: logger
                   |           ^^^^^^ 2 gates, 0 connections
                   |
-                  = help: connect it or remove it
+                  = help: each gate has a connection or the option `unconnected: ok`
                   = note: gates without a peer: `a` (sub), `b` (sub)
             "#]],
         );

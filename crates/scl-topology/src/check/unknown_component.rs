@@ -1,7 +1,10 @@
 //! SCL0501: an end of a component that does not exist. SCL0504: its two names are swapped.
 
 use super::draft::Draft;
+use super::ends::{End, with_places};
+use super::named::is_well_formed;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
+use crate::rust_name::{component_type, gate_field};
 use crate::source::Span;
 use crate::suggest::{MOST, nearest, similar};
 use scl_text::list::listed;
@@ -46,65 +49,161 @@ pub(crate) const SWAPPED: Rule = Rule {
 ",
 };
 
-pub(super) fn check(
-    draft: &mut Draft<'_>,
-    [link, end]: [usize; 2],
-    [component, gate]: [&str; 2],
-    problems: &mut Diagnostics,
-) {
-    let text = &draft.links[link].model.ends[end];
-    let headline = format!("unknown component `{component}`");
-    if let Some(swapped) = draft.gate(gate, component) {
-        draft.gates[swapped].named = true;
-        return problems.push(swap(draft, headline, text.span, [gate, component]));
-    }
+/// Maximum number of components or ends that a search looks at.
+const SEARCHED: usize = 32;
+
+/// What an unknown component may mean.
+#[derive(Default)]
+struct Meant<'m> {
+    names: Vec<&'m str>,
+    /// The names look alike; otherwise the components only have gates that fit.
+    is_similar: bool,
+    /// No connection names the gates that are meant.
+    is_open: bool,
+}
+
+pub(super) fn check<'m>(draft: &mut Draft<'m>, component: &'m str, ends: &[End], problems: &mut Diagnostics) {
     if draft.model.components_unread {
         return;
     }
-    let place = draft.part(text.span, component, false);
-    let meant = if draft.may_search() { meant(draft, link, end, [component, gate]) } else { Vec::new() };
-    let declarations = meant.iter().filter_map(|name| draft.component(name));
-    let similar = declarations.map(|at| (draft.components[at].model.name.span, "a similar name is declared here"));
-    let found = UNKNOWN.at(headline, place, "no component has this name").about(component).labels(similar);
-    let is_open = |name: &String| draft.gate(name, gate).is_some_and(|gate| !draft.gates[gate].named);
-    let open_before = meant.iter().all(is_open);
-    for name in &meant {
-        if let Some(gate) = draft.gate(name, gate) {
+    let headline = format!("unknown component `{component}`");
+    let of_end = |&[link, end]: &End| draft.part(draft.links[link].model.ends[end].span, component, false);
+    let places: Vec<Span> = ends.iter().map(of_end).collect();
+    let meant = if draft.may_search() { meant(draft, component, ends) } else { Meant::default() };
+    mark(draft, &meant, ends);
+    if meant.names.iter().any(|name| !is_well_formed(name)) {
+        // The declaration is reported, and its name may become this one.
+        return;
+    }
+    let declarations = meant.names.iter().filter_map(|name| draft.component(name));
+    let label = if meant.is_similar { "a similar name is declared here" } else { "has such gates" };
+    let similar = declarations.map(|at| (draft.components[at].model.name.span, label));
+    let found = UNKNOWN.at(headline, places[0], "no component has this name").labels(similar);
+    let found = with_ways(draft, found, component, &meant, ends, &places);
+    problems.push(with_places(found.note(declared(draft)), &places));
+}
+
+/// Marks the gates that are meant as connected.
+fn mark(draft: &mut Draft<'_>, meant: &Meant<'_>, ends: &[End]) {
+    for (name, end) in meant.names.iter().flat_map(|name| ends.iter().map(move |end| (name, *end))) {
+        if let Some(gate) = gate_of(draft, name, end) {
             draft.gates[gate].named = true;
         }
     }
-    let ways = meant.iter().map(|name| (name.as_str(), Edit::new(place, name)));
-    let mut found = found.choose(("did you mean ", "?"), ways);
-    // If its gate is connected to nothing, it is certainly the one meant.
-    if !(open_before && draft.sources.snippet(place) == component) {
+}
+
+/// Proposes to change the ends, the declaration, or either of them.
+fn with_ways(
+    draft: &Draft<'_>,
+    found: Diagnostic,
+    component: &str,
+    meant: &Meant<'_>,
+    ends: &[End],
+    places: &[Span],
+) -> Diagnostic {
+    let is_verbatim = places.iter().all(|place| draft.sources.snippet(*place) == component);
+    let changed = |name: &str| places.iter().map(|place| Edit::new(*place, name)).collect::<Vec<_>>();
+    let (&[only], true) = (meant.names.as_slice(), is_verbatim) else {
+        let ways = meant.names.iter().map(|name| (*name, changed(name)));
+        let mut found = found.choose_all(("did you mean ", "?"), ways);
         found.doubt();
-    }
-    problems.push(found.note(declared(draft)));
-}
-
-/// The report of an end whose two names are in the wrong order.
-pub(super) fn swap(draft: &Draft<'_>, headline: String, span: Span, [component, gate]: [&str; 2]) -> Diagnostic {
-    let meant = format!("{component}.{gate}");
-    SWAPPED
-        .at(headline, span, "component and gate are swapped")
-        .propose(format!("write `{meant}`"), [Edit::new(span, draft.sources.quoted_as(span, &meant))])
-}
-
-/// Returns similar components that have the gate, or else those that have a similar gate. Of equally similar ones,
-/// prefers those whose gate fits the other end and is unconnected.
-fn meant(draft: &Draft<'_>, link: usize, end: usize, [component, gate]: [&str; 2]) -> Vec<String> {
-    let near = nearest(component, draft.component_names.iter().copied());
-    let has_similar = |other: &str| {
-        let gates = draft.gates_of(other).map(|at| draft.gates[at].model.name.value.as_str());
-        !similar(gate, gates).is_empty() || draft.declarations(other).any(|twin| twin.gates_unread)
+        return found;
     };
-    let mut best: Vec<&str> = near.iter().copied().filter(|other| draft.gate(other, gate).is_some()).collect();
-    if best.is_empty() {
-        best = near.into_iter().filter(|other| has_similar(other)).collect();
+    let has_uses = draft.uses_of(only) > 0;
+    let declared = draft.component(only).map(|at| draft.components[at].model.name.span).filter(|_| !has_uses);
+    let has_all = || ends.iter().all(|end| gate_of(draft, only, *end).is_some());
+    let renamed = declared
+        .filter(|_| is_well_formed(component) && has_all())
+        .map(|at| Edit::new(at, draft.sources.quoted_as(at, component)));
+    match renamed {
+        // `SensorUnit` is only what Rust calls `sensor_unit`.
+        Some(edit) if ends.len() > 1 && meant.is_similar && gate_field(component) == component => {
+            found.propose(format!("rename `{only}` to `{component}`, as the connections call it"), [edit])
+        }
+        renamed => {
+            let mut found = found.choose_all(("did you mean ", "?"), [(only, changed(only))]);
+            // The declaration may be misspelt as well, unless a connection names it.
+            if !(has_uses && meant.is_similar && meant.is_open) {
+                found.doubt();
+            }
+            match renamed {
+                Some(edit) => found.suggest(format!("or rename the component `{only}` to `{component}`"), [edit]),
+                None => found,
+            }
+        }
     }
-    keep_if_any(&mut best, |name| draft.gate(name, gate).is_none_or(|gate| draft.fits([link, end], gate)));
-    keep_if_any(&mut best, |name| draft.gate(name, gate).is_none_or(|gate| !draft.gates[gate].named));
-    best.into_iter().take(MOST).map(str::to_owned).collect()
+}
+
+/// Reports ends whose two names are in the wrong order.
+pub(super) fn swapped(draft: &mut Draft<'_>, [component, gate]: [&str; 2], ends: &[End], problems: &mut Diagnostics) {
+    let headline = match draft.component(component) {
+        None => format!("unknown component `{component}`"),
+        Some(_) => format!("component `{component}` has no gate `{gate}`"),
+    };
+    if let Some(meant) = draft.gate(gate, component) {
+        draft.gates[meant].named = true;
+    }
+    let meant = format!("{gate}.{component}");
+    let places: Vec<Span> = ends.iter().map(|&[link, end]| draft.links[link].model.ends[end].span).collect();
+    let edits = places.iter().map(|place| Edit::new(*place, draft.sources.quoted_as(*place, &meant)));
+    let found =
+        SWAPPED.at(headline, places[0], "component and gate are swapped").propose(format!("write `{meant}`"), edits);
+    problems.push(with_places(found, &places));
+}
+
+/// Returns similar components that have the gates, or else those that have similar gates, or else any that has
+/// unconnected gates of these names. Of equally similar ones, prefers those whose gates fit the other ends and are
+/// unconnected.
+fn meant<'m>(draft: &Draft<'m>, component: &str, ends: &[End]) -> Meant<'m> {
+    let ends = &ends[..ends.len().min(SEARCHED)];
+    let in_rust = component_type(component);
+    let same = draft.component_names.iter().filter(|name| component_type(name) == in_rust);
+    let mut near: Vec<&str> = same.take(SEARCHED).copied().collect();
+    if near.is_empty() {
+        near = nearest(component, draft.component_names.iter().copied());
+    }
+    near.truncate(SEARCHED);
+    let has_all = |name: &str| ends.iter().all(|end| gate_of(draft, name, *end).is_some());
+    let fits = |name: &str| ends.iter().all(|end| gate_of(draft, name, *end).is_none_or(|at| draft.fits(*end, at)));
+    let is_open =
+        |name: &str| ends.iter().all(|end| gate_of(draft, name, *end).is_none_or(|gate| !draft.gates[gate].named));
+    let mut best: Vec<&str> = near.iter().copied().filter(|name| has_all(name)).collect();
+    if best.is_empty() {
+        best = near.into_iter().filter(|name| ends.iter().all(|end| has_similar(draft, name, *end))).collect();
+    }
+    keep_if_any(&mut best, fits);
+    keep_if_any(&mut best, is_open);
+    best.truncate(MOST);
+    if !best.is_empty() {
+        let is_open = best.iter().all(|name| is_open(name));
+        return Meant { names: best, is_similar: true, is_open };
+    }
+    let holders = draft.gates_named(gate_name(draft, ends[0])).iter().take(SEARCHED);
+    let mut holders: Vec<&str> = holders.map(|gate| draft.component_name(*gate)).collect();
+    holders.dedup();
+    let is_other = |name: &str| {
+        ends.iter()
+            .all(|&[link, end]| draft.links[link].ends[1 - end].is_none_or(|other| draft.component_name(other) != name))
+    };
+    holders.retain(|name| has_all(name) && fits(name) && is_open(name) && is_other(name));
+    holders.truncate(MOST);
+    Meant { names: holders, is_similar: false, is_open: true }
+}
+
+fn gate_name<'m>(draft: &Draft<'m>, [link, end]: End) -> &'m str {
+    draft.links[link].model.ends[end].value.split_once('.').map_or("", |(_, gate)| gate)
+}
+
+/// The gate of the component `name` that has the name of the gate at an end.
+fn gate_of(draft: &Draft<'_>, name: &str, end: End) -> Option<usize> {
+    draft.gate(name, gate_name(draft, end))
+}
+
+fn has_similar(draft: &Draft<'_>, component: &str, end: End) -> bool {
+    let gates = draft.gates_of(component).map(|at| draft.gates[at].model.name.value.as_str());
+    gate_of(draft, component, end).is_some()
+        || !similar(gate_name(draft, end), gates).is_empty()
+        || draft.declarations(component).any(|twin| twin.gates_unread)
 }
 
 /// Keeps only the names that pass, unless none does.
@@ -132,18 +231,19 @@ mod tests {
         rule_example(
             &UNKNOWN,
             expect![[r#"
-            error: [SCL0501] unknown component `controler`
-             --> topology.yaml:9:27
-              |
-            5 |   - name: controller
-              |           ---------- a similar name is declared here
-            ...
-            9 |   - [sensor.measurements, controler.sensor]
-              |                           ^^^^^^^^^ no component has this name
-              |
-              = help: did you mean `controller`?
-              = note: declared components: `controller`, `sensor`
-        "#]],
+                error: [SCL0501] unknown component `controler`
+                 --> topology.yaml:9:27
+                  |
+                5 |   - name: controller
+                  |           ---------- a similar name is declared here
+                ...
+                9 |   - [sensor.measurements, controler.sensor]
+                  |                           ^^^^^^^^^ no component has this name
+                  |
+                  = help: did you mean `controller`?
+                  = help: or rename the component `controller` to `controler`
+                  = note: declared components: `controller`, `sensor`
+            "#]],
         );
     }
 

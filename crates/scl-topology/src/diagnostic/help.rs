@@ -140,12 +140,21 @@ impl Diagnostic {
     /// after the words.
     pub fn choose<'w>(
         self,
-        (before, after): (&'static str, &'static str),
+        lead: (&'static str, &'static str),
         ways: impl IntoIterator<Item = (&'w str, Edit)>,
+    ) -> Self {
+        self.choose_all(lead, ways.into_iter().map(|(word, edit)| (word, vec![edit])))
+    }
+
+    /// As [`choose`](Self::choose), with several changes that belong together for each word.
+    pub(crate) fn choose_all<'w>(
+        self,
+        (before, after): (&'static str, &'static str),
+        ways: impl IntoIterator<Item = (&'w str, Vec<Edit>)>,
     ) -> Self {
         let mut proposals: Vec<Proposal> = ways
             .into_iter()
-            .map(|(word, edit)| Proposal { word: clipped(word), edits: vec![edit], is_certain: false, is_sure: false })
+            .map(|(word, edits)| Proposal { word: clipped(word), edits, is_certain: false, is_sure: false })
             .collect();
         match proposals.as_mut_slice() {
             [] => self,
