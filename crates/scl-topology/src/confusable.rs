@@ -1,7 +1,7 @@
 //! Characters that look like ASCII characters but are not: marks of word processors, letters of other scripts.
 
 /// What each character is called, and the mark it is taken for.
-const MARKS: [(char, &str, &str); 34] = [
+const MARKS: [(char, &str, &str); 39] = [
     ('：', "a fullwidth colon", ":"),
     ('，', "a fullwidth comma", ","),
     ('、', "an ideographic comma", ","),
@@ -36,6 +36,11 @@ const MARKS: [(char, &str, &str); 34] = [
     ('→', "an arrow", "->"),
     ('⇒', "a double arrow", "->"),
     ('꞉', "a letter colon", ":"),
+    ('ﬀ', "a ligature", "ff"),
+    ('ﬁ', "a ligature", "fi"),
+    ('ﬂ', "a ligature", "fl"),
+    ('ﬃ', "a ligature", "ffi"),
+    ('ﬄ', "a ligature", "ffl"),
 ];
 
 /// Letters and the ASCII letters that they are taken for.

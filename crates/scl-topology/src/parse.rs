@@ -32,7 +32,7 @@ pub(crate) use pitfall::look_alike::LETTER;
 pub(crate) use pitfall::{MISREAD, RULES as PITFALLS};
 pub(crate) use shape::RULES as SHAPES;
 
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit};
 use crate::model::Model;
 use crate::source::{FileId, SourceFile, Sources, Span, Spanned};
 use crate::yaml::{self, Node, NodeKind};
@@ -80,7 +80,7 @@ pub fn read_document(source: &SourceFile, dialect: &Dialect, problems: &mut Diag
     pitfall::check_tree(&tree, source, dialect, problems);
     problems.extend(syntax_error::explain(&tree, &text, source, dialect));
     let mut document = Document::of(tree);
-    document.is_partial |= text.has_conflict;
+    document.is_partial |= text.is_incomplete;
     document
 }
 
@@ -90,7 +90,9 @@ pub fn damaged_key(node: &Node, source: &SourceFile, dialect: &Dialect) -> Optio
     let without_colon = || {
         let word = node.text().filter(|_| node.is_plain())?.split(' ').next().filter(|word| (dialect.is_key)(word))?;
         let start = node.span.start as usize;
-        Some(pitfall::missing_mark::colon_after(&(start..start + word.len()), source.text(), source))
+        let end = start + word.len();
+        let colon = vec![Edit::new(source.span(end..end), ":")];
+        Some(pitfall::missing_mark::colon_after(&(start..end), source.text(), source).carry(colon, false))
     };
     glued(node, source, dialect).or_else(without_colon)
 }

@@ -18,12 +18,14 @@ pub(crate) fn of(text: &str) -> Option<String> {
 }
 
 fn written(node: &Node, sources: &Sources) -> Option<String> {
+    let snippet = sources.snippet(node.span);
     match &node.kind {
+        // The mistake may be in how its lines are indented.
+        _ if snippet.starts_with(['[', '{']) && snippet.contains('\n') => None,
         NodeKind::Scalar { style: Style::Block, .. } | NodeKind::Unread => None,
         NodeKind::Scalar { style, .. } => {
-            let written = sources.snippet(node.span);
-            let is_kept = *style == Style::Quoted || !written.contains(['\n', ',', '[', ']', '{', '}', '\u{3000}']);
-            is_kept.then(|| written.to_owned())
+            let is_kept = *style == Style::Quoted || !snippet.contains(['\n', ',', '[', ']', '{', '}', '\u{3000}']);
+            is_kept.then(|| snippet.to_owned())
         }
         NodeKind::Sequence { items } => {
             let items: Option<Vec<String>> = items.iter().map(|item| written(item, sources)).collect();

@@ -259,8 +259,9 @@ pub fn removal(source: &SourceFile, span: Span) -> Option<Span> {
     let (before, after) = (text.get(..span.start as usize)?, text.get(span.end as usize..)?);
     let line = source.line_range(span.start as usize);
     let head = text.get(line.start..span.start as usize)?.trim_start();
-    let rest = after.split('\n').next().unwrap_or(after);
-    if (head.is_empty() || head == "- ") && rest.trim_end().is_empty() {
+    let rest = &after[..after.len() - after.trim_start_matches([' ', '\t', '\r']).len()];
+    let is_last = matches!(after[rest.len()..].chars().next(), None | Some('\n'));
+    if (head.is_empty() || head == "- ") && is_last {
         let end = span.end as usize + rest.len();
         return Some(match end == text.len() {
             // The last line has no line break of its own, so remove the one before it.

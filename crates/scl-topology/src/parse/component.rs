@@ -4,7 +4,7 @@ use super::field::{Field, Fields};
 use super::topology_dialect::TOPOLOGY;
 use super::words::{COMPONENT_KEYS, is_kind};
 use super::{Reader, glued, pitfall, scalar, shape};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Edit};
 use crate::model::ComponentModel;
 use crate::source::Spanned;
 use crate::yaml::{Node, NodeKind};
@@ -60,7 +60,13 @@ impl Reader<'_> {
             self.read_component_entries(item, first);
             let start = rest.first().map_or(item.span.end, |(key, _)| key.span.start) as usize;
             let line = start..self.source.line_range(start).end;
-            self.report(pitfall::dash::missing(&line, self.source.text(), self.source));
+            let problem = pitfall::dash::missing(&line, self.source.text(), self.source);
+            let head = self.source.text()[..start].trim_end_matches(' ').len();
+            let edits = match start - head > 1 {
+                true => vec![Edit::new(self.source.span(start - 2..start), "- ")],
+                false => vec![Edit::new(self.source.span(start..start), "- ")],
+            };
+            self.report(problem.carry(edits, false));
             return self.read_component_entries(item, rest);
         }
         self.read_component_entries(item, entries);
@@ -187,9 +193,13 @@ impl Reader<'_> {
                 self.report(pitfall::no_value::in_field(field, &format!("text of `{}`", field.key), self.source));
                 None
             }
-            NodeKind::Scalar { .. } => scalar(field.value),
+            NodeKind::Scalar { .. } => {
+                self.problems.extend(pitfall::cut_off::find(field.value, self.source));
+                scalar(field.value)
+            }
             _ => {
-                self.report(shape::option_value::not_text(&format!("`{}`", field.key), field.value));
+                let problem = shape::option_value::not_text(&format!("`{}`", field.key), field.value);
+                self.report(pitfall::cut_off::as_text(problem, field.value.span, self.source));
                 None
             }
         }

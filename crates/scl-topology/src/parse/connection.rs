@@ -3,7 +3,7 @@
 use super::field::Field;
 use super::{Reader, pitfall, scalar, shape};
 use crate::confusable;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Edit};
 use crate::model::ConnectionModel;
 use crate::source::{Span, Spanned};
 use crate::yaml::{Node, NodeKind};
@@ -77,7 +77,9 @@ impl Reader<'_> {
         }
         if text.starts_with("--") {
             let start = value.span.start as usize;
-            return Some(pitfall::dash::doubled(&(start..start + 2), self.source.text(), self.source));
+            let dash = vec![Edit::new(self.source.span(start..start + 1), "")];
+            let problem = pitfall::dash::doubled(&(start..start + 2), self.source.text(), self.source);
+            return Some(problem.carry(dash, false));
         }
         Some(self.dash_without_space(value.span))
     }
@@ -85,7 +87,8 @@ impl Reader<'_> {
     /// A dash at the start of a value, with no space after it.
     pub(super) fn dash_without_space(&self, value: Span) -> Diagnostic {
         let start = value.start as usize;
-        pitfall::dash::without_space(&(start..start + 1), self.source.text(), self.source)
+        let space = vec![Edit::new(self.source.span(start + 1..start + 1), " ")];
+        pitfall::dash::without_space(&(start..start + 1), self.source.text(), self.source).carry(space, false)
     }
 
     fn end(&mut self, node: &Node) -> Option<Spanned<String>> {

@@ -24,13 +24,13 @@ impl Reader<'_> {
     }
 
     fn check_keys(&mut self, entries: &[(Node, Node)], owner: &str) {
-        let mut seen: HashMap<&str, Span> = HashMap::new();
+        let mut seen: HashMap<&str, (Span, Span)> = HashMap::new();
         for (key_node, value) in entries {
             let NodeKind::Scalar { text: key, .. } = &key_node.kind else { continue };
-            let first = *seen.entry(key).or_insert(key_node.span);
-            if first != key_node.span {
+            let first = *seen.entry(key).or_insert((key_node.span, key_node.span.to(value.span)));
+            if first.0 != key_node.span {
                 let field = Field { key, key_span: key_node.span, key_node, value };
-                self.report(pitfall::key::duplicate(&field, first, owner));
+                self.report(pitfall::key::duplicate(&field, first, owner, self.source));
             }
         }
     }

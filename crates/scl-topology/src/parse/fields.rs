@@ -28,7 +28,7 @@ pub fn fields<'n>(
     problems: &mut Diagnostics,
 ) -> Fields<'n> {
     let mut fields = Fields::default();
-    let mut seen: HashMap<&str, Span> = HashMap::new();
+    let mut seen: HashMap<&str, (Span, Span)> = HashMap::new();
     let mut repeated: HashMap<&str, Diagnostic> = HashMap::new();
     for (key_node, value) in entries {
         let glued = match &key_node.kind {
@@ -49,12 +49,12 @@ pub fn fields<'n>(
         if let Some(&first) = seen.get(key) {
             match repeated.entry(key) {
                 Entry::Occupied(found) => found.into_mut().add_label(field.key_span, "and here"),
-                Entry::Vacant(none) => _ = none.insert(pitfall::key::duplicate(&field, first, owner)),
+                Entry::Vacant(none) => _ = none.insert(pitfall::key::duplicate(&field, first, owner, source)),
             }
             fields.repeated.push(field);
             continue;
         }
-        seen.insert(key, key_node.span);
+        seen.insert(key, (key_node.span, key_node.span.to(value.span)));
         fields.list.push(field);
     }
     problems.extend(joined(repeated.into_values().collect()));

@@ -2,9 +2,11 @@
 
 pub(super) mod bracket;
 mod conflict_marker;
+pub(super) mod cut_off;
 pub(super) mod dash;
 pub(super) mod depth;
 mod empty_file;
+pub(super) mod habit;
 pub(super) mod indentation;
 mod invisible;
 pub(super) mod key;
@@ -13,11 +15,13 @@ pub(super) mod look_alike;
 pub(super) mod misread_name;
 pub(super) mod missing_mark;
 pub(super) mod missing_space;
+pub(super) mod needs_quotes;
 pub(super) mod no_value;
 pub(super) mod not_yaml;
 pub(super) mod quote;
 pub(super) mod reserved_character;
 pub(super) mod scan;
+mod shallow;
 pub(super) mod tab;
 pub(super) mod unexpected;
 pub(super) mod unsupported;
@@ -58,6 +62,10 @@ pub(crate) const RULES: &[&Rule] = &[
     &look_alike::RULE,
     &leading_zero::RULE,
     &tab::SEPARATOR,
+    &needs_quotes::RULE,
+    &habit::RULE,
+    &shallow::RULE,
+    &cut_off::RULE,
 ];
 
 /// The rules about words that YAML reads as something else, or that hold an invisible character.
@@ -71,8 +79,8 @@ pub(super) struct CheckedText {
     /// Tabs, invisible characters or one of two conflicting versions were replaced by spaces, so a syntax error that
     /// the parser reports means nothing.
     pub(super) is_mended: bool,
-    /// The file holds two versions, left by a merge; `text` has the first one.
-    pub(super) has_conflict: bool,
+    /// The file holds two versions, left by a merge, of which `text` has the first one; or it is a template.
+    pub(super) is_incomplete: bool,
 }
 
 /// Checks the rules that need no parser.
@@ -84,21 +92,29 @@ pub(super) fn check_text(source: &SourceFile, dialect: &Dialect, problems: &mut 
     let scan = scan::scan(&text);
     let is_cleaned = invisible::check(source, &scan, &mut text, problems);
     unsupported::check_directives(source, &mut text, dialect, problems);
+    let has_template =
+        habit::template::check_pointer(source, problems) || habit::template::check(source, &scan, &mut text, problems);
+    habit::template::check_arrows(source, &mut text, problems);
+    habit::template::check_backslashes(source, &scan, &mut text, problems);
     let has_tabs = tab::check_indentation(source, &scan, &mut text, problems);
     tab::check_separators(source, &scan, &mut text, problems);
-    CheckedText { text, is_mended: is_cleaned || has_tabs || has_conflict, has_conflict }
+    let is_incomplete = has_conflict || has_template;
+    CheckedText { text, is_mended: is_cleaned || has_tabs || is_incomplete, is_incomplete }
 }
 
 /// Checks the rules about what the parser found, but not about what it means.
 pub(super) fn check_tree(tree: &Tree, source: &SourceFile, dialect: &Dialect, problems: &mut Diagnostics) {
     match dialect.has_aliases {
-        true => unsupported::check_aliases(tree, problems),
+        true => unsupported::check_aliases(tree, source, problems),
         false => unsupported::check_anchors(tree, source, problems),
     }
-    problems.extend(tree.tags.iter().map(|tag| unsupported::tag(*tag, dialect)));
+    problems.extend(tree.tags.iter().map(|tag| unsupported::tag(*tag, source, dialect)));
     problems.extend(tree.second_document.map(|at| unsupported::second_document(source, at, dialect)));
     problems.extend(tree.too_deep.map(|at| depth::diagnose(at, dialect)));
     if tree.error.is_none() {
+        let mut found = Vec::new();
+        tree.root.iter().for_each(|root| shallow::find(root, source, &mut found));
+        problems.extend(found);
         problems.extend(empty_file::find(tree, source, dialect));
     }
 }

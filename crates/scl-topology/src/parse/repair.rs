@@ -6,6 +6,7 @@
 
 mod candidates;
 mod line;
+mod quoting;
 mod tell;
 mod window;
 
@@ -59,6 +60,10 @@ enum Kind {
     DashSpace(Range<usize>),
     /// A list item in the line of another.
     Break(usize),
+    /// A parenthesis in place of a bracket.
+    Parentheses(Range<usize>),
+    /// A key in the line of another, with its value.
+    Key(Range<usize>),
     /// A quote without a partner.
     Quote(usize),
     /// The place of a quote that is missing.
@@ -71,6 +76,8 @@ enum Kind {
     Indent(Range<usize>, usize),
     /// Characters that look like marks of YAML.
     LookAlike(Range<usize>),
+    /// A text that needs quotes.
+    Text(Range<usize>),
 }
 
 impl Edit {
@@ -102,14 +109,38 @@ pub(super) struct Repair {
 /// no tool applies the change by itself.
 const MOST_RIVALS: usize = 16;
 
+/// The changes of a line that are tried.
+type Ways = fn(&Range<usize>, &str, &SourceFile, &Dialect) -> Vec<Edit>;
+
 /// Returns the problem that the best change stands for, if any change makes the text readable.
 pub(super) fn find(error: &SyntaxError, text: &CheckedText, source: &SourceFile, dialect: &Dialect) -> Option<Repair> {
+    find_among(candidates::of_line, error, text, source, dialect)
+}
+
+/// As [`find`], but only tries to put texts in quotes, and returns the problem only if no other is left.
+pub(super) fn find_text(
+    error: &SyntaxError,
+    text: &CheckedText,
+    source: &SourceFile,
+    dialect: &Dialect,
+) -> Option<Diagnostic> {
+    let ways: Ways = |line, text, _, dialect| quoting::likely(line, text, dialect);
+    find_among(ways, error, text, source, dialect).filter(|repair| repair.is_sure).map(|repair| repair.problem)
+}
+
+fn find_among(
+    ways: Ways,
+    error: &SyntaxError,
+    text: &CheckedText,
+    source: &SourceFile,
+    dialect: &Dialect,
+) -> Option<Repair> {
     let text = &text.text;
     let window = window::around(error, text, source)?;
-    find_in(&window, true, error, text, source, dialect).or_else(|| {
+    find_in(&window, true, ways, error, text, source, dialect).or_else(|| {
         // A second mistake further down may make the whole window unreadable, so leave out the lines below.
         let above = window.without_lines_below(error, text, source)?;
-        find_in(&above, false, error, text, source, dialect).filter(|repair| repair.is_sure)
+        find_in(&above, false, ways, error, text, source, dialect).filter(|repair| repair.is_sure)
     })
 }
 
@@ -118,6 +149,7 @@ pub(super) fn find(error: &SyntaxError, text: &CheckedText, source: &SourceFile,
 fn find_in(
     window: &Window,
     is_complete: bool,
+    ways: Ways,
     error: &SyntaxError,
     text: &str,
     source: &SourceFile,
@@ -125,7 +157,7 @@ fn find_in(
 ) -> Option<Repair> {
     let lines = window::suspects(error, text, source, window);
     let mut edits: Vec<(usize, Edit)> = Vec::new();
-    for edit in lines.iter().flat_map(|line| candidates::of_line(line, text, source, dialect)) {
+    for edit in lines.iter().flat_map(|line| ways(line, text, source, dialect)) {
         if edit.changes.iter().all(|(range, _)| range.start >= window.range.start && range.end <= window.range.end) {
             let distance = edit.changes.first().map_or(0, |(range, _)| range.start.abs_diff(error.at));
             edits.push((distance, edit));

@@ -2,12 +2,13 @@
 
 use super::dialect::Dialect;
 use super::pitfall::{
-    CheckedText, bracket, depth, indentation, missing_space, not_yaml, quote, reserved_character, tab, unsupported,
+    CheckedText, bracket, depth, habit, indentation, missing_space, needs_quotes, not_yaml, quote, reserved_character,
+    tab, unsupported,
 };
 use super::repair;
 use crate::diagnostic::Diagnostic;
 use crate::source::SourceFile;
-use crate::yaml::{SyntaxErrorKind, Tree};
+use crate::yaml::{SyntaxError, SyntaxErrorKind, Tree};
 
 /// Explains why the parser stopped. Returns `None` if it did not, or if a problem that is already reported explains it.
 pub(super) fn explain(tree: &Tree, text: &CheckedText, source: &SourceFile, dialect: &Dialect) -> Option<Diagnostic> {
@@ -18,6 +19,14 @@ pub(super) fn explain(tree: &Tree, text: &CheckedText, source: &SourceFile, dial
     }
     if text.is_mended {
         return None;
+    }
+    if is_text_told(tree, error, source) {
+        return None;
+    }
+    let known =
+        habit::find(error, &text.text, source, dialect).or_else(|| repair::find_text(error, text, source, dialect));
+    if known.is_some() {
+        return known;
     }
     let explained = match error.kind {
         SyntaxErrorKind::Glued => missing_space::at_bracket(error, &text.text, source, dialect),
@@ -44,4 +53,12 @@ pub(super) fn explain(tree: &Tree, text: &CheckedText, source: &SourceFile, dial
         .or_else(|| indentation::find(error, &text.text, source))
         .or_else(|| repair.map(|repair| repair.problem))
         .or_else(|| Some(not_yaml::diagnose(error, source)))
+}
+
+/// Whether a `*`, `&` or `!` that begins a text in the line of the error is reported.
+fn is_text_told(tree: &Tree, error: &SyntaxError, source: &SourceFile) -> bool {
+    let line = source.line_range(error.at);
+    let anchors = tree.anchors.iter().flat_map(|anchor| anchor.definition.iter().chain(&anchor.aliases));
+    let mut starts = anchors.chain(&tree.tags).filter(|at| line.contains(&(at.start as usize)));
+    starts.any(|at| needs_quotes::at_start(*at, source).is_some())
 }

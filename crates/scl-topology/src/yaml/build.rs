@@ -58,11 +58,18 @@ impl<'t> Builder<'t> {
 
     pub(super) fn event(&mut self, event: Event<'_>, at: &granit_parser::Span) {
         let span = self.span(at);
+        let is_tagged = at.tag_span().is_some();
         if let Some(tag) = at.tag_span() {
             self.tree.tags.push(self.span(&tag));
         }
         match event {
             Event::DocumentStart(..) => self.documents += 1,
+            // A tag or an anchor without a value is a problem of its own.
+            Event::Scalar(_, _, anchor, _)
+                if span.start == span.end && (is_tagged || anchor > 0 && !self.has_aliases) =>
+            {
+                self.attach_value(Node { span, kind: NodeKind::Unread }, anchor);
+            }
             Event::Scalar(text, style, anchor, _) => self.scalar(text.into_owned(), style, span, anchor),
             Event::SequenceStart(style, anchor, _) => self.open(span, style, anchor, Content::Items(Vec::new())),
             Event::MappingStart(style, anchor, _) => {

@@ -1,7 +1,7 @@
 //! SCL0102: brackets that do not match.
 
 use super::scan;
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::source::SourceFile;
 use crate::yaml::SyntaxError;
 use std::ops::Range;
@@ -26,7 +26,8 @@ pub(in crate::parse) fn find(error: &SyntaxError, text: &str, source: &SourceFil
     match text.as_bytes().get(error.at) {
         Some(b'[' | b'{') => unbalanced(error.at, text, source),
         Some(b']' | b'}') if scan::scan(&text[..error.at]).open_brackets.is_empty() => {
-            Some(never_opened(error.at, text, source))
+            let removed = vec![Edit::new(source.span(error.at..error.at + 1), "")];
+            Some(never_opened(error.at, text, source).carry(removed, false))
         }
         _ => find_open(error, text, source),
     }
@@ -36,7 +37,7 @@ pub(in crate::parse) fn find(error: &SyntaxError, text: &str, source: &SourceFil
 pub(in crate::parse) fn find_open(error: &SyntaxError, text: &str, source: &SourceFile) -> Option<Diagnostic> {
     let open = scan::scan(text.get(..error.at)?).open_brackets.pop()?;
     match text.as_bytes().get(error.at) {
-        Some(b']' | b'}') => Some(mismatched(open, error.at, text, source)),
+        Some(b']' | b'}') => Some(with_partner(open, error.at, text, source)),
         _ => unbalanced(open, text, source),
     }
 }
@@ -50,7 +51,7 @@ fn unbalanced(open: usize, text: &str, source: &SourceFile) -> Option<Diagnostic
             b']' | b'}' => {
                 let last = still_open.pop()?;
                 if closing(&text[last..last + 1]) != char::from(letter) {
-                    return Some(mismatched(last, open + at, text, source));
+                    return Some(with_partner(last, open + at, text, source));
                 }
             }
             _ => {}
@@ -62,56 +63,101 @@ fn unbalanced(open: usize, text: &str, source: &SourceFile) -> Option<Diagnostic
     Some(never_closed(open, text, source))
 }
 
-pub(in crate::parse) fn never_closed(open: usize, text: &str, source: &SourceFile) -> Diagnostic {
+/// A bracket that is never closed, with the place after the last word before the next item.
+fn never_closed(open: usize, text: &str, source: &SourceFile) -> Diagnostic {
+    let problem = open_ended(open, text, source);
+    let end = next_item(open, text, source).map_or(text.len(), |item| source.line_range(item.start).start);
+    let close = closing(&text[open..open + 1]);
+    let Some(word) = last_word(open + 1..end, text) else {
+        let after = source.span(open + 1..open + 1);
+        return problem.suggest(format!("add `{close}` after it"), [Edit::new(after, close)]);
+    };
+    let edits = [Edit::new(source.span(word.end..word.end), close)];
+    problem
+        .suggest(format!("add `{close}` after `{}`", &text[word]), edits)
+        .otherwise(format!("more than `{close}` is missing here: the end of the line, or of the lines below"))
+}
+
+/// The problem of a bracket that is never closed.
+fn open_ended(open: usize, text: &str, source: &SourceFile) -> Diagnostic {
     let bracket = &text[open..open + 1];
-    let next = next_item(open, text, source);
-    let inside = &text[open + 1..next.as_ref().map_or(text.len(), |item| item.start)];
-    let mut problem = RULE.at(format!("this `{bracket}` is never closed"), source.span(open..open + 1), "opened here");
-    if let Some(item) = next {
-        let thing = if text[item.clone()].starts_with('-') { "list item" } else { "key" };
-        problem = problem.label(source.span(item), format!("a new {thing} starts here, still inside the bracket"));
-    }
-    let close = closing(bracket);
-    problem.help(match last_word(inside) {
-        Some(word) => format!("add `{close}` after `{word}`"),
-        None => format!("add `{close}` after it"),
-    })
+    let problem = RULE.at(format!("this `{bracket}` is never closed"), source.span(open..open + 1), "opened here");
+    let Some(item) = next_item(open, text, source) else { return problem };
+    let thing = if text[item.clone()].starts_with('-') { "list item" } else { "key" };
+    problem.label(source.span(item), format!("a new {thing} starts here, still inside the bracket"))
+}
+
+/// A bracket without which the text is sound.
+pub(in crate::parse) fn surplus(open: usize, text: &str, source: &SourceFile) -> Diagnostic {
+    open_ended(open, text, source).help(format!("remove this `{}`", &text[open..open + 1]))
 }
 
 pub(in crate::parse) fn never_opened(at: usize, text: &str, source: &SourceFile) -> Diagnostic {
     let bracket = &text[at..at + 1];
     RULE.at(format!("this `{bracket}` closes nothing"), source.span(at..at + 1), "no bracket is open here")
-        .help("remove it, or add the opening bracket")
+        .help(format!("remove this `{bracket}`"))
 }
 
-pub(in crate::parse) fn mismatched(open: usize, at: usize, text: &str, source: &SourceFile) -> Diagnostic {
-    let (bracket, found) = (&text[open..open + 1], &text[at..at + 1]);
-    let close = closing(bracket);
-    RULE.at(format!("this `{found}` does not close `{bracket}`"), source.span(at..at + 1), "")
+/// As [`mismatched`], with the closing bracket that fits.
+fn with_partner(open: usize, at: usize, text: &str, source: &SourceFile) -> Diagnostic {
+    let close = closing(&text[open..open + 1]);
+    mismatched(open, at, at, text, source).carry(vec![Edit::new(source.span(at..at + 1), close)], false)
+}
+
+/// Two brackets of different kinds, of which the one `at` a place is wrong.
+pub(in crate::parse) fn mismatched(
+    open: usize,
+    close: usize,
+    at: usize,
+    text: &str,
+    source: &SourceFile,
+) -> Diagnostic {
+    let (bracket, found) = (&text[open..open + 1], &text[close..close + 1]);
+    let meant = if at == open { opening(found) } else { closing(bracket) };
+    RULE.at(format!("this `{found}` does not close `{bracket}`"), source.span(close..close + 1), "")
         .label(source.span(open..open + 1), "opened here")
-        .help(format!("write `{close}` instead"))
+        .help(format!("write `{meant}` in place of `{}`", &text[at..at + 1]))
 }
 
 /// A bracket that should be closed after a word.
-pub(in crate::parse) fn close_after(open: usize, word: &Range<usize>, text: &str, source: &SourceFile) -> Diagnostic {
+/// The mark `replaced`, which may be nothing, gives way to the closing bracket.
+pub(in crate::parse) fn close_after(
+    open: usize,
+    word: &Range<usize>,
+    replaced: &str,
+    text: &str,
+    source: &SourceFile,
+) -> Diagnostic {
     let bracket = &text[open..open + 1];
     let close = closing(bracket);
-    let mut problem = never_closed(open, text, source);
+    let mut problem = open_ended(open, text, source);
     if source.line(open) != source.line(word.start) {
         problem.secondary.clear();
         problem = problem.label(source.span(word.clone()), format!("expected `{close}` after this"));
     }
-    if !word.is_empty() {
-        problem.helps.clear();
-        problem = problem.help(format!("add `{close}` after `{}`", &text[word.clone()]));
+    match word.is_empty() {
+        _ if !replaced.is_empty() => problem.help(format!("write `{close}` in place of the last `{replaced}`")),
+        true => problem.help(format!("add `{close}`")),
+        false => problem.help(format!("add `{close}` after `{}`", &text[word.clone()])),
     }
-    problem
+}
+
+/// `(` and `)` in place of two `brackets`.
+pub(in crate::parse) fn parentheses(open: &Range<usize>, brackets: &[&str], source: &SourceFile) -> Diagnostic {
+    let (left, right) = (brackets.first().unwrap_or(&"{"), brackets.last().unwrap_or(&"}"));
+    let what = if *left == "{" { "keys" } else { "a list" };
+    RULE.at(
+        "parentheses have no meaning in YAML",
+        source.span(open.clone()),
+        format!("{what} in `{left}` and `{right}`"),
+    )
+    .help(format!("write `{left}` and `{right}` in place of the parentheses"))
 }
 
 /// A bracket that should be opened before a word.
 pub(in crate::parse) fn open_before(close: usize, word: &Range<usize>, text: &str, source: &SourceFile) -> Diagnostic {
     let found = &text[close..close + 1];
-    let open = if found == "]" { '[' } else { '{' };
+    let open = opening(found);
     RULE.at(format!("this `{found}` closes nothing"), source.span(close..close + 1), "no bracket is open here")
         .help(format!("add `{open}` before `{}`", &text[word.clone()]))
 }
@@ -127,6 +173,10 @@ pub(in crate::parse) fn open_after(colon: &Range<usize>, text: &str, source: &So
 
 fn closing(open: &str) -> char {
     if open == "[" { ']' } else { '}' }
+}
+
+fn opening(close: &str) -> char {
+    if close == "]" { '[' } else { '{' }
 }
 
 /// The start of the first later line that looks like a list item or a key, and is not indented deeper than the line
@@ -148,15 +198,21 @@ fn next_item(open: usize, text: &str, source: &SourceFile) -> Option<Range<usize
     None
 }
 
-fn last_word(inside: &str) -> Option<&str> {
-    let line = inside.lines().rev().map(|line| line.split(" #").next().unwrap_or(line)).find(|line| {
-        let line = line.trim();
-        !line.is_empty() && !line.starts_with('#')
-    })?;
-    let code = line.trim_end();
-    match code.ends_with([']', '}']) {
-        true => code.get(code.len() - 1..),
-        false => code.split([' ', ',', '[', ']', '{', '}']).rfind(|word| !word.is_empty()),
+/// The last word of a part of the text, without comments.
+fn last_word(part: Range<usize>, text: &str) -> Option<Range<usize>> {
+    let mut end = part.end;
+    loop {
+        let start = text[part.start..end].rfind('\n').map_or(part.start, |at| part.start + at + 1);
+        let line = &text[start..end];
+        let code = if line.trim_start().starts_with('#') { "" } else { line.split(" #").next().unwrap_or(line) };
+        let code = code.trim_end().trim_end_matches(',');
+        if !code.is_empty() {
+            let is_bracket = code.ends_with([']', '}']);
+            let word =
+                code.rfind([' ', ',', '[', ']', '{', '}']).filter(|at| at + 1 < code.len()).map_or(0, |at| at + 1);
+            return Some(start + if is_bracket { code.len() - 1 } else { word }..start + code.len());
+        }
+        end = start.checked_sub(1).filter(|end| *end >= part.start)?;
     }
 }
 

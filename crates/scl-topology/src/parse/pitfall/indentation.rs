@@ -1,6 +1,6 @@
 //! SCL0105: a line whose indentation fits no line above it.
 
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::parse::words::COMPONENT_KEYS;
 use crate::source::SourceFile;
 use crate::yaml::{MAX_DEPTH, SyntaxError};
@@ -53,7 +53,7 @@ pub(in crate::parse) fn find(error: &SyntaxError, text: &str, source: &SourceFil
     }
     let item = above.iter().rev().find(|level| level.is_dash && first.is_dash);
     if let Some(item) = item.filter(|item| item.indent < first.indent) {
-        return Some(uneven_items(first, item, "deeper", source));
+        return Some(uneven_items(first, item, "deeper", text, source));
     }
     let same = above.iter().find(|level| level.indent == first.indent);
     let is_misplaced_key = same.is_some_and(|level| level.is_dash) && !first.is_dash;
@@ -62,7 +62,58 @@ pub(in crate::parse) fn find(error: &SyntaxError, text: &str, source: &SourceFil
     }
     let keys = above.iter().filter(|level| level.is_dash == first.is_dash);
     let meant = keys.min_by_key(|level| (level.indent.abs_diff(first.indent), std::cmp::Reverse(level.indent)))?;
-    Some(diagnose(first, meant, is_misplaced_key, &above, text, source))
+    let moved = moved(&first.word, first.indent, meant.indent, text, source);
+    let mut problem = diagnose(first, meant, is_misplaced_key, &above, text, source);
+    let between = first.indent..meant.indent;
+    if first.is_dash && above.iter().any(|level| !level.is_dash && between.contains(&level.indent)) {
+        // It would become an item of another list.
+        problem.clear_helps();
+        return Some(problem.help(ONE_COLUMN));
+    }
+    Some(problem.carry(moved, false))
+}
+
+/// What holds for the items of every list.
+const ONE_COLUMN: &str = "the items of one list stand in one column";
+
+/// How many lines below a line move with it.
+const MOST_BELOW: usize = 64;
+
+/// The line of a word, and those below it that are indented deeper, in another column.
+fn moved(word: &Range<usize>, from: usize, to: usize, text: &str, source: &SourceFile) -> Vec<Edit> {
+    let start = source.line_range(word.start).start;
+    let mut edits = Vec::new();
+    let mut at = start;
+    for line in text[start..].split_inclusive('\n').take(MOST_BELOW) {
+        let indent = line.len() - line.trim_start_matches(' ').len();
+        let is_blank = line.trim().is_empty();
+        if at > start && !is_blank && indent <= from {
+            break;
+        }
+        if !is_blank && to > from {
+            edits.push(Edit::new(source.span(at..at), " ".repeat(to - from)));
+        } else if !is_blank {
+            edits.push(Edit::new(source.span(at..at + from - to), ""));
+        }
+        at += line.len();
+    }
+    edits
+}
+
+/// The items from one on that are indented deeper and deeper, all in one column.
+fn aligned(item: &Level, column: usize, text: &str, source: &SourceFile) -> Vec<Edit> {
+    let start = source.line_range(item.word.start).start;
+    let mut edits = Vec::new();
+    let mut at = start;
+    for line in text[start..].split_inclusive('\n').take(MOST_BELOW) {
+        let indent = line.len() - line.trim_start_matches(' ').len();
+        if !line[indent..].starts_with("- ") || indent <= column {
+            break;
+        }
+        edits.push(Edit::new(source.span(at..at + indent), " ".repeat(column)));
+        at += line.len();
+    }
+    edits
 }
 
 /// A line, by its first word, that belongs in another column.
@@ -120,7 +171,11 @@ fn deeper_below(line: &Range<usize>, text: &str, source: &SourceFile) -> Option<
             spaces(key.indent),
         )
         .label(source.span(own.word.clone()), format!("{}, with a value already", spaces(own.indent)))
-        .help(format!("indent `{word}` by {}", spaces(own.indent)))
+        .suggest(
+            format!("indent `{word}` by {}", spaces(own.indent)),
+            moved(&key.word, key.indent, own.indent, text, source),
+        )
+        .otherwise("keys that belong together stand in one column")
     })
 }
 
@@ -133,14 +188,23 @@ fn fallen_out(line: &Range<usize>, indent: usize, text: &str, source: &SourceFil
         let key = content.split(':').next().unwrap_or("");
         if indent > 0 && !content.is_empty() && !content.starts_with([' ', '#']) {
             let is_fallen = COMPONENT_KEYS.contains(&key) && above.start > 0;
+            let column = item_above(above.start, text);
             return is_fallen.then(|| {
-                RULE.at(
-                    format!("`{key}` stands at the start of the line, outside of any component"),
-                    source.span(above.start..above.start + key.len()),
-                    "0 spaces",
-                )
-                .label(source.span(line.start + indent..line.end), "so this line belongs to nothing")
-                .help(format!("indent `{key}` like the other keys of its component"))
+                let problem = RULE
+                    .at(
+                        format!("`{key}` stands at the start of the line, outside of any component"),
+                        source.span(above.start..above.start + key.len()),
+                        "0 spaces",
+                    )
+                    .label(source.span(line.start + indent..line.end), "so this line belongs to nothing");
+                let problem = match column {
+                    Some(column) => problem.suggest(
+                        format!("indent `{key}` by {}", spaces(column)),
+                        [Edit::new(source.span(above.start..above.start), " ".repeat(column))],
+                    ),
+                    None => problem,
+                };
+                problem.otherwise(format!("`{key}` stands in the column of the other keys of its component"))
             });
         }
         at = above.start;
@@ -148,29 +212,63 @@ fn fallen_out(line: &Range<usize>, indent: usize, text: &str, source: &SourceFil
     None
 }
 
+/// The column of the keys of the list item above a line.
+fn item_above(start: usize, text: &str) -> Option<usize> {
+    let line = text[..start].lines().rev().take(MOST_ABOVE).find(|line| line.trim_start().starts_with("- "))?;
+    Some(line.len() - line.trim_start_matches([' ', '-']).len())
+}
+
 /// The line above a list item, if it starts the list and is another kind of line: without its `-`, or indented deeper.
 fn first_of_list(item: &Level, line: &Range<usize>, text: &str, source: &SourceFile) -> Option<Diagnostic> {
     let above = source.line_range(line.start.checked_sub(1)?);
     let key = source.line_range(above.start.checked_sub(1)?);
     let levels = levels_of(&text[above.clone()], above.start);
-    let start = levels.first().filter(|_| text[key].trim_end().ends_with(':'))?;
+    let start = levels.first().filter(|_| text[key.clone()].trim_end().ends_with(':'))?;
+    let is_other_list = text[key.clone()].len() - text[key].trim_start_matches(' ').len() > item.indent;
+    if start.is_dash && is_other_list {
+        return (start.indent > item.indent).then(|| {
+            let message = format!("this list item is indented by {}, and belongs to no list", spaces(item.indent));
+            RULE.at(message, source.span(item.word.clone()), spaces(item.indent))
+                .label(source.span(start.word.clone()), "another list")
+                .help(ONE_COLUMN)
+        });
+    }
     if start.is_dash {
-        return (start.indent > item.indent).then(|| uneven_items(item, start, "less deep", source));
+        return (start.indent > item.indent).then(|| uneven_items(item, start, "less deep", text, source));
     }
     let content = text[start.word.start..above.end].trim_end();
     (start.indent >= item.indent && !content.ends_with(':')).then(|| {
         RULE.at("missing `-` before the first item of this list", source.span(start.word.clone()), "no list item")
             .label(source.span(item.word.clone()), "a list item")
-            .help(format!("write `- {content}`"))
+            .suggest(
+                format!("write `- {content}`"),
+                [Edit::new(source.span(above.start..start.word.start), format!("{}- ", " ".repeat(item.indent)))],
+            )
+            .otherwise("each item of a list starts with `- `")
     })
 }
 
 /// Two items of a list in different columns.
-fn uneven_items(item: &Level, above: &Level, how: &str, source: &SourceFile) -> Diagnostic {
+fn uneven_items(item: &Level, above: &Level, how: &str, text: &str, source: &SourceFile) -> Diagnostic {
     let message = format!("this list item is indented by {}, {how} than the one above it", spaces(item.indent));
-    RULE.at(message, source.span(item.word.clone()), spaces(item.indent))
+    let problem = RULE
+        .at(message, source.span(item.word.clone()), spaces(item.indent))
         .label(source.span(above.word.clone()), spaces(above.indent))
-        .help("indent both alike")
+        .suggest(
+            format!("indent this item by {}", spaces(above.indent)),
+            moved(&item.word, item.indent, above.indent, text, source),
+        )
+        .suggest(
+            format!("indent the item above by {}", spaces(item.indent)),
+            moved(&above.word, above.indent, item.indent, text, source),
+        )
+        .otherwise(ONE_COLUMN);
+    match aligned(item, above.indent, text, source) {
+        edits if edits.len() > 1 => {
+            problem.suggest(format!("indent this item and those below it by {}", spaces(above.indent)), edits)
+        }
+        _ => problem,
+    }
 }
 
 /// Whether a level's word is a key with a value in the same line.
@@ -184,7 +282,7 @@ fn list_without_key(item: &Level, above: &Level, source: &SourceFile) -> Diagnos
     let span = source.span(item.word.clone());
     RULE.at("this list belongs to no key", span, "indented deeper than the line above")
         .label(source.span(above.word.clone()), "this key has a value already")
-        .help(format!("add a line with a key above it, for example `gates:`, indented by {}", spaces(above.indent)))
+        .help("a list stands below its own key, which has nothing after its colon")
 }
 
 fn diagnose(

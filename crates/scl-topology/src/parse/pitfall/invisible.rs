@@ -32,6 +32,10 @@ pub(super) fn check(source: &SourceFile, scan: &Scan, text: &mut String, problem
     if places.is_empty() {
         return false;
     }
+    // The characters of UTF-16 leave a NUL behind each letter and each line break.
+    if places.get(&'\0').is_some_and(|nulls| nulls.windows(2).any(|pair| pair[1] - pair[0] == 2)) {
+        places.remove(&'\r');
+    }
     for (character, places) in places {
         problems.push(diagnose(character, &places, source));
         blank(text, places.into_iter().map(|at| at..at + character.len_utf8()));
@@ -76,7 +80,10 @@ fn diagnose(character: char, places: &[usize], source: &SourceFile) -> Diagnosti
     let problem = RULE
         .at(format!("{kind} U+{:04X}{name}", u32::from(character)), span, label)
         .propose(help, edits)
-        .note("such characters usually come from a web page or a word processor")
+        .note(match character {
+            '\0' => "such characters come from text in UTF-16; a topology file is UTF-8",
+            _ => "such characters usually come from a web page or a word processor",
+        })
         .note(
             "same check: U+FEFF inside the file, U+200B..U+200F, U+202A..U+202E (bidirectional control), U+0085, \
              U+2028, U+2029, and control characters below U+0020",

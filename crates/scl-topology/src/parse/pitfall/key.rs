@@ -1,8 +1,8 @@
 //! SCL0107: a key is written twice. SCL0120: a key that is no plain word.
 
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity, removal};
 use crate::parse::field::Field;
-use crate::source::Span;
+use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
 
 /// SCL0107.
@@ -21,22 +21,45 @@ pub(crate) const DUPLICATE: Rule = Rule {
 ",
 };
 
-/// A key that is written twice. `owner` says whose key it is, for example `this component`.
-pub(in crate::parse) fn duplicate(second: &Field<'_>, first: Span, owner: &str) -> Diagnostic {
+/// A key that is written twice; `first` is the first time, with its value. `owner` says whose key it is, for example
+/// `this component`.
+pub(in crate::parse) fn duplicate(
+    second: &Field<'_>,
+    (first, first_entry): (Span, Span),
+    owner: &str,
+    source: &SourceFile,
+) -> Diagnostic {
     let message = format!("the key `{}` is written twice in {owner}", second.key);
-    let help = match second.value.kind {
-        NodeKind::Sequence { .. } if second.key == "gates" => {
-            "merge the two lists, or write the `- name: ...` of another component above the second"
-        }
-        NodeKind::Sequence { .. } => "merge the two lists",
-        NodeKind::Mapping { .. } => "merge the two into one, or remove one of them",
-        _ => "remove one of them",
+    let problem = DUPLICATE.at(message, second.key_span, "second time").label(first, "first time");
+    let problem = match second.value.kind {
+        NodeKind::Sequence { .. } if second.key == "gates" => problem
+            .help("the second list belongs to another component if its `- name` is missing, else to the first list"),
+        NodeKind::Sequence { .. } => problem.help("the items of both lists belong into one"),
+        NodeKind::Mapping { .. } => problem.help("the entries of both belong into one"),
+        _ => problem,
     };
-    DUPLICATE
-        .at(message, second.key_span, "second time")
-        .label(first, "first time")
-        .help(help)
+    let entry = second.key_span.to(second.value.span);
+    let ways = [("remove the second one", entry), ("remove the first one", first_entry)];
+    let removals = ways.into_iter().filter_map(|(help, entry)| Some((help, removal(source, entry)?)));
+    let problem = match merged(second, source) {
+        Some(edit) => {
+            problem.suggest(format!("remove this line with `{}:`, so that both lists become one", second.key), [edit])
+        }
+        None => problem,
+    };
+    removals
+        .fold(problem, |problem, (help, removed)| problem.suggest(help, [Edit::new(removed, "")]))
         .note("YAML tools disagree which one wins: PyYAML silently keeps the second")
+}
+
+/// Removes the line of a key alone, so that the list below it continues the one above it.
+fn merged(second: &Field<'_>, source: &SourceFile) -> Option<Edit> {
+    let text = source.text();
+    let line = source.line_range(second.key_span.start as usize);
+    let is_alone = text[line.clone()].trim().strip_suffix(':') == Some(second.key);
+    let end = line.end + text[line.end..].find('\n')? + 1;
+    let is_list = matches!(second.value.kind, NodeKind::Sequence { .. });
+    (is_alone && is_list).then(|| Edit::new(source.span(line.start..end), ""))
 }
 
 /// SCL0120.
@@ -80,7 +103,10 @@ mod tests {
                 5 |     gates:
                   |     ^^^^^ second time
                   |
-                  = help: merge the two lists, or write the `- name: ...` of another component above the second
+                  = help: the second list belongs to another component if its `- name` is missing, else to the first list
+                  = help: remove this line with `gates:`, so that both lists become one
+                  = help: remove the second one
+                  = help: remove the first one
                   = note: YAML tools disagree which one wins: PyYAML silently keeps the second"#]],
         );
     }

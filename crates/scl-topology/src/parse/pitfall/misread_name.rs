@@ -40,22 +40,14 @@ pub(in crate::parse) fn find_boolean(word: &str, at: Span) -> Option<Diagnostic>
     let message = format!("`{word}` is a boolean in YAML 1.1");
     Some(
         BOOLEAN.at(message, at, format!("YAML 1.1 tools such as PyYAML read this as `{value}`"))
-            .help(format!("quote it: \"{word}\""))
-            .help(format!("or choose a name that says more: `{}`", better(&lower)))
+            .propose(format!("put it in quotes: `\"{word}\"`"), [Edit::new(at, format!("\"{word}\""))])
+            .help("a name that is no such word needs no quotes")
             .note("a topology file is read by bindings in several languages, so it must mean the same in YAML 1.1 and 1.2")
             .note(
                 "PyYAML: yes, no, on, off, true, false in lower, Title and UPPER case (\"the Norway problem\"); y and n, \
                  which YAML 1.1 lists too, are allowed",
             ),
     )
-}
-
-fn better(word: &str) -> &'static str {
-    match word {
-        "on" | "off" => "switch_on",
-        "yes" | "true" => "confirmed",
-        _ => "rejected",
-    }
 }
 
 /// SCL0109.
@@ -79,7 +71,7 @@ pub(in crate::parse) fn find_number(word: &str, at: Span) -> Option<Diagnostic> 
     Some(
         NUMBER
             .at(message, at, reading.label(word))
-            .help(format!("names start with a letter: `{}`", as_name(word)))
+            .help(format!("a name starts with a letter, as `{}` does", as_name(word)))
             .note(
                 "also read as numbers by YAML 1.1 or 1.2: 017, 0o17, 0x1F, 1_000, 12:30:45 (base 60), 1e3, .inf; and \
                  dates such as 2024-01-01",
@@ -229,8 +221,8 @@ mod tests {
                 4 |       - on: sub
                   |         ^^ YAML 1.1 tools such as PyYAML read this as `true`
                   |
-                  = help: quote it: "on"
-                  = help: or choose a name that says more: `switch_on`
+                  = help: put it in quotes: `"on"`
+                  = help: a name that is no such word needs no quotes
                   = note: a topology file is read by bindings in several languages, so it must mean the same in YAML 1.1 and 1.2
                   = note: PyYAML: yes, no, on, off, true, false in lower, Title and UPPER case ("the Norway problem"); y and n, which YAML 1.1 lists too, are allowed"#]],
         );
@@ -241,14 +233,14 @@ mod tests {
         check(
             &NUMBER,
             expect![[r#"
-            error: [SCL0109] a name is expected here, and `1.10` is a number
-             --> topology.yaml:2:11
-              |
-            2 |   - name: 1.10
-              |           ^^^^ YAML reads this as the number 1.1
-              |
-              = help: names start with a letter: `v1_10`
-              = note: also read as numbers by YAML 1.1 or 1.2: 017, 0o17, 0x1F, 1_000, 12:30:45 (base 60), 1e3, .inf; and dates such as 2024-01-01"#]],
+                error: [SCL0109] a name is expected here, and `1.10` is a number
+                 --> topology.yaml:2:11
+                  |
+                2 |   - name: 1.10
+                  |           ^^^^ YAML reads this as the number 1.1
+                  |
+                  = help: a name starts with a letter, as `v1_10` does
+                  = note: also read as numbers by YAML 1.1 or 1.2: 017, 0o17, 0x1F, 1_000, 12:30:45 (base 60), 1e3, .inf; and dates such as 2024-01-01"#]],
         );
     }
 

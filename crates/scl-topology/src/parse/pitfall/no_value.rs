@@ -1,7 +1,6 @@
 //! SCL0110: nothing where a name or value is expected.
 
-use crate::diagnostic::{Diagnostic, Rule, Severity};
-use crate::grammar;
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity, removal};
 use crate::parse::field::{Field, end_with_colon};
 use crate::parse::with_dash;
 use crate::source::{SourceFile, Span};
@@ -34,13 +33,20 @@ pub(in crate::parse) fn in_field(field: Field<'_>, what: &str, source: &SourceFi
         }
     };
     let help = match key {
-        "name" => "write the name after the colon: `name: sensor`".to_owned(),
-        key if grammar::section(key).is_some_and(|section| !section.is_required()) => {
-            format!("write it after the colon, or remove `{key}`")
-        }
-        _ => "write it after the colon".to_owned(),
+        "name" => "the name follows the colon".to_owned(),
+        _ => "a value follows the colon".to_owned(),
     };
-    diagnose(what, span, label).help(help).note("`~` and `null` are also read as \"no value\"")
+    let entry = Span { end: field.value.span.end.max(end_with_colon(field.key_span, source)), ..field.key_span };
+    let is_unfinished = !is_written || field.value.is_null();
+    let problem = diagnose(what, span, label);
+    let problem = if is_unfinished { problem.help(&*help) } else { problem };
+    let problem = match removal(source, entry).filter(|_| key != "name") {
+        // Empty quotes are written by programs; a key without anything may be unfinished.
+        Some(removed) if !is_unfinished => problem.propose(format!("remove `{key}`"), [Edit::new(removed, "")]),
+        Some(removed) => problem.suggest(format!("remove `{key}`"), [Edit::new(removed, "")]),
+        None => problem,
+    };
+    problem.note("`~` and `null` are also read as \"no value\"")
 }
 
 /// `-` without an item.
@@ -48,9 +54,12 @@ pub(in crate::parse) fn in_list(item: &Node, what: &str, source: &SourceFile) ->
     let span = with_dash(item.span, source);
     let label =
         if item.span.start < item.span.end { value_label(item) } else { "nothing follows; YAML reads this as `null`" };
-    diagnose(what, span, label)
-        .help("write it, or remove this entry")
-        .note("`~` and `null` are also read as \"no value\"")
+    let problem = diagnose(what, span, label);
+    let problem = match removal(source, span) {
+        Some(removed) => problem.suggest("remove this entry", [Edit::new(removed, "")]),
+        None => problem,
+    };
+    problem.otherwise("an item follows the `-`").note("`~` and `null` are also read as \"no value\"")
 }
 
 fn diagnose(what: &str, span: Span, label: &str) -> Diagnostic {
@@ -72,14 +81,14 @@ mod tests {
         check(
             &RULE,
             expect![[r#"
-            error: [SCL0110] the component name is empty
-             --> topology.yaml:2:5
-              |
-            2 |   - name:
-              |     ^^^^^ no value follows; YAML reads this as `null`
-              |
-              = help: write the name after the colon: `name: sensor`
-              = note: `~` and `null` are also read as "no value""#]],
+                error: [SCL0110] the component name is empty
+                 --> topology.yaml:2:5
+                  |
+                2 |   - name:
+                  |     ^^^^^ no value follows; YAML reads this as `null`
+                  |
+                  = help: the name follows the colon
+                  = note: `~` and `null` are also read as "no value""#]],
         );
     }
 }

@@ -1,7 +1,7 @@
 //! SCL0121: a syntax error that no other rule explains.
 
 use super::{dash, missing_mark};
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::parse::dialect::Dialect;
 use crate::source::SourceFile;
 use crate::yaml::SyntaxError;
@@ -47,7 +47,9 @@ pub(in crate::parse) fn missing_colon(
         let content = text[line.clone()].trim_start_matches([' ', '-']);
         let word = content.split([' ', '#']).next().filter(|word| (dialect.is_key)(word))?;
         let start = line.end - content.len();
-        Some(missing_mark::colon_after(&(start..start + word.len()), text, source))
+        let end = start + word.len();
+        let colon = vec![Edit::new(source.span(end..end), ":")];
+        Some(missing_mark::colon_after(&(start..end), text, source).carry(colon, false))
     })
 }
 
@@ -68,8 +70,15 @@ pub(in crate::parse) fn missing_dash_space(error: &SyntaxError, source: &SourceF
         let starts_word = rest.trim_start().starts_with(|c: char| c.is_alphabetic() || c == '[');
         let at = line.end - word.len()..line.end - word.len() + dashes;
         match dashes {
-            1 if starts_word && !rest.starts_with(' ') => Some(dash::without_space(&at, text, source)),
-            2 if starts_word => Some(dash::doubled(&at, text, source)),
+            1 if starts_word && !rest.starts_with(' ') => {
+                let space = vec![Edit::new(source.span(at.end..at.end), " ")];
+                Some(dash::without_space(&at, text, source).carry(space, false))
+            }
+            2 if starts_word => {
+                let dash = if rest.starts_with(' ') { "-" } else { "- " };
+                let edit = vec![Edit::new(source.span(at.clone()), dash)];
+                Some(dash::doubled(&at, text, source).carry(edit, false))
+            }
             _ => None,
         }
     })

@@ -1,7 +1,7 @@
 //! SCL0104: a quote is never closed.
 
 use super::scan;
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::source::SourceFile;
 use crate::yaml::{SyntaxError, SyntaxErrorKind};
 
@@ -30,16 +30,56 @@ pub(in crate::parse) fn find(error: &SyntaxError, text: &str, source: &SourceFil
         return None;
     }
     let quote = &text[range.start..range.start + 1];
-    let help = format!("add the closing `{quote}` at the end of line {}", source.line(range.start));
     let span = source.span(range.start..range.start + 1);
-    Some(RULE.at("this quoted string is never closed", span, "opened here").help(help))
+    let problem = RULE.at("this quoted string is never closed", span, "opened here");
+    let line = source.line_range(range.start);
+    let rest = text[range.start..line.end].trim_end();
+    let at_end = format!("add the closing `{quote}` at the end of line {}", source.line(range.start));
+    let close = |length: usize| {
+        let end = range.start + length;
+        [Edit::new(source.span(end..end), quote)]
+    };
+    let problem = match ends_in_brackets(rest, &text[line.start..range.start]) {
+        Some(ends) => ends.iter().fold(problem, |problem, end| {
+            let word = rest[..*end].split(' ').next_back().unwrap_or(rest);
+            problem.suggest(format!("add the closing `{quote}` after `{word}`"), close(*end))
+        }),
+        None => problem.suggest(&*at_end, close(rest.len())),
+    };
+    Some(problem.otherwise(at_end))
+}
+
+/// Maximum number of places in brackets where a quoted text may end.
+const MOST_ENDS: usize = 3;
+
+/// Where a quoted text in brackets may end: before a comma with a space, or before a closing bracket. `None` outside of
+/// brackets.
+fn ends_in_brackets(rest: &str, before: &str) -> Option<Vec<usize>> {
+    if before.matches(['[', '{']).count() <= before.matches([']', '}']).count() {
+        return None;
+    }
+    let commas = rest
+        .match_indices(", ")
+        .filter(|(at, _)| rest[at + 2..].split(' ').next().is_some_and(|word| word.ends_with(':')));
+    let brackets = rest.match_indices([']', '}']).take(1);
+    let mut ends: Vec<usize> = commas.map(|(at, _)| at).take(1).chain(brackets.map(|(at, _)| at)).collect();
+    ends.extend(rest.match_indices(", ").map(|(at, _)| at));
+    ends.retain(|end| *end > 1);
+    let mut seen = Vec::new();
+    ends.retain(|end| {
+        !seen.contains(end) && {
+            seen.push(*end);
+            true
+        }
+    });
+    ends.truncate(MOST_ENDS);
+    Some(ends)
 }
 
 /// A quote without a partner in its line.
 pub(in crate::parse) fn alone(at: usize, text: &str, source: &SourceFile) -> Diagnostic {
-    let quote = &text[at..at + 1];
-    RULE.at("this quote has no partner", source.span(at..at + 1), "the only one in its line")
-        .help(format!("remove it, or add the other `{quote}`"))
+    let problem = RULE.at("this quote has no partner", source.span(at..at + 1), "the only one in its line");
+    problem.help(format!("remove this `{}`", &text[at..at + 1]))
 }
 
 /// The place of a quote that is missing before or after a word.

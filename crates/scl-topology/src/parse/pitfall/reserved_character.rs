@@ -31,15 +31,21 @@ pub(in crate::parse) fn diagnose(at: usize, character: char, source: &SourceFile
     if is_first && text.get(at + 1..line.end).is_some_and(|rest| rest.starts_with(' ')) {
         return dash::other_mark(at, source).carry(vec![Edit::new(source.span(at..at + 1), "-")], true);
     }
-    let rest = text.get(at..source.line_range(at).end).unwrap_or("");
-    let word = rest.split([' ', ',', ']', '}']).next().unwrap_or(rest);
+    let rest = text.get(at..line.end).unwrap_or("");
     let span = source.span(at..at + rest.chars().next().map_or(0, char::len_utf8));
-    let before = text.get(source.line_range(at).start..at).unwrap_or("");
-    let is_name = !before.contains("doc:");
-    let then = if is_name { " (it would then fail SCL0303)" } else { "" };
-    RULE.at(format!("a value cannot start with {} in YAML", ticked(character)), span, "reserved character")
-        .help(format!("remove it, or quote the value: \"{word}\"{then}"))
-        .note("also reserved at the start: `` ` `` `%` `&` `*` `!` `|` `>` `'` `\"` `#`")
+    let problem = RULE
+        .at(format!("a value cannot start with {} in YAML", ticked(character)), span, "reserved character")
+        .note("also reserved at the start: `` ` `` `%` `&` `*` `!` `|` `>` `'` `\"` `#`");
+    if let Some(word) = rest.strip_prefix('`').and_then(|rest| rest.split_once('`')).map(|(word, _)| word) {
+        let edit = Edit::new(source.span(at..at + word.len() + 2), word);
+        return problem.propose(format!("write `{word}` without the backticks"), [edit]);
+    }
+    let word = rest.split([' ', ',', ']', '}']).next().unwrap_or(rest);
+    let quoted = Edit::new(source.span(at..at + word.len()), format!("\"{word}\""));
+    problem
+        .suggest(format!("remove {}", ticked(character)), [Edit::new(span, "")])
+        .suggest(format!("put the value in quotes: `\"{word}\"`"), [quoted])
+        .otherwise("a value starts with a letter, a digit, a quote or a bracket")
 }
 
 fn ticked(character: char) -> String {
@@ -57,14 +63,15 @@ mod tests {
         check(
             &RULE,
             expect![[r#"
-            error: [SCL0106] a value cannot start with `@` in YAML
-             --> topology.yaml:2:11
-              |
-            2 |   - name: @sensor
-              |           ^ reserved character
-              |
-              = help: remove it, or quote the value: "@sensor" (it would then fail SCL0303)
-              = note: also reserved at the start: `` ` `` `%` `&` `*` `!` `|` `>` `'` `"` `#`"#]],
+                error: [SCL0106] a value cannot start with `@` in YAML
+                 --> topology.yaml:2:11
+                  |
+                2 |   - name: @sensor
+                  |           ^ reserved character
+                  |
+                  = help: remove `@`
+                  = help: put the value in quotes: `"@sensor"`
+                  = note: also reserved at the start: `` ` `` `%` `&` `*` `!` `|` `>` `'` `"` `#`"#]],
         );
     }
 }

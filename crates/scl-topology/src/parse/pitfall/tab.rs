@@ -3,6 +3,7 @@
 use super::scan::{Scan, blank};
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::source::SourceFile;
+use std::collections::BTreeSet;
 
 /// SCL0101.
 pub(crate) const INDENT: Rule = Rule {
@@ -36,6 +37,12 @@ pub(crate) const SEPARATOR: Rule = Rule {
 /// The label of every tab.
 const LABEL: &str = "this is a tab (shown as 4 spaces)";
 
+/// What to do about tabs, whatever their width.
+const HELP: &str = "replace it with spaces; most editors: \"Convert Indentation to Spaces\"";
+
+/// The usual distances of tab stops.
+const WIDTHS: [usize; 3] = [2, 4, 8];
+
 /// Reports the first line that is indented with a tab, and how many follow, and replaces the tabs by spaces. Returns
 /// true if there are any.
 pub(super) fn check_indentation(
@@ -51,9 +58,22 @@ pub(super) fn check_indentation(
         (start..start + indent).filter(|at| line.as_bytes()[*at - start] == b'\t').collect()
     });
     let Some(&first) = tabs.first() else { return false };
-    let fixed = if is_mixed(text) { &[][..] } else { &tabs };
-    let edits = fixed.iter().map(|&at| Edit::new(source.span(at..at + 1), "  "));
-    let problem = diagnose(first, "a tab character is used for indentation", edits.collect(), source)
+    let problem = INDENT.at("a tab character is used for indentation", source.span(first..first + 1), LABEL);
+    let problem = match is_mixed(text) {
+        true => widths(&tabs, text, source).into_iter().fold(problem, |problem, (width, edits)| {
+            let is_alike = edits.iter().all(|edit| edit.replacement.len() == width);
+            problem.suggest(
+                match is_alike {
+                    true => format!("replace each tab with {width} spaces"),
+                    false => format!("replace each tab with spaces up to the next multiple of {width} columns"),
+                },
+                edits,
+            )
+        }),
+        false => problem.propose(HELP, tabs.iter().map(|&at| Edit::new(source.span(at..at + 1), "  "))),
+    };
+    let problem = problem
+        .otherwise(HELP)
         .note("YAML forbids tabs in indentation because their width is not defined")
         .notes(count_lines(&tabs, text, source, "are indented with tabs"));
     problems.push(problem);
@@ -88,13 +108,54 @@ pub(in crate::parse) fn elsewhere(at: usize, source: &SourceFile) -> Diagnostic 
     let line = source.line_range(at);
     let text = &source.text()[line.clone()];
     let tab = text.find('\t').map_or(at, |found| line.start + found);
-    diagnose(tab, "a tab character stands where only spaces are allowed", Vec::new(), source)
+    INDENT
+        .at("a tab character stands where only spaces are allowed", source.span(tab..tab + 1), LABEL)
+        .suggest("replace it with a space", [Edit::new(source.span(tab..tab + 1), " ")])
+        .otherwise(HELP)
 }
 
-fn diagnose(tab: usize, message: &str, edits: Vec<Edit>, source: &SourceFile) -> Diagnostic {
-    const HELP: &str = "replace it with spaces; most editors: \"Convert Indentation to Spaces\"";
-    let problem = INDENT.at(message, source.span(tab..tab + 1), LABEL);
-    if edits.is_empty() { problem.help(HELP) } else { problem.propose(HELP, edits) }
+/// The widths of a tab that put most lines into columns that other lines use, each with its changes.
+fn widths(tabs: &[usize], text: &str, source: &SourceFile) -> Vec<(usize, Vec<Edit>)> {
+    let indents = text.lines().filter(|line| !line.trim().is_empty());
+    let used: BTreeSet<usize> = indents.map(|line| line.len() - line.trim_start_matches(' ').len()).collect();
+    let mut ways: Vec<(usize, Vec<Edit>)> = Vec::new();
+    for width in WIDTHS {
+        let alike = tabs.iter().map(|&at| Edit::new(source.span(at..at + 1), " ".repeat(width))).collect();
+        for edits in [expanded(tabs, width, text, source), alike] {
+            if ways.iter().all(|(_, other)| *other != edits) {
+                ways.push((width, edits));
+            }
+        }
+    }
+    let fit = |edits: &[Edit]| {
+        let line_of = |edit: &Edit| source.line(edit.span.start as usize);
+        let lines = edits.chunk_by(|before, after| line_of(before) == line_of(after));
+        let column = |line: &[Edit]| {
+            let content = &text[source.line_range(line[0].span.start as usize)];
+            let spaces = content.bytes().take_while(|byte| matches!(byte, b' ' | b'\t')).filter(|byte| *byte == b' ');
+            spaces.count() + line.iter().map(|edit| edit.replacement.len()).sum::<usize>()
+        };
+        lines.filter(|line| used.contains(&column(line))).count()
+    };
+    let most = ways.iter().map(|(_, edits)| fit(edits)).max().unwrap_or_default();
+    ways.into_iter().filter(|(_, edits)| fit(edits) == most).collect()
+}
+
+/// Tabs as spaces, each up to the next tab stop.
+fn expanded(tabs: &[usize], width: usize, text: &str, source: &SourceFile) -> Vec<Edit> {
+    let mut edits = Vec::new();
+    let (mut line, mut shift) = (0, 0);
+    for &at in tabs {
+        let start = source.line_range(at).start;
+        if start != line {
+            (line, shift) = (start, 0);
+        }
+        let column = text[start..at].len() + shift;
+        let spaces = width - column % width;
+        shift += spaces - 1;
+        edits.push(Edit::new(source.span(at..at + 1), " ".repeat(spaces)));
+    }
+    edits
 }
 
 /// How many lines have tabs, if several do.

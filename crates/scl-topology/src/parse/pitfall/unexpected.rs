@@ -63,6 +63,13 @@ pub(in crate::parse) fn glued_comment(hash: usize, text: &str, source: &SourceFi
         .help("write a space before `#`")
 }
 
+/// `system: a codec: b`.
+pub(in crate::parse) fn key_in_line(rest: &Range<usize>, text: &str, source: &SourceFile) -> Diagnostic {
+    let message = "each key stands on a line of its own";
+    RULE.at(message, source.span(rest.clone()), "a second key in the line")
+        .help(format!("move `{}` to the next line", &text[rest.clone()]))
+}
+
 /// `- x: pub - y: pub`.
 pub(in crate::parse) fn item_in_line(dash: usize, text: &str, source: &SourceFile) -> Diagnostic {
     let rest = text[dash..source.line_range(dash).end].trim_end();

@@ -1,6 +1,9 @@
 //! Parts of YAML that a topology does not have. SCL0111: anchors and aliases. SCL0112: the merge key `<<`. SCL0113: a
 //! tag. SCL0114: more than one document. SCL0118: a directive, such as `%YAML 1.1`.
 
+mod written_out;
+
+use super::needs_quotes;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::parse::dialect::Dialect;
 use crate::source::{SourceFile, Span};
@@ -35,14 +38,18 @@ const EXPLAINED: usize = 20;
 pub(super) fn check_anchors(tree: &Tree, source: &SourceFile, problems: &mut Diagnostics) {
     for (number, anchor) in tree.anchors.iter().enumerate() {
         let root = tree.root.as_ref().filter(|_| number < EXPLAINED);
-        problems.push(diagnose_anchor(anchor, root, source));
+        problems.push(text_of(anchor, source).unwrap_or_else(|| diagnose_anchor(anchor, root, source)));
     }
 }
 
 /// Reports each alias that stands for nothing, in a file that may have aliases.
-pub(super) fn check_aliases(tree: &Tree, problems: &mut Diagnostics) {
+pub(super) fn check_aliases(tree: &Tree, source: &SourceFile, problems: &mut Diagnostics) {
     let undefined = tree.anchors.iter().filter(|anchor| anchor.definition.is_none());
     for alias in undefined.flat_map(|anchor| &anchor.aliases) {
+        if let Some(problem) = needs_quotes::at_start(*alias, source) {
+            problems.push(problem);
+            continue;
+        }
         let problem = ANCHOR.at("this alias has no anchor", *alias, "no anchor of this name ends above");
         problems.push(problem.help("write the value out, or put `&` and the name before the value that is meant"));
     }
@@ -52,6 +59,16 @@ pub(super) fn check_aliases(tree: &Tree, problems: &mut Diagnostics) {
             .help("write the values out")
             .note(format!("together they may expand to at most {MOST_REPEATED} values"))
     }));
+}
+
+/// `doc: *bold* words`, where `*` or `&` is part of a text.
+fn text_of(anchor: &Anchor, source: &SourceFile) -> Option<Diagnostic> {
+    let start = match (anchor.definition, anchor.aliases.as_slice()) {
+        (Some(definition), []) => definition,
+        (None, [alias]) => *alias,
+        _ => return None,
+    };
+    needs_quotes::at_start(start, source)
 }
 
 fn diagnose_anchor(anchor: &Anchor, root: Option<&Node>, source: &SourceFile) -> Diagnostic {
@@ -69,7 +86,22 @@ fn diagnose_anchor(anchor: &Anchor, root: Option<&Node>, source: &SourceFile) ->
         Some(alias) => anchor_help(alias, root, source),
         None => "remove it; nothing refers to it".to_owned(),
     };
-    problem.help(anchor_help).note(
+    let problem = match (anchor.definition, first_use) {
+        (Some(definition), None) => {
+            let rest = &source.text()[definition.end as usize..];
+            let spaces = rest.len() - rest.trim_start_matches(' ').len();
+            let removed = Span { end: definition.end + spaces as u32, ..definition };
+            problem.propose(anchor_help, [Edit::new(removed, "")])
+        }
+        // Each edit holds a copy of the value, so the number of anchors with edits is bounded, too.
+        _ => match written_out::edits(anchor, source).filter(|_| root.is_some()) {
+            Some(edits) => {
+                problem.suggest(format!("{anchor_help}, and remove the anchor"), edits).otherwise(anchor_help)
+            }
+            None => problem.help(anchor_help),
+        },
+    };
+    problem.note(
         "a topology is a contract that people read; expanded aliases also make error positions ambiguous and allow \
          \"billion laughs\" files",
     )
@@ -138,8 +170,14 @@ pub(crate) const TAG: Rule = Rule {
 ",
 };
 
-pub(super) fn tag(tag: Span, dialect: &Dialect) -> Diagnostic {
-    TAG.at(format!("YAML tags are not supported in a {}", dialect.noun), tag, "tag").help("remove the tag")
+pub(super) fn tag(tag: Span, source: &SourceFile, dialect: &Dialect) -> Diagnostic {
+    if let Some(problem) = needs_quotes::at_start(tag, source) {
+        return problem;
+    }
+    let rest = &source.text()[tag.end as usize..];
+    let spaces = rest.len() - rest.trim_start_matches(' ').len();
+    TAG.at(format!("YAML tags are not supported in a {}", dialect.noun), tag, "tag")
+        .propose("remove the tag", [Edit::new(Span { end: tag.end + spaces as u32, ..tag }, "")])
 }
 
 /// SCL0114.
@@ -162,7 +200,19 @@ pub(super) fn second_document(source: &SourceFile, at: Span, dialect: &Dialect) 
     let help = if marker { "remove the `---` line" } else { "remove the `...` line above" };
     let span = if marker { Span { end: at.start + 3, ..at } } else { at };
     let message = format!("a {} is one YAML document; a second one starts here", dialect.noun);
-    SECOND_DOCUMENT.at(message, span, "second document").help(help)
+    let problem = SECOND_DOCUMENT.at(message, span, "second document");
+    let text = source.text();
+    let line = match marker {
+        true => Some(at.start as usize),
+        false => text[..at.start as usize].rfind("\n...").map(|before| before + 1),
+    };
+    match line.map(|line| source.line_range(line)) {
+        Some(line) => {
+            let end = text[line.end..].find('\n').map_or(text.len(), |found| line.end + found + 1);
+            problem.propose(help, [Edit::new(source.span(line.start..end), "")])
+        }
+        None => problem.help(help),
+    }
 }
 
 /// SCL0118.
@@ -195,6 +245,12 @@ pub(in crate::parse) fn check_directives(
 pub(in crate::parse) fn diagnose_directive(source: &SourceFile, at: usize, dialect: &Dialect) -> Diagnostic {
     let range = source.line_range(at);
     let line = source.line(at);
+    if let Some(comment) = source.text()[range.clone()].strip_prefix("% ") {
+        let percent = Edit::new(source.span(range.start..range.start + 1), "#");
+        let message = "YAML directives are not supported, and a comment starts with `#`";
+        let help = format!("write `# {}`", comment.trim_end());
+        return DIRECTIVE.at(message, source.span(range), "starts no comment").propose(help, [percent]);
+    }
     let marker = source.text()[range.end..].trim_start().starts_with("---");
     let help = if marker { format!("remove lines {line} and {}", line + 1) } else { format!("remove line {line}") };
     let text = source.text();
@@ -234,17 +290,17 @@ mod tests {
         check(
             &ANCHOR,
             expect![[r#"
-            error: [SCL0111] YAML anchors and aliases are not supported in a topology
-             --> topology.yaml:3:12
-              |
-            3 |     gates: &g
-              |            ^^ anchor defined here
-            ...
-            6 |     gates: *g
-              |            -- used here
-              |
-              = help: write the gates of `b` out
-              = note: a topology is a contract that people read; expanded aliases also make error positions ambiguous and allow "billion laughs" files"#]],
+                error: [SCL0111] YAML anchors and aliases are not supported in a topology
+                 --> topology.yaml:3:12
+                  |
+                3 |     gates: &g
+                  |            ^^ anchor defined here
+                ...
+                6 |     gates: *g
+                  |            -- used here
+                  |
+                  = help: write the gates of `b` out, and remove the anchor
+                  = note: a topology is a contract that people read; expanded aliases also make error positions ambiguous and allow "billion laughs" files"#]],
         );
     }
 

@@ -1,7 +1,7 @@
 //! The changes to one line that are tried.
 
 use super::line::{Class, Token, tokens};
-use super::{Edit, Kind};
+use super::{Edit, Kind, quoting};
 use crate::parse::dialect::Dialect;
 use crate::parse::pitfall::look_alike;
 use crate::parse::words::COMPONENT_KEYS;
@@ -31,11 +31,15 @@ pub(super) fn of_line(line: &Range<usize>, text: &str, source: &SourceFile, dial
         at_end(last, &open_after, line, text, dialect, &mut edits);
     }
     surplus(&tokens, line, text, &mut edits);
+    second_key(&tokens, line, text, dialect, &mut edits);
+    odd_colon(&tokens, text, dialect, &mut edits);
+    parentheses(&tokens, text, &mut edits);
     quotes(line, text, &mut edits);
     first_of_line(&tokens, line, text, &mut edits);
     other_mark(&tokens, text, &mut edits);
     dash(&tokens, line, text, &mut edits);
     columns(&tokens, line, text, source, &mut edits);
+    edits.extend(quoting::of_line(line, text, dialect));
     edits
 }
 
@@ -192,7 +196,11 @@ fn at_end(last: &Token, open: &[usize], line: &Range<usize>, text: &str, dialect
         let bracket = if text[innermost..].starts_with('[') { "]" } else { "}" };
         let before = text[..after].trim_end().len();
         let start = text[..before].rfind([' ', '[', '{', ',']).map_or(0, |at| at + 1);
-        edits.push(edit(Kind::Close(innermost, start.min(before)..before), before..before, bracket, 1));
+        let kind = Kind::Close(innermost, start.min(before)..before);
+        edits.push(edit(kind.clone(), before..before, bracket, 1));
+        if last.class == Class::Comma {
+            edits.push(edit(kind, last.range.clone(), bracket, 1));
+        }
     }
 }
 
@@ -226,6 +234,53 @@ fn surplus(tokens: &[Token], line: &Range<usize>, text: &str, edits: &mut Vec<Ed
         if token.open.is_empty() && follows && at + 1 < tokens.len() {
             let rest = token.range.start..text[line.clone()].trim_end().len() + line.start;
             edits.push(edit(Kind::Surplus(rest.clone()), rest, "", 3));
+        }
+    }
+}
+
+/// Proposes braces or brackets in place of parentheses.
+fn parentheses(tokens: &[Token], text: &str, edits: &mut Vec<Edit>) {
+    let is = |token: &&Token, mark: &str| &text[token.range.clone()] == mark;
+    let open = tokens.iter().find(|token| is(token, "("));
+    let close = tokens.iter().rfind(|token| is(token, ")"));
+    let (Some(open), Some(close)) = (open, close) else { return };
+    for (left, right) in [("{", "}"), ("[", "]")] {
+        let kind = Kind::Parentheses(open.range.clone());
+        let changes = vec![(open.range.clone(), left.to_owned()), (close.range.clone(), right.to_owned())];
+        edits.push(Edit { kind, changes, cost: 1 });
+    }
+}
+
+/// Proposes to move a known key, in the line of another key, to a line of its own.
+fn second_key(tokens: &[Token], line: &Range<usize>, text: &str, dialect: &Dialect, edits: &mut Vec<Edit>) {
+    for at in 2..tokens.len().saturating_sub(1) {
+        let [before, key, colon] = [&tokens[at - 1], &tokens[at], &tokens[at + 1]];
+        let is_key = colon.class == Class::Colon && (dialect.word)(&text[key.range.clone()]).is_some();
+        if is_key && key.open.is_empty() && before.ends_value() && before.range.end < key.range.start {
+            let content = &text[line.clone()];
+            let indent = content.len() - content.trim_start_matches([' ', '-']).len();
+            let rest = key.range.start..line.start + content.trim_end().len();
+            let gap = before.range.end..key.range.start;
+            edits.push(edit(Kind::Key(rest), gap, format!("\n{}", " ".repeat(indent)), 1));
+        }
+    }
+}
+
+/// Proposes a colon in place of another character behind a known key.
+fn odd_colon(tokens: &[Token], text: &str, dialect: &Dialect, edits: &mut Vec<Edit>) {
+    for (at, token) in tokens.iter().enumerate() {
+        let is_first = tokens[..at].iter().all(|before| before.class == Class::Dash);
+        let follows = at > 0 && matches!(tokens[at - 1].class, Class::Open | Class::Comma);
+        let word = &text[token.range.clone()];
+        let Some(last) = word.chars().next_back().filter(|_| is_first || follows) else { continue };
+        let mark = match tokens.get(at + 1) {
+            _ if !last.is_ascii_alphanumeric() => token.range.end - last.len_utf8()..token.range.end,
+            Some(next) if next.class == Class::Other && next.range.start == token.range.end => next.range.clone(),
+            _ => continue,
+        };
+        if (dialect.word)(&text[token.range.start..mark.start]).is_some() {
+            let space = if text[mark.end..].starts_with([' ', '\n', '\r']) { ":" } else { ": " };
+            edits.push(edit(Kind::Instead(mark.clone(), ':'), mark, space, 0));
         }
     }
 }

@@ -3,7 +3,9 @@
 use super::{Edit, Kind};
 use crate::diagnostic::{Diagnostic, Edit as Replacement};
 use crate::parse::dialect::Dialect;
-use crate::parse::pitfall::{bracket, dash, indentation, look_alike, missing_mark, missing_space, quote, unexpected};
+use crate::parse::pitfall::{
+    bracket, dash, indentation, look_alike, missing_mark, missing_space, needs_quotes, quote, unexpected,
+};
 use crate::parse::shape::nameless;
 use crate::source::SourceFile;
 use std::ops::Range;
@@ -22,9 +24,20 @@ fn words(edit: &Edit, text: &str, source: &SourceFile, dialect: &Dialect) -> Dia
     match &edit.kind {
         Kind::Comma(before, after) => missing_mark::comma_between(before, after, text, source),
         Kind::Colon(word) => missing_mark::colon_after(word, text, source),
-        Kind::Close(open, word) => bracket::close_after(*open, word, text, source),
+        Kind::Close(open, word) => {
+            let replaced = edit.changes.first().map_or("", |(range, _)| &text[range.clone()]);
+            bracket::close_after(*open, word, replaced, text, source)
+        }
+        Kind::Parentheses(open) => {
+            let brackets: Vec<&str> = edit.changes.iter().map(|(_, with)| with.as_str()).collect();
+            bracket::parentheses(open, &brackets, source)
+        }
+        Kind::Key(rest) => unexpected::key_in_line(rest, text, source),
         Kind::Open(close, word) => bracket::open_before(*close, word, text, source),
-        Kind::Partner(open, close) => bracket::mismatched(*open, *close, text, source),
+        Kind::Partner(open, close) => {
+            let at = edit.changes.first().map_or(*close, |(range, _)| range.start);
+            bracket::mismatched(*open, *close, at, text, source)
+        }
         Kind::Instead(range, ',') => missing_mark::instead_of_comma(range, text, source),
         Kind::Instead(range, _) => missing_mark::instead_of_colon(range, text, source),
         Kind::Surplus(range) => surplus(range, text, source),
@@ -40,6 +53,7 @@ fn words(edit: &Edit, text: &str, source: &SourceFile, dialect: &Dialect) -> Dia
         Kind::OpenAfter(colon) => bracket::open_after(colon, text, source),
         Kind::Nameless(key) => nameless::above(source.span(key.clone())),
         Kind::Indent(word, column) => indentation::in_wrong_column(word, *column, text, source),
+        Kind::Text(value) => needs_quotes::diagnose(value, text, source),
         Kind::LookAlike(mark) => look_alike::diagnose(mark, source),
     }
 }
@@ -48,7 +62,7 @@ fn surplus(range: &Range<usize>, text: &str, source: &SourceFile) -> Diagnostic 
     match &text[range.clone()] {
         "-" => dash::surplus(range, text, source),
         "]" | "}" => bracket::never_opened(range.start, text, source),
-        "[" | "{" => bracket::never_closed(range.start, text, source),
+        "[" | "{" => bracket::surplus(range.start, text, source),
         _ => unexpected::diagnose(range, text, source),
     }
 }
