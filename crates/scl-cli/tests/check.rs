@@ -63,8 +63,8 @@ fn warnings_do_not_fail() {
         8 |   - name: logger
           |           ^^^^^^ it cannot be part of any connection
           |
-          = help: add a gate, or remove the component
-          = help: if it is meant, write `gates: []`
+          = help: each gate is an item of the list `gates`: `- name: kind`
+          = help: if it is meant to have none, write `gates: []`
 
         topology.yaml: 3 components, 2 gates, 1 connection; 1 warning
     "#]],

@@ -68,6 +68,7 @@ pub mod diagnostic;
 pub mod external;
 pub mod fingerprint;
 pub mod grammar;
+mod habits;
 pub mod keywords;
 pub mod model;
 pub mod parse;

@@ -1,6 +1,7 @@
 //! The names of a topology that a misspelt word may have meant.
 
 use crate::grammar::{GateKind, KindRow};
+use crate::habits;
 use crate::work;
 pub(crate) use scl_text::suggest::MOST;
 
@@ -25,7 +26,7 @@ pub(crate) fn one_edit_away<'a>(word: &str, candidates: impl IntoIterator<Item =
 /// The kinds of gate that a word may have meant, at most three: in another case, by another name, or misspelt by one
 /// letter.
 pub(crate) fn kind(word: &str) -> Vec<&'static str> {
-    let lower = word.to_lowercase();
+    let lower = habits::compact(word);
     let is_called = |kind: &GateKind| kind.word() == lower || KindRow::of(*kind).synonyms.contains(&lower.as_str());
     match GateKind::ALL.into_iter().find(is_called) {
         Some(kind) => vec![kind.word()],

@@ -11,6 +11,7 @@ pub fn apply(text: &str, edits: &[&Edit]) -> Option<String> {
     for edit in sorted(edits) {
         let (start, end) = (edit.span.start as usize, edit.span.end as usize);
         out.push_str(text.get(at..start)?);
+        text.get(start..end)?;
         out.push_str(&edit.replacement.replace('\n', line_break));
         at = end;
     }

@@ -2,7 +2,9 @@
 
 use super::draft::Draft;
 use super::named::is_word;
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
+use crate::grammar::CodecRow;
+use crate::habits;
 use crate::rust_name::{is_keyword, is_unescapable};
 use crate::source::Spanned;
 use crate::suggest::similar;
@@ -66,16 +68,40 @@ fn report(written: &Spanned<String>) -> Diagnostic {
     let keyword = keyword_in(&written.value).filter(|_| written.value.contains("::"));
     let label = keyword.map_or_else(String::new, |word| format!("`{word}` is a keyword of Rust"));
     let found = RULE.at(headline, written.span, label);
-    let lower = written.value.to_lowercase();
-    let mut rows = Codec::BUILT_IN.iter();
-    let synonym = rows.find(|row| row.synonyms.contains(&lower.as_str())).map(|row| vec![row.word]);
-    let meant = synonym.unwrap_or_else(|| similar(&written.value, Codec::words()));
-    let path = written.value.contains('.').then(|| written.value.replace('.', "::"));
-    found
-        .did_you_mean(&written.value, &meant)
-        .helps(path.map(|path| format!("a codec of your own is named by its Rust path: `{path}`")))
-        .helps(keyword.map(|_| "name a type of your crate by its path, such as `my_crate::Flat`"))
-        .note(codecs())
+    let path = written.value.contains('.').then(|| written.value.replace('.', "::")).filter(|path| is_rust_path(path));
+    let habit = habits::of_key(habits::CODECS, &written.value);
+    let found = match habit {
+        Some(habit) => habit.ways.iter().fold(found, |found, way| {
+            found.suggest(format!("the nearest codec is `{way}`"), [Edit::new(written.span, *way)])
+        }),
+        None => found.did_you_mean(&written.value, &meant(&written.value)),
+    };
+    let found = match path {
+        Some(path) => {
+            let text = format!("a codec of your own is named by its Rust path: `{path}`");
+            found.suggest(text, [Edit::new(written.span, path)])
+        }
+        None => found,
+    };
+    let words = habit.map(|habit| habit.text).filter(|text| !text.is_empty());
+    found.otherwise(words.unwrap_or("a codec of your own is a type of a crate, named by its Rust path")).note(codecs())
+}
+
+/// The codecs that a word may mean: by another name, by a media type such as `application/x-protobuf`, or misspelt.
+fn meant(written: &str) -> Vec<&'static str> {
+    let lower = written.to_lowercase();
+    // The part behind the slash, without its parameters: `x-protobuf`, `vnd.api+json`.
+    let kind = lower.split_once('/').map_or(lower.as_str(), |(_, kind)| kind);
+    let kind = kind.split(';').next().unwrap_or(kind).trim();
+    let names = kind.split(['+', '.', ':']).rev().map(|name| name.trim_start_matches("x-").trim_start_matches("x."));
+    for name in names {
+        let compact = habits::compact(name);
+        let is_called = |row: &&CodecRow| row.word == compact || row.synonyms.contains(&compact.as_str());
+        if let Some(row) = Codec::BUILT_IN.iter().find(is_called) {
+            return vec![row.word];
+        }
+    }
+    similar(kind, Codec::words())
 }
 
 fn codecs() -> String {
@@ -125,11 +151,11 @@ mod tests {
             JSON: SCL0407 unknown codec `JSON` [did you mean `json`?]
             messagepack: SCL0407 unknown codec `messagepack` [did you mean `msgpack`?]
             my_crate.Flat: SCL0407 unknown codec `my_crate.Flat` [a codec of your own is named by its Rust path: `my_crate::Flat`]
-            xml: SCL0407 unknown codec `xml` []
+            xml: SCL0407 unknown codec `xml` [scl has no such codec; a codec of your own is a Rust type, named by its path]
             my_crate::Flat: 
             crate::Flat: 
-            fn::A: SCL0407 unknown codec `fn::A` [name a type of your crate by its path, such as `my_crate::Flat`]
-            a::self: SCL0407 unknown codec `a::self` [name a type of your crate by its path, such as `my_crate::Flat`]
+            fn::A: SCL0407 unknown codec `fn::A` [a codec of your own is a type of a crate, named by its Rust path]
+            a::self: SCL0407 unknown codec `a::self` [a codec of your own is a type of a crate, named by its Rust path]
         "#]].assert_eq(&told);
     }
 }

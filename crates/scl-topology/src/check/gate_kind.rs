@@ -3,6 +3,7 @@
 use super::draft::Draft;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::grammar::{PATTERNS, Pattern};
+use crate::habits;
 use crate::source::{Sources, Spanned};
 use crate::suggest;
 use crate::topology::GateKind;
@@ -65,7 +66,13 @@ fn report(word: &Spanned<String>, sources: &Sources) -> Diagnostic {
     let meant = suggest::kind(&word.value);
     let lead = if meant.len() == 1 { ("the kind is called ", "") } else { ("did you mean ", "?") };
     let rewritten = |kind: &str| Edit::new(word.span, sources.quoted_as(word.span, kind));
-    found.choose(lead, meant.iter().map(|kind| (*kind, rewritten(kind)))).note(kinds())
+    let habit = habits::of_key(habits::KINDS, &word.value);
+    let nearest = habit.and_then(|habit| habit.ways.first());
+    let found = found.choose(lead, meant.iter().map(|kind| (*kind, rewritten(kind))));
+    let found = nearest
+        .iter()
+        .fold(found, |found, kind| found.suggest(format!("the nearest kind is `{kind}`"), [rewritten(kind)]));
+    found.helps(habit.map(|habit| habit.text)).note(kinds())
 }
 
 #[cfg(test)]

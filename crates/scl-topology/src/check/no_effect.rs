@@ -58,24 +58,35 @@ fn without_waiting(draft: &Draft<'_>, gate: usize, receivers: &[usize]) -> Optio
         _ => "none of its receivers waits",
     };
     let names = listed(receivers.iter().map(|&receiver| draft.path(receiver)));
-    let found = report(draft, gate, "backpressure", reason)?.help("or let a receiver wait: `when_full: wait`");
-    Some(found.note(format!("receivers: {names}")))
+    let found = report(draft, gate, "backpressure", reason)?.note(format!("receivers: {names}"));
+    Some(match receivers {
+        &[receiver] => {
+            let text = format!("or let `{}` wait: `when_full: wait`", draft.path(receiver));
+            found.suggest(text, [draft.with_option(receiver, "when_full", "wait")])
+        }
+        _ => found.help("a receiver waits with `when_full: wait`"),
+    })
 }
 
 fn without_sharing(draft: &Draft<'_>, gate: usize, puller: usize) -> Option<Diagnostic> {
     let found = report(draft, gate, "share", "it has one puller")?;
-    Some(found.help("or connect another puller").note(format!("its puller: `{}`", draft.path(puller))))
+    let found = found.help("the work is shared among several pullers, each with a connection of its own");
+    Some(found.note(format!("its puller: `{}`", draft.path(puller))))
 }
 
 fn without_type(draft: &Draft<'_>, gate: usize) -> Option<Diagnostic> {
-    Some(report(draft, gate, "codec", "the gate carries bytes")?.help("or give the gate a type"))
+    Some(report(draft, gate, "codec", "the gate carries bytes")?.help("a codec is for gates that have a type"))
 }
 
 fn report(draft: &Draft<'_>, gate: usize, key: &str, reason: &str) -> Option<Diagnostic> {
     let option = draft.gates[gate].option(key)?;
     let written = format!("{key}: {}", option.value.value);
     let headline = format!("`{written}` of `{}` has no effect: {reason}", draft.path(gate));
-    Some(RULE.at(headline, option.key.span.to(option.value.span), "").help(format!("remove `{written}`")))
+    let found = RULE.at(headline, option.key.span.to(option.value.span), "");
+    Some(match draft.without_option(gate, key) {
+        Some(edit) => found.suggest(format!("remove `{written}`"), [edit]),
+        None => found,
+    })
 }
 
 #[cfg(test)]
@@ -89,16 +100,16 @@ mod tests {
         rule_example(
             &RULE,
             expect![[r#"
-            warning: [SCL0413] `backpressure: true` of `sensor.measurements` has no effect: its receiver does not wait
-             --> topology.yaml:4:42
-              |
-            4 |       - measurements: {pub: Measurement, backpressure: true}
-              |                                          ^^^^^^^^^^^^^^^^^^
-              |
-              = help: remove `backpressure: true`
-              = help: or let a receiver wait: `when_full: wait`
-              = note: receivers: `recorder.measurements`
-        "#]],
+                warning: [SCL0413] `backpressure: true` of `sensor.measurements` has no effect: its receiver does not wait
+                 --> topology.yaml:4:42
+                  |
+                4 |       - measurements: {pub: Measurement, backpressure: true}
+                  |                                          ^^^^^^^^^^^^^^^^^^
+                  |
+                  = help: remove `backpressure: true`
+                  = help: or let `recorder.measurements` wait: `when_full: wait`
+                  = note: receivers: `recorder.measurements`
+            "#]],
         );
     }
 }

@@ -2,10 +2,11 @@
 //! options of every gate.
 
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::grammar::{self, GateKind, GateOption, OutOfRange};
 use crate::model::OptionModel;
-use scl_text::list::all_of;
+use scl_text::list::{all_of, listed};
+use std::collections::HashMap;
 
 /// SCL0409.
 pub(crate) const VALUE: Rule = Rule {
@@ -25,28 +26,61 @@ pub(crate) const VALUE: Rule = Rule {
 };
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
-    for gate in &mut draft.gates {
+    let mut misfits: Vec<(usize, &OptionModel)> = Vec::new();
+    for at in 0..draft.gates.len() {
+        let gate = &draft.gates[at];
+        let mut kept = gate.options.clone();
         for option in &gate.model.options {
             let Some(row) = grammar::option(&option.key.value) else { continue };
-            // An option that the kind does not have has no effect, so nothing follows from it.
-            let mut options = gate.options.clone();
+            let mut options = kept.clone();
             match row.set(&mut options, &option.value.value) {
-                Ok(()) => match check_fit(gate.kind, option) {
-                    Some(misfit) => problems.push(misfit),
-                    None => gate.options = options,
-                },
-                Err(range) => problems.push(report(gate.kind, row, option, &range)),
+                // An option that the kind does not have has no effect, so nothing follows from it.
+                Ok(()) if gate.kind.is_some_and(|kind| !row.fits(kind)) => misfits.push((at, option)),
+                Ok(()) => kept = options,
+                Err(range) => problems.push(report(draft, at, row, option, &range)),
             }
         }
+        draft.gates[at].options = kept;
     }
+    if misfits.is_empty() {
+        return;
+    }
+    let peers = peers(draft);
+    let peers = |gate: usize| peers.get(&gate).map_or(&[][..], Vec::as_slice);
+    problems.extend(misfits.into_iter().filter_map(|(gate, option)| misfit_at(draft, gate, option, peers(gate))));
 }
 
-fn report(kind: Option<GateKind>, row: &GateOption, option: &OptionModel, range: &OutOfRange) -> Diagnostic {
+/// The gates at the other ends of each gate's connections, as they are written.
+fn peers(draft: &Draft<'_>) -> HashMap<usize, Vec<usize>> {
+    let mut peers: HashMap<usize, Vec<usize>> = HashMap::new();
+    let gate = |end: &str| end.split_once('.').and_then(|(component, gate)| draft.gate(component, gate));
+    for connection in &draft.model.connections {
+        let [one, other] = &connection.ends;
+        if let (Some(one), Some(other)) = (gate(&one.value), gate(&other.value)) {
+            peers.entry(one).or_default().push(other);
+            peers.entry(other).or_default().push(one);
+        }
+    }
+    peers
+}
+
+fn report(draft: &Draft<'_>, gate: usize, row: &GateOption, option: &OptionModel, range: &OutOfRange) -> Diagnostic {
     let headline = format!("`{}` must be {}", row.key, range.rule);
-    let default = row.default().map(|default| format!("leave it out to get the default, {default}"));
-    let found = VALUE.at(headline, option.value.span, "").helps(default).notes(range.reason);
+    let key = row.key;
+    let mut found = VALUE.at(headline, option.value.span, "").notes(range.reason);
+    if let Some(largest) = row.shape.largest() {
+        // In other tools, 0 and -1 mean that there is no limit.
+        let text = match range.is_too_large {
+            true => format!("the largest is `{key}: {largest}`"),
+            false => format!("there is no unlimited `{key}`; the largest is `{key}: {largest}`"),
+        };
+        found = found.suggest(text, [Edit::new(option.value.span, largest)]);
+    }
+    if let (Some(default), Some(edit)) = (row.default(), draft.without_option(gate, key)) {
+        found = found.suggest(format!("without it, the default is {default}"), [edit]);
+    }
     // If this kind of gate does not have the option, say so: no value would be right.
-    found.notes(misfit(kind, row.key))
+    found.notes(misfit(draft.gates[gate].kind, key))
 }
 
 /// SCL0408.
@@ -64,15 +98,31 @@ pub(crate) const MISFIT: Rule = Rule {
 ",
 };
 
+/// Maximum number of gates to which a proposal moves an option.
+const MOST_MOVED: usize = 10;
+
 /// The problem of an option that this kind of gate does not have.
-fn check_fit(kind: Option<GateKind>, option: &OptionModel) -> Option<Diagnostic> {
+fn misfit_at(draft: &Draft<'_>, gate: usize, option: &OptionModel, peers: &[usize]) -> Option<Diagnostic> {
     let key = option.key.value.as_str();
-    let kind = kind?;
+    let kind = draft.gates[gate].kind?;
     let rule = misfit(Some(kind), key)?;
     let headline = format!("option `{key}` is not available on a `{}` gate", kind.word());
-    let other = Some(kind.opposite()).filter(|&other| fits(other, key));
-    let at_other_end = other.map(|other| format!("or write it at the `{}` end of the connection", other.word()));
-    Some(MISFIT.at(headline, option.key.span, "").help("remove it").helps(at_other_end).note(rule))
+    let mut found = MISFIT.at(headline, option.key.span, "");
+    let removed = draft.without_option(gate, key);
+    let other = kind.opposite();
+    let lacks = |&peer: &usize| draft.gates[peer].kind == Some(other) && draft.gates[peer].option(key).is_none();
+    let is_moved = fits(other, key) && (1..=MOST_MOVED).contains(&peers.len()) && peers.iter().all(lacks);
+    if let (true, Some(removed)) = (is_moved, &removed) {
+        let there = peers.iter().map(|&peer| draft.with_option(peer, key, &option.value.value));
+        let names = listed(peers.iter().map(|&peer| draft.path(peer)));
+        found = found.suggest(format!("write it at {names}"), there.chain([removed.clone()]));
+    }
+    found = match removed {
+        Some(removed) => found.suggest("remove it", [removed]),
+        None => found,
+    };
+    let at_other_end = fits(other, key).then(|| format!("it belongs to the `{}` end of a connection", other.word()));
+    Some(found.helps(at_other_end.filter(|_| !is_moved)).note(rule))
 }
 
 /// Returns why a kind does not have the option, or `None` if it does.
@@ -102,15 +152,15 @@ mod tests {
         rule_example(
             &VALUE,
             expect![[r#"
-            error: [SCL0409] `queue` must be at least 1
-             --> topology.yaml:4:49
-              |
-            4 |       - measurements: {pub: Measurement, queue: 0}
-              |                                                 ^
-              |
-              = help: leave it out to get the default, 100
-              = note: each receiver says how many messages may wait for it; `queue` is for `sub` and `pull`
-        "#]],
+                error: [SCL0409] `queue` must be at least 1
+                 --> topology.yaml:4:49
+                  |
+                4 |       - measurements: {pub: Measurement, queue: 0}
+                  |                                                 ^
+                  |
+                  = help: without it, the default is 100
+                  = note: each receiver says how many messages may wait for it; `queue` is for `sub` and `pull`
+            "#]],
         );
     }
 
@@ -139,20 +189,20 @@ mod tests {
         let told: String = gates.iter().map(|gate| format!("{gate}: {}\n", advice(gate))).collect();
         expect![[r#"
             sub: T, queue: 1: 
-            sub: T, queue: -3: SCL0409 `queue` must be at least 1 [leave it out to get the default, 100]
+            sub: T, queue: -3: SCL0409 `queue` must be at least 1 [there is no unlimited `queue`; the largest is `queue: 1000000` | without it, the default is 100]
             sub: T, queue: 1000000: 
-            sub: T, queue: 1000001: SCL0409 `queue` must be at most 1000000 [leave it out to get the default, 100]
-            sub: T, queue: 99999999999999999999: SCL0409 `queue` must be at most 1000000 [leave it out to get the default, 100]
+            sub: T, queue: 1000001: SCL0409 `queue` must be at most 1000000 [the largest is `queue: 1000000` | without it, the default is 100]
+            sub: T, queue: 99999999999999999999: SCL0409 `queue` must be at most 1000000 [the largest is `queue: 1000000` | without it, the default is 100]
             rep: A -> B, max_size: 1B: 
-            rep: A -> B, max_size: 0B: SCL0409 `max_size` must be at least 1B [leave it out to get the default, 64MiB]
-            pull: T, max_size: -1MiB: SCL0409 `max_size` must be at least 1B [leave it out to get the default, 64MiB]
+            rep: A -> B, max_size: 0B: SCL0409 `max_size` must be at least 1B [there is no unlimited `max_size`; the largest is `max_size: 1GiB` | without it, the default is 64MiB]
+            pull: T, max_size: -1MiB: SCL0409 `max_size` must be at least 1B [there is no unlimited `max_size`; the largest is `max_size: 1GiB` | without it, the default is 64MiB]
             req: A -> B, max_size: 1024MiB: 
-            sub: T, max_size: 1025MiB: SCL0409 `max_size` must be at most 1GiB [leave it out to get the default, 64MiB]
-            sub: T, max_size: 99999999999999999999GiB: SCL0409 `max_size` must be at most 1GiB [leave it out to get the default, 64MiB]
-            req: A -> B, timeout: 0s: SCL0409 `timeout` must be more than 0 [leave it out to get the default, 1s]
+            sub: T, max_size: 1025MiB: SCL0409 `max_size` must be at most 1GiB [the largest is `max_size: 1GiB` | without it, the default is 64MiB]
+            sub: T, max_size: 99999999999999999999GiB: SCL0409 `max_size` must be at most 1GiB [the largest is `max_size: 1GiB` | without it, the default is 64MiB]
+            req: A -> B, timeout: 0s: SCL0409 `timeout` must be more than 0 [there is no unlimited `timeout`; the largest is `timeout: 86400s` | without it, the default is 1s]
             req: A -> B, timeout: 1us: 
-            req: A -> B, timeout: -1s: SCL0409 `timeout` must be more than 0 [leave it out to get the default, 1s]
-            req: A -> B, timeout: 86401s: SCL0409 `timeout` must be at most 86400s [leave it out to get the default, 1s]
+            req: A -> B, timeout: -1s: SCL0409 `timeout` must be more than 0 [there is no unlimited `timeout`; the largest is `timeout: 86400s` | without it, the default is 1s]
+            req: A -> B, timeout: 86401s: SCL0409 `timeout` must be at most 86400s [the largest is `timeout: 86400s` | without it, the default is 1s]
         "#]].assert_eq(&told);
     }
 
@@ -187,30 +237,30 @@ mod tests {
             }
         }
         expect![[r#"
-            SCL0408 option `queue` is not available on a `pub` gate [remove it | or write it at the `sub` end of the connection]
+            SCL0408 option `queue` is not available on a `pub` gate [remove it | it belongs to the `sub` end of a connection]
             SCL0408 option `queue` is not available on a `req` gate [remove it]
             SCL0408 option `queue` is not available on a `rep` gate [remove it]
-            SCL0408 option `queue` is not available on a `push` gate [remove it | or write it at the `pull` end of the connection]
-            SCL0408 option `when_full` is not available on a `pub` gate [remove it | or write it at the `sub` end of the connection]
+            SCL0408 option `queue` is not available on a `push` gate [remove it | it belongs to the `pull` end of a connection]
+            SCL0408 option `when_full` is not available on a `pub` gate [remove it | it belongs to the `sub` end of a connection]
             SCL0408 option `when_full` is not available on a `req` gate [remove it]
             SCL0408 option `when_full` is not available on a `rep` gate [remove it]
-            SCL0408 option `when_full` is not available on a `push` gate [remove it | or write it at the `pull` end of the connection]
-            SCL0408 option `backpressure` is not available on a `sub` gate [remove it | or write it at the `pub` end of the connection]
+            SCL0408 option `when_full` is not available on a `push` gate [remove it | it belongs to the `pull` end of a connection]
+            SCL0408 option `backpressure` is not available on a `sub` gate [remove it | it belongs to the `pub` end of a connection]
             SCL0408 option `backpressure` is not available on a `req` gate [remove it]
             SCL0408 option `backpressure` is not available on a `rep` gate [remove it]
-            SCL0408 option `backpressure` is not available on a `pull` gate [remove it | or write it at the `push` end of the connection]
-            SCL0408 option `max_size` is not available on a `pub` gate [remove it | or write it at the `sub` end of the connection]
-            SCL0408 option `max_size` is not available on a `push` gate [remove it | or write it at the `pull` end of the connection]
+            SCL0408 option `backpressure` is not available on a `pull` gate [remove it | it belongs to the `push` end of a connection]
+            SCL0408 option `max_size` is not available on a `pub` gate [remove it | it belongs to the `sub` end of a connection]
+            SCL0408 option `max_size` is not available on a `push` gate [remove it | it belongs to the `pull` end of a connection]
             SCL0408 option `timeout` is not available on a `pub` gate [remove it]
             SCL0408 option `timeout` is not available on a `sub` gate [remove it]
-            SCL0408 option `timeout` is not available on a `rep` gate [remove it | or write it at the `req` end of the connection]
+            SCL0408 option `timeout` is not available on a `rep` gate [remove it | it belongs to the `req` end of a connection]
             SCL0408 option `timeout` is not available on a `push` gate [remove it]
             SCL0408 option `timeout` is not available on a `pull` gate [remove it]
             SCL0408 option `share` is not available on a `pub` gate [remove it]
             SCL0408 option `share` is not available on a `sub` gate [remove it]
             SCL0408 option `share` is not available on a `req` gate [remove it]
             SCL0408 option `share` is not available on a `rep` gate [remove it]
-            SCL0408 option `share` is not available on a `pull` gate [remove it | or write it at the `push` end of the connection]
+            SCL0408 option `share` is not available on a `pull` gate [remove it | it belongs to the `push` end of a connection]
         "#]].assert_eq(&told);
     }
 }

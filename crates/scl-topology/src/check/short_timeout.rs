@@ -76,7 +76,9 @@ fn report(draft: &Draft<'_>, outer: usize, replier: usize, inner: usize) -> Diag
     RULE.at(headline, place(outer), format!("gives up after {short}{}", default(outer)))
         .label(draft.gates[replier].model.name.span, "answers this request")
         .label(place(inner), format!("the replier makes this request, which may take {long}{}", default(inner)))
-        .help(format!("give `{outer_path}` a timeout of more than {long}, or `{inner_path}` one of less than {short}"))
+        .help(format!(
+            "the timeout of `{outer_path}` must be longer than {long}, or that of `{inner_path}` shorter than {short}"
+        ))
 }
 
 #[cfg(test)]
@@ -101,7 +103,7 @@ mod tests {
                 8 |       - map: {req: Area -> Map, timeout: 2s}
                   |                                 ----------- the replier makes this request, which may take 2s
                   |
-                  = help: give `user_interface.commands` a timeout of more than 2s, or `controller.map` one of less than 500ms
+                  = help: the timeout of `user_interface.commands` must be longer than 2s, or that of `controller.map` shorter than 500ms
             "#]],
         );
     }

@@ -42,7 +42,7 @@ const PROTOBUF: CodecRow = CodecRow {
     messages: "Messages of the file's `schemas`, and types that derive `prost::Message`.",
     summary: "Binary, understood in every language; the default.",
     remedy: "derive `prost::Message` for it, or name a `.proto` file in `schemas:`",
-    synonyms: &["proto", "pb", "prost"],
+    synonyms: &["proto", "pb", "prost", "proto2", "proto3", "protobuf3", "grpc", "protocolbuffers"],
 };
 
 /// The codec of gates without a type.
@@ -55,7 +55,7 @@ const RAW: CodecRow = CodecRow {
     summary: "The bytes of the type as they are in memory: the fastest, but only between processors of the same \
               kind.",
     remedy: "derive the traits of `zerocopy` for it; it must have a fixed layout",
-    synonyms: &["bytes", "none"],
+    synonyms: &["bytes", "none", "binary", "octetstream", "zerocopy", "pod"],
 };
 
 impl Codec {
@@ -71,7 +71,7 @@ impl Codec {
                        `serde::Serialize` and `serde::Deserialize`.",
             summary: "Text, readable in every tool and language.",
             remedy: SERDE_REMEDY,
-            synonyms: &[],
+            synonyms: &["text", "serdejson", "jsonl"],
         },
         CodecRow {
             word: "cbor",
@@ -81,7 +81,7 @@ impl Codec {
             messages: SERDE_TYPES,
             summary: "Binary and self-describing, a standard of the IETF.",
             remedy: SERDE_REMEDY,
-            synonyms: &[],
+            synonyms: &["ciborium", "rfc8949"],
         },
         CodecRow {
             word: "msgpack",
@@ -91,7 +91,7 @@ impl Codec {
             messages: SERDE_TYPES,
             summary: "Binary and self-describing, known in many languages.",
             remedy: SERDE_REMEDY,
-            synonyms: &["messagepack"],
+            synonyms: &["messagepack", "mpack", "rmp", "rmpserde"],
         },
         CodecRow {
             word: "postcard",

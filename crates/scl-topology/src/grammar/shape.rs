@@ -73,9 +73,21 @@ pub struct OutOfRange {
     pub rule: String,
     /// Why a value out of this range cannot work, if there is more to say than the range.
     pub reason: Option<&'static str>,
+    /// It is larger than the largest; otherwise it is smaller than the smallest.
+    pub is_too_large: bool,
 }
 
 impl Shape {
+    /// The largest value of a number, a duration or a size.
+    pub(crate) fn largest(self) -> Option<String> {
+        match self {
+            Shape::Number { most, .. } => Some(most.to_string()),
+            Shape::Duration { most } => Some(duration::text(most)),
+            Shape::Size { most } => Some(size::text(most)),
+            _ => None,
+        }
+    }
+
     /// Describes the form of a value in words that follow `must be`: `a whole number`.
     pub fn rule(self) -> String {
         match self {
@@ -142,10 +154,10 @@ pub(super) fn number(text: &str, least: u32, most: u32) -> Result<u32, OutOfRang
     let is_negative = text.starts_with('-') && digits.bytes().any(|digit| digit != b'0');
     // A text of digits fails to parse only by overflow.
     match digits.parse::<u32>() {
-        _ if is_negative => Err(outside(format!("at least {least}"))),
-        Ok(number) if number < least => Err(outside(format!("at least {least}"))),
+        _ if is_negative => Err(below(format!("at least {least}"))),
+        Ok(number) if number < least => Err(below(format!("at least {least}"))),
         Ok(number) if number <= most => Ok(number),
-        _ => Err(outside(format!("at most {most}"))),
+        _ => Err(above(format!("at most {most}"))),
     }
 }
 
@@ -156,9 +168,9 @@ const SHORTEST: Duration = Duration::from_micros(1);
 pub(super) fn duration(text: &str, most: Duration) -> Result<Duration, OutOfRange> {
     match duration::parse(text) {
         Ok(duration) if (SHORTEST..=most).contains(&duration) => Ok(duration),
-        Ok(duration) if duration > most => Err(outside(format!("at most {}", duration::text(most)))),
-        Err(DurationError::TooLarge) => Err(outside(format!("at most {}", duration::text(most)))),
-        Ok(_) | Err(_) => Err(outside("more than 0".to_owned())),
+        Ok(duration) if duration > most => Err(above(format!("at most {}", duration::text(most)))),
+        Err(DurationError::TooLarge) => Err(above(format!("at most {}", duration::text(most)))),
+        Ok(_) | Err(_) => Err(below("more than 0".to_owned())),
     }
 }
 
@@ -168,17 +180,23 @@ pub(super) fn size(text: &str, most: u64) -> Result<u64, OutOfRange> {
         Ok(0) | Err(SizeError::Negative | SizeError::Malformed) => Err(OutOfRange {
             rule: "at least 1B".to_owned(),
             reason: Some("a gate with this limit would accept empty messages only"),
+            is_too_large: false,
         }),
         Ok(bytes) if bytes <= most => Ok(bytes),
         Ok(_) | Err(SizeError::TooLarge) => Err(OutOfRange {
             rule: format!("at most {}", size::text(most)),
             reason: Some("a message is held in memory as a whole; send larger data in several messages"),
+            is_too_large: true,
         }),
     }
 }
 
-fn outside(rule: String) -> OutOfRange {
-    OutOfRange { rule, reason: None }
+fn below(rule: String) -> OutOfRange {
+    OutOfRange { rule, reason: None, is_too_large: false }
+}
+
+fn above(rule: String) -> OutOfRange {
+    OutOfRange { rule, reason: None, is_too_large: true }
 }
 
 #[cfg(test)]

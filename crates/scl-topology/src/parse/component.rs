@@ -18,7 +18,7 @@ impl Reader<'_> {
             _ => {
                 self.model.components_unread = true;
                 let problem = match section.value.is_null() {
-                    true => shape::missing::components(section),
+                    true => shape::missing::components(section, self.source),
                     false => self.glued_or(section.value, shape::section_kind::text(section)),
                 };
                 self.report(problem);
@@ -39,7 +39,7 @@ impl Reader<'_> {
                 _ => self.model.components.push(unread_component(name)),
             }
         }
-        self.report(shape::section_kind::components(section, self.model.components.get(first)));
+        self.report(shape::section_kind::components(section, self.model.components.get(first), self.source));
     }
 
     fn read_component(&mut self, item: &Node) {
@@ -51,7 +51,7 @@ impl Reader<'_> {
             let problem = match item.kind {
                 NodeKind::Unread => return,
                 _ if item.is_null() => pitfall::no_value::in_list(item, "list item", self.source),
-                _ => self.glued_or(item, shape::nameless::not_a_mapping(item)),
+                _ => self.glued_or(item, shape::nameless::not_a_mapping(item, self.source)),
             };
             return self.report(problem);
         };
@@ -152,7 +152,7 @@ impl Reader<'_> {
         }
         let gates = fields.all("gates").last();
         if component.gates.is_empty() && !component.gates_unread {
-            self.problems.extend(shape::missing::find_gates(&component.name, gates));
+            self.problems.extend(shape::missing::find_gates(&component.name, gates, self.source));
         }
         self.model.components.push(component);
     }

@@ -18,10 +18,9 @@ impl Reader<'_> {
             _ if section.value.is_null() => {}
             _ => {
                 self.remember_broken_ends(section.value);
-                self.report(
-                    self.glued_dash(section.value)
-                        .unwrap_or_else(|| self.glued_or(section.value, shape::section_kind::connections(section))),
-                );
+                self.report(self.glued_dash(section.value).unwrap_or_else(|| {
+                    self.glued_or(section.value, shape::section_kind::connections(section, self.source))
+                }));
             }
         }
     }
@@ -29,9 +28,9 @@ impl Reader<'_> {
     pub(super) fn read_connection(&mut self, item: &Node) {
         match &item.kind {
             NodeKind::Unread => {}
-            NodeKind::Sequence { items } => self.read_ends(item.span, items),
+            NodeKind::Sequence { items } => self.read_ends(item, items),
             NodeKind::Mapping { .. } => {
-                self.report(shape::ends::mapping(item));
+                self.report(shape::ends::mapping(item, self.source));
                 self.recover_pair(item);
             }
             NodeKind::Scalar { .. } if super::name::is_empty(item) => {
@@ -39,19 +38,25 @@ impl Reader<'_> {
             }
             NodeKind::Scalar { text, .. } => {
                 let look_alike = pitfall::look_alike::in_word(item, text, "a connection", self.source);
-                self.report(look_alike.unwrap_or_else(|| self.glued_or(item, shape::ends::text(item, text))));
+                self.report(
+                    look_alike.unwrap_or_else(|| self.glued_or(item, shape::ends::text(item, text, self.source))),
+                );
                 self.recover_pair(item);
             }
         }
     }
 
-    fn read_ends(&mut self, span: Span, items: &[Node]) {
+    fn read_ends(&mut self, item: &Node, items: &[Node]) {
+        let span = item.span;
         let [first, second] = items else {
             if let [only] = items {
                 return self.read_one_end(span, only);
             }
-            self.report(shape::ends::count(span, items));
-            return items.iter().for_each(|item| self.remember_broken_ends(item));
+            self.report(shape::ends::count(span, items, self.source));
+            return match shape::ends::recovered(item) {
+                Some(ends) => self.push_recovered(ends, span),
+                None => items.iter().for_each(|item| self.remember_broken_ends(item)),
+            };
         };
         match (self.end(first), self.end(second)) {
             (Some(first), Some(second)) => {
@@ -65,7 +70,7 @@ impl Reader<'_> {
     fn read_one_end(&mut self, span: Span, item: &Node) {
         let look_alike =
             scalar(item).and_then(|text| pitfall::look_alike::in_word(item, &text.value, "a connection", self.source));
-        self.report(look_alike.unwrap_or_else(|| shape::ends::count(span, std::slice::from_ref(item))));
+        self.report(look_alike.unwrap_or_else(|| shape::ends::count(span, std::slice::from_ref(item), self.source)));
         self.recover_pair(item);
     }
 
@@ -104,11 +109,19 @@ impl Reader<'_> {
 
     /// Reads a pair in another notation, such as `a.b -> c.d` or `a.b: c.d`, as a connection for all later checks.
     fn recover_pair(&mut self, item: &Node) {
+        if let Some(ends) = shape::ends::recovered(item) {
+            return self.push_recovered(ends, item.span);
+        }
         let words = words_of(item);
         match <[Spanned<String>; 2]>::try_from(words) {
             Ok(ends) => self.model.connections.push(ConnectionModel { ends, span: item.span }),
             Err(words) => self.model.broken_ends.extend(words),
         }
+    }
+
+    fn push_recovered(&mut self, ends: [String; 2], span: Span) {
+        let ends = ends.map(|value| Spanned { value, span });
+        self.model.connections.push(ConnectionModel { ends, span });
     }
 
     /// Notes every text in a value of unknown shape, so that no gate named in it is called unconnected.

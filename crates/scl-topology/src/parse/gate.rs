@@ -1,11 +1,13 @@
 //! The gates of a component.
 
+use super::exchange::odd_arrow;
 use super::field::{Field, Fields, spanned_key};
 use super::topology_dialect::TOPOLOGY;
 use super::words::{is_kind, is_like_option, is_option};
 use super::{Reader, pitfall, scalar, shape};
 use crate::confusable;
 use crate::diagnostic::Diagnostic;
+use crate::habits;
 use crate::model::{ComponentModel, GateModel};
 use crate::source::{Span, Spanned};
 use crate::yaml::{Node, NodeKind};
@@ -44,9 +46,9 @@ impl Reader<'_> {
         let fields = self.fields(entries, "this gate");
         component.gates_unread |= fields.damaged;
         if let Some([name, kind]) = shape::gate::long_form(&fields) {
-            self.report(shape::gate::written_long(item, &fields));
-            let span = item.span;
-            return component.gates.extend(name.zip(kind).map(|(name, kind)| bare_gate(name, kind, span)));
+            self.report(shape::gate::written_long(item, &fields, self.source));
+            let gate = name.zip(kind).map(|(name, kind)| bare_gate(name, kind, item.span));
+            return component.gates.extend(gate.map(|gate| self.read_long_gate(gate, &fields)));
         }
         let mut others = fields.list.iter();
         let Some(first) = others.next() else {
@@ -60,7 +62,7 @@ impl Reader<'_> {
             && let Some(kind) = others.clone().find(|other| is_kind(other.key))
             && let Some(name) = self.name(first.key_node, "gate name", "a gate name")
         {
-            self.report(shape::level::kind_beside_name(*kind, *first, self.source));
+            self.report(shape::level::kind_beside_name(*kind, *first, item.span, self.source));
             let whole = Field { value: item, ..*first };
             let gate = self.read_gate_mapping(name, whole, entries.get(1..).unwrap_or(&[]), &component.name.value);
             return component.gates.push(gate);
@@ -71,9 +73,20 @@ impl Reader<'_> {
             self.report(shape::level::option_beside_gate(*option, *first, self.source));
         }
         if !gates.is_empty() {
-            self.report(shape::gate::several_in_one_item(*first, &gates));
+            self.report(shape::gate::several_in_one_item(*first, &gates, self.source));
         }
         gates.into_iter().for_each(|gate| self.read_gate(*gate, component));
+    }
+
+    /// `{name: measurements, kind: pub, type: Fix, queue: 4}`: type and options.
+    fn read_long_gate(&mut self, mut gate: GateModel, fields: &Fields<'_>) -> GateModel {
+        let is_type = |field: &&Field<'_>| habits::of_key(habits::GATE, field.key).is_some_and(|habit| habit.is_type());
+        let of_type = fields.list.iter().filter(|_| fields.get("kind").is_some()).find(is_type);
+        gate.payload = of_type.and_then(|field| scalar(field.value));
+        for option in fields.list.iter().filter(|field| is_option(field.key)) {
+            gate.options.extend(self.option(*option));
+        }
+        gate
     }
 
     /// A list item that is no mapping: a name without a kind, or `name:kind`.
@@ -92,7 +105,10 @@ impl Reader<'_> {
                 }
                 None => self.read_gate_without_colon(item, text, component),
             },
-            _ => shape::gate::is_list(item),
+            _ => {
+                self.remember_broken_ends(item);
+                shape::gate::is_list(item)
+            }
         };
         component.gates_unread |= !matches!(item.kind, NodeKind::Scalar { .. }) || item.is_null();
         self.report(problem);
@@ -179,14 +195,14 @@ impl Reader<'_> {
             self.report(problem);
             return gate;
         }
-        if let Some(glued) = glued_key(&fields) {
-            self.report(shape::gate::key_without_colon(glued, first_word(glued.key)));
+        if let Some(problem) = shape::gate::keys_without_colon(&glued_keys(&fields)) {
+            self.report(problem);
             return gate;
         }
         let Some(kind) = self.gate_kind(field, &fields) else { return gate };
         gate.kind = spanned_key(kind);
-        gate.payload = self.payload(kind);
-        if let Some(answer) = self.second_type(kind, &fields) {
+        gate.payload = self.payload(kind, &fields);
+        if let Some(answer) = second_type(kind, gate.payload.as_ref(), &fields) {
             if let Some(payload) = &mut gate.payload {
                 payload.value = format!("{} -> {}", payload.value, answer.key);
             }
@@ -199,12 +215,20 @@ impl Reader<'_> {
             let text = doc.value.span.to(last.key_span);
             self.report(shape::unknown_key::comma_in_doc(first.key_span, text, self.source, &path));
         }
-        let is_rest = |field: &Field<'_>| rest_of_doc.iter().any(|rest| rest.key_span == field.key_span);
+        let cut = cut_numbers(&fields);
+        for (option, rest) in &cut {
+            gate.options.extend(self.cut_number(*option, *rest));
+        }
+        let is_cut = |field: &Field<'_>| {
+            cut.iter().any(|(one, rest)| [one, rest].iter().any(|of| of.key_span == field.key_span))
+        };
+        let rest_of_type = rest_of_type(kind, &fields);
+        let is_rest = |field: &Field<'_>| is_cut(field) || is_in(rest_of_doc, field) || is_in(rest_of_type, field);
         for option in fields.list.iter().filter(|field| field.key_span != kind.key_span && !is_rest(field)) {
             if is_option(option.key) {
                 gate.options.extend(self.option(*option));
             } else if !is_kind(option.key) {
-                self.report(shape::unknown_key::of_gate(*option, kind.key, &path));
+                self.report(shape::unknown_key::of_gate(*option, kind, &path, self.source));
             }
         }
         gate
@@ -214,15 +238,6 @@ impl Reader<'_> {
     fn look_alike_key(&self, fields: &Fields<'_>) -> Option<Diagnostic> {
         let mut empty = fields.list.iter().filter(|field| field.value.is_null() && !field.key.is_ascii());
         empty.find_map(|field| pitfall::look_alike::in_word(field.key_node, field.key, "the key", self.source))
-    }
-
-    /// `{rep: Request, Reply}`: the second type of an exchange, as a key.
-    fn second_type<'n>(&self, kind: Field<'_>, fields: &Fields<'n>) -> Option<Field<'n>> {
-        let asks = matches!(kind.key, "req" | "rep");
-        let has_one = scalar(kind.value).is_some_and(|payload| !payload.value.contains("->"));
-        let is_type = |key: &str| key.chars().next().is_some_and(char::is_uppercase) || key.contains('.');
-        let second = |field: &&Field<'_>| field.value.is_null() && is_type(field.key);
-        fields.list.iter().find(second).filter(|_| asks && has_one).copied()
     }
 
     /// The key that names the kind: one of the six words, or else the first that is no option.
@@ -236,7 +251,7 @@ impl Reader<'_> {
         if kind.is_none() && !fields.damaged {
             self.report(shape::gate::without_kind_key(gate, fields));
         }
-        if let Some(problem) = kind.and_then(|_| shape::gate::kind_as_key(gate, fields)) {
+        if let Some(problem) = kind.and_then(|_| shape::gate::kind_as_key(gate, fields, self.source)) {
             self.report(problem);
             return None;
         }
@@ -244,20 +259,65 @@ impl Reader<'_> {
     }
 
     /// The type; none where the kind stands without a value, as in `{pub: , queue: 1}`: an untyped gate with options.
-    fn payload(&mut self, kind: Field<'_>) -> Option<Spanned<String>> {
+    fn payload(&mut self, kind: Field<'_>, fields: &Fields<'_>) -> Option<Spanned<String>> {
         if kind.value.is_null() {
             return None;
         }
+        if !matches!(kind.value.kind, NodeKind::Scalar { .. } | NodeKind::Unread) {
+            let (problem, meant) = shape::gate::type_is_not_text(kind);
+            self.report(problem);
+            return meant.map(|value| Spanned { value, span: kind.value.span });
+        }
         let mut payload = self.name_in(kind, &format!("type of the `{}` gate", kind.key))?;
+        if let Some(last) = rest_of_type(kind, fields).last() {
+            payload.span = payload.span.to(last.key_span);
+            payload.value = self.source.snippet(payload.span).to_owned();
+        }
         if matches!(kind.key, "req" | "rep")
             && let Some((arrow, meant)) = odd_arrow(&payload.value)
         {
-            self.report(shape::gate::odd_arrow(kind, arrow, &meant));
+            self.report(shape::gate::odd_arrow(kind, payload.span, &arrow, &meant));
             payload.value = meant;
         }
         // Quotes do not change a type; the span includes them.
         (kind.value.is_plain() || !payload.value.trim().is_empty()).then_some(payload)
     }
+}
+
+/// `{rep: Request, Reply}`: the second type of an exchange, as a key behind the first.
+fn second_type<'n>(kind: Field<'_>, payload: Option<&Spanned<String>>, fields: &Fields<'n>) -> Option<Field<'n>> {
+    let payload = payload.filter(|payload| matches!(kind.key, "req" | "rep") && !payload.value.contains("->"))?;
+    let is_type = |key: &str| key.chars().next().is_some_and(char::is_uppercase) || key.contains('.');
+    let is_second =
+        |field: &&Field<'_>| field.value.is_null() && is_type(field.key) && field.key_span.start >= payload.span.end;
+    fields.list.iter().find(is_second).copied()
+}
+
+/// `{pub: (A, B)}`, `{pub: Map<A, B>}`: the keys that belong to the type, up to the bracket that ends it.
+fn rest_of_type<'f, 'n>(kind: Field<'_>, fields: &'f Fields<'n>) -> &'f [Field<'n>] {
+    let depth = |text: &str| {
+        let text = text.replace("->", "").replace("=>", "");
+        text.matches(['(', '<']).count() as isize - text.matches([')', '>']).count() as isize
+    };
+    let mut open = kind.value.text().filter(|_| kind.value.is_plain()).map_or(0, depth);
+    let Some(at) = fields.list.iter().position(|field| field.key_span == kind.key_span).filter(|_| open > 0) else {
+        return &[];
+    };
+    let rest = &fields.list[at + 1..];
+    let end = rest.iter().take_while(|field| field.value.is_null()).position(|field| {
+        open += depth(field.key);
+        open <= 0
+    });
+    end.map_or(&[], |end| &rest[..=end])
+}
+
+/// `{sub: Type, queue: 1,000}`: options with a number, and the key that is the rest of it, behind a comma.
+fn cut_numbers<'n>(fields: &Fields<'n>) -> Vec<(Field<'n>, Field<'n>)> {
+    let starts_with_digit = |text: &str| text.starts_with(|letter: char| letter.is_ascii_digit());
+    let is_number = |field: &Field<'_>| is_option(field.key) && field.value.text().is_some_and(starts_with_digit);
+    let is_rest = |field: &Field<'_>| field.value.is_null() && starts_with_digit(field.key);
+    let pairs = fields.list.windows(2).filter(|pair| is_number(&pair[0]) && is_rest(&pair[1]));
+    pairs.map(|pair| (pair[0], pair[1])).collect()
 }
 
 /// `{pub: Type, doc: One, two}`: the keys after the first comma of a text without quotes.
@@ -270,14 +330,27 @@ fn rest_of_doc<'f, 'n>(fields: &'f Fields<'n>) -> &'f [Field<'n>] {
     &rest[..rest.iter().take_while(|field| is_text(field)).count()]
 }
 
-/// `{pub Type, queue 4}`: a key that lacks its colon, so that its value belongs to it.
-fn glued_key<'n>(fields: &Fields<'n>) -> Option<Field<'n>> {
-    let is_glued = |field: &&Field<'n>| {
+/// `{pub Type, queue 4}`: the keys that lack their colon, so that the value belongs to the key, each with the word up to
+/// its end and the key that is meant.
+fn glued_keys<'n>(fields: &Fields<'n>) -> Vec<(Field<'n>, &'n str, &'n str)> {
+    let known = |field: &Field<'n>| {
         let word = first_word(field.key);
-        let is_known = is_kind(word) || is_option(word);
-        field.value.is_null() && word.len() < field.key.len() && is_known && field.key_node.is_plain()
+        if !field.value.is_null() || word.len() == field.key.len() || !field.key_node.is_plain() {
+            return None;
+        }
+        match is_kind(word) || is_option(word) {
+            true => Some(word),
+            false if !field.key.contains('=') => None,
+            false => habits::of_key(habits::GATE, word)?.ways.first().copied().filter(|way| is_option(way)),
+        }
     };
-    fields.list.iter().find(is_glued).copied()
+    fields.list.iter().filter_map(|field| Some((*field, first_word(field.key), known(field)?))).collect()
+}
+
+/// Whether a field is one of several that follow each other.
+fn is_in(fields: &[Field<'_>], field: &Field<'_>) -> bool {
+    let at = field.key_span.start;
+    matches!(fields, [first, .., last] | [first @ last] if (first.key_span.start..=last.key_span.start).contains(&at))
 }
 
 /// The word up to a space or an equals sign.
@@ -291,29 +364,6 @@ fn is_glued_dash(entries: &[(Node, Node)]) -> bool {
         key.is_plain() && scalar(key).is_some_and(|key| key.value.starts_with('-') && !key.value.starts_with("--"))
     };
     !entries.is_empty() && entries.iter().all(|(key, _)| is_glued(key))
-}
-
-/// Something between two types that stands for `->`, and the text with `->` in its place.
-fn odd_arrow(payload: &str) -> Option<(&str, String)> {
-    let words: Vec<&str> = payload.split_whitespace().collect();
-    let is_type = |word: &str| word.starts_with(|c: char| c.is_ascii_alphabetic()) && !word.contains(['>', '<']);
-    let (first, last) = (words.first()?, words.last()?);
-    let glued = ["=>", "-->"].into_iter().find_map(|arrow| {
-        let (request, reply) = payload.split_once(arrow)?;
-        Some((arrow, request.trim(), reply.trim()))
-    });
-    match (words.as_slice(), glued) {
-        (_, Some((arrow, request, reply))) if is_type(request) && is_type(reply) => {
-            Some((arrow, format!("{request} -> {reply}")))
-        }
-        ([request, reply], None) if is_type(request) && is_type(reply) => Some(("", format!("{request} -> {reply}"))),
-        ([_, .., _], None) if is_type(first) && is_type(last) => {
-            let between = payload[first.len()..payload.len() - last.len()].trim();
-            let is_arrow = matches!(between, "<-" | "-" | ">" | "- >" | "→" | "<->" | "--" | "=" | ":" | "/" | "|");
-            is_arrow.then(|| (between, format!("{first} -> {last}")))
-        }
-        _ => None,
-    }
 }
 
 fn bare_gate(name: Spanned<String>, kind: Spanned<String>, span: Span) -> GateModel {

@@ -1,11 +1,12 @@
 //! The options of a gate.
 
 use super::field::{Field, spanned_key};
+use super::meant::meant;
 use super::{Reader, pitfall, scalar, shape};
-use crate::grammar::{Shape, option};
+use crate::grammar::{DeclaredOptions, Shape, option};
 use crate::model::OptionModel;
 use crate::source::Spanned;
-use crate::yaml::NodeKind;
+use crate::yaml::{Node, NodeKind, Style};
 
 impl Reader<'_> {
     /// One option, if its value has the right shape.
@@ -17,6 +18,14 @@ impl Reader<'_> {
         }?;
         let quoted = !field.value.is_plain();
         Some(OptionModel { key: spanned_key(field), value, quoted })
+    }
+
+    /// `queue: 1,000` in braces: the key after the option is the rest of its number.
+    pub(super) fn cut_number(&mut self, field: Field<'_>, rest: Field<'_>) -> Option<OptionModel> {
+        let span = field.value.span.to(rest.key_span);
+        let text = self.source.snippet(span).to_owned();
+        let whole = Node { span, kind: NodeKind::Scalar { text, style: Style::Plain } };
+        self.option(Field { value: &whole, ..field })
     }
 
     /// `true` or `false`.
@@ -36,7 +45,18 @@ impl Reader<'_> {
                     _ => return scalar(field.value),
                 }
             }
-            _ => shape::option_value::diagnose(field, expected),
+            _ => {
+                self.report(shape::option_value::diagnose(field, expected));
+                // What follows from the value that is meant is not a mistake.
+                let meant = meant(field.key, field.value, expected).values;
+                let [value] = <[String; 1]>::try_from(meant).ok()?;
+                let is_in_range =
+                    option(field.key).is_none_or(|row| row.set(&mut DeclaredOptions::default(), &value).is_ok());
+                if !is_in_range {
+                    return None;
+                }
+                return Some(Spanned { value, span: field.value.span });
+            }
         };
         self.report(problem);
         None

@@ -4,6 +4,7 @@ use super::field::{Field, Fields};
 use super::words::SECTIONS;
 use super::{Reader, shape};
 use crate::grammar;
+use crate::habits;
 use crate::source::Spanned;
 use crate::suggest::similar;
 use crate::yaml::{Node, NodeKind};
@@ -70,7 +71,10 @@ impl Reader<'_> {
                 *found.rule != shape::missing::GATES || found.primary.as_ref().is_none_or(|label| label.span != name)
             });
         }
-        self.report(shape::level::at_top(field, self.source).unwrap_or_else(|| shape::unknown_key::section(field)));
+        self.report(
+            shape::level::at_top(field, self.model.components.last(), self.source)
+                .unwrap_or_else(|| shape::unknown_key::section(field, self.source)),
+        );
     }
 
     fn check_missing_sections(&mut self, fields: &Fields<'_>) {
@@ -82,8 +86,8 @@ impl Reader<'_> {
         };
         let has_connections = fields.get("connections").is_some();
         let is_stray = self.has_stray_connections;
-        if has_connections && is_stray {
-            self.problems.retain(shape::stray_connection::with_section);
+        if let Some(section) = fields.get("connections").filter(|_| is_stray) {
+            self.problems.retain(|problem| shape::stray_connection::with_section(problem, section, self.source));
         }
         let connections_unread =
             !has_connections && !is_stray && (perhaps("connections") || fields.list.iter().any(is_odd_list));
@@ -97,7 +101,7 @@ impl Reader<'_> {
             Some(components) if !connections_unread && !is_stray && self.model.broken_ends.is_empty() => {
                 let gates: usize = self.model.components.iter().map(|component| component.gates.len()).sum();
                 let connections = fields.all("connections").last();
-                self.problems.extend(shape::missing::find_connections(components, connections, gates));
+                self.problems.extend(shape::missing::find_connections(components, connections, gates, self.source));
             }
             Some(_) => {}
         }
@@ -106,5 +110,6 @@ impl Reader<'_> {
 
 /// Whether an unknown key was probably meant to be this section.
 fn is_misspelt(key: &str, section: &str) -> bool {
-    !SECTIONS.contains(&key) && similar(key, [section]).contains(&section)
+    let is_called = || habits::of_key(habits::SECTIONS, key).is_some_and(|habit| habit.ways == [section]);
+    !SECTIONS.contains(&key) && (is_called() || similar(key, [section]).contains(&section))
 }

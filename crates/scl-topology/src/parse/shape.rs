@@ -2,11 +2,13 @@
 
 pub(super) mod ends;
 pub(super) mod gate;
+mod habit;
 pub(super) mod level;
 pub(super) mod missing;
 pub(super) mod nameless;
 pub(super) mod option_value;
 pub(super) mod section_kind;
+mod shift;
 pub(super) mod stray_connection;
 pub(super) mod top_level;
 pub(super) mod unknown_key;
@@ -42,3 +44,6 @@ fn own_key(problem: Diagnostic, key: &str) -> Diagnostic {
         false => problem,
     }
 }
+
+#[cfg(test)]
+mod tests;

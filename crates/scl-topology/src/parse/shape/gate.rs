@@ -1,11 +1,15 @@
 //! SCL0210: a gate that is not written as `name: kind` or `name: {kind: type, option: value}`.
 
-use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
+use super::option_value::{self, replacement};
+use super::shift;
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity, removal};
+use crate::habits;
 use crate::model::GateModel;
 use crate::parse::field::{Field, Fields};
 use crate::parse::scalar;
-use crate::parse::words::is_kind;
-use crate::source::{Span, Spanned};
+use crate::parse::words::{is_kind, is_option};
+use crate::source::{SourceFile, Span, Spanned};
+use crate::suggest;
 use crate::topology::GateKind;
 use crate::yaml::{Node, NodeKind};
 use scl_text::list::quoted_list;
@@ -31,15 +35,16 @@ pub(crate) const RULE: Rule = Rule {
 
 /// `- measurements`.
 pub(in crate::parse) fn without_kind(name: &str, at: Span) -> Diagnostic {
-    RULE.at(format!("gate `{name}` has no kind"), at, format!("expected `{name}: pub`"))
-        .help(format!("write the kind after the name: `- {name}: pub`"))
+    RULE.at(format!("gate `{name}` has no kind"), at, "expected a kind after the name")
+        .help(format!("a gate is written `{name}: kind`, or `{name}: {{kind: type}}`"))
         .note(kinds())
 }
 
-/// `- measurements pub`.
+/// `- measurements pub`, `- measurements {pub: Fix}`.
 pub(in crate::parse) fn without_colon(name: &str, kind: &str, at: Span) -> Diagnostic {
+    let end = at.start + name.len() as u32;
     RULE.at(format!("missing `:` after the name of gate `{name}`"), at, "name and kind in one word")
-        .help(format!("write `- {name}: {kind}`"))
+        .propose(format!("write `- {name}: {kind}`"), [Edit::new(Span { start: end, end, ..at }, ":")])
 }
 
 /// `- measurements = pub`.
@@ -48,33 +53,63 @@ pub(in crate::parse) fn equals_sign(name: &str, kind: &str, at: Span) -> Diagnos
         .propose(format!("write `- {name}: {kind}`"), [Edit::new(at, format!("{name}: {kind}"))])
 }
 
-/// `{pub Type}`, `{pub: Type, queue=4}`.
-pub(in crate::parse) fn key_without_colon(field: Field<'_>, word: &str) -> Diagnostic {
-    let value = field.key[word.len()..].trim_matches([' ', '=', ':']);
-    let message = match field.key.contains('=') {
+/// `{pub Type}`, `{pub: Type, queue=4}`: keys with the word at their start, and the key that is meant by it.
+pub(in crate::parse) fn keys_without_colon(glued: &[(Field<'_>, &str, &str)]) -> Option<Diagnostic> {
+    let (first, word, _) = glued.first()?;
+    let message = match first.key.contains('=') {
         true => format!("`=` stands where the `:` after `{word}` is expected"),
         false => format!("missing `:` after `{word}`"),
     };
-    RULE.at(message, field.key_span, "YAML reads this as one word")
-        .propose(format!("write `{word}: {value}`"), [Edit::new(field.key_span, format!("{word}: {value}"))])
+    let entries = glued.iter().map(|(field, word, key)| {
+        let value = field.key[word.len()..].trim_matches([' ', '=', ':']);
+        (field.key_span, format!("{key}: {value}"))
+    });
+    let entries: Vec<(Span, String)> = entries.collect();
+    let text: Vec<&str> = entries.iter().map(|(_, entry)| entry.as_str()).collect();
+    let text = format!("write `{}`", text.join(", "));
+    let problem = RULE.at(message, first.key_span, "YAML reads this as one word");
+    Some(problem.propose(text, entries.into_iter().map(|(span, entry)| Edit::new(span, entry))))
 }
 
 /// `{rep: Request, Reply}`.
 pub(in crate::parse) fn comma_between_types(gate: &GateModel, answer: Field<'_>) -> Diagnostic {
     let (name, kind) = (&gate.name.value, &gate.kind.value);
     let types = gate.payload.as_ref().map_or("", |payload| &payload.value);
+    let start = gate.payload.as_ref().map_or(answer.key_span.start, |payload| payload.span.end);
+    let comma = Span { start, end: answer.key_span.start, ..answer.key_span };
     RULE.at(format!("the two types of gate `{name}` are joined by `->`"), answer.key_span, "read as a key, not a type")
-        .help(format!("write `{name}: {{{kind}: {types}}}`"))
+        .propose(format!("write `{name}: {{{kind}: {types}}}`"), [Edit::new(comma, " -> ")])
 }
 
 /// `{rep: Request => Reply}`.
-pub(in crate::parse) fn odd_arrow(kind: Field<'_>, arrow: &str, meant: &str) -> Diagnostic {
+pub(in crate::parse) fn odd_arrow(kind: Field<'_>, types: Span, arrow: &str, meant: &str) -> Diagnostic {
     let message = match arrow {
         "" => "`->` is missing between the two types".to_owned(),
+        "->" => "the types of a request and of its reply stand without parentheses".to_owned(),
         _ => format!("`{arrow}` does not join two types"),
     };
-    RULE.at(message, kind.value.span, "expected `->` between the two")
-        .propose(format!("write `{}: {meant}`", kind.key), [Edit::new(kind.value.span, meant)])
+    RULE.at(message, types, "expected `->` between the two")
+        .propose(format!("write `{}: {meant}`", kind.key), [Edit::new(types, meant)])
+}
+
+/// `{rep: {request: A, response: B}}`, `{pub: [A, B]}`: what the type is, and what is meant.
+pub(in crate::parse) fn type_is_not_text(kind: Field<'_>) -> (Diagnostic, Option<String>) {
+    let problem = option_value::not_text(&format!("`{}`", kind.key), kind.value);
+    let values: Vec<&Node> = match &kind.value.kind {
+        NodeKind::Sequence { items } => items.iter().collect(),
+        NodeKind::Mapping { entries } => entries.iter().map(|(_, value)| value).collect(),
+        _ => Vec::new(),
+    };
+    let types: Option<Vec<&str>> = values.into_iter().map(Node::text).collect();
+    let meant = match (types.as_deref(), kind.key) {
+        (Some([request, reply]), "req" | "rep") => format!("{request} -> {reply}"),
+        (Some([only]), _) => (*only).to_owned(),
+        (_, "req" | "rep") => {
+            return (problem.help("the types of a request and of its reply are joined by `->`"), None);
+        }
+        _ => return (problem.help("a gate carries one type; each further type needs a gate of its own"), None),
+    };
+    (problem.propose(format!("write `{}: {meant}`", kind.key), [replacement(kind, &meant)]), Some(meant))
 }
 
 /// `- measurements: {queue: 4}`.
@@ -82,7 +117,7 @@ pub(in crate::parse) fn without_kind_key(gate: Field<'_>, fields: &Fields<'_>) -
     let name = gate.key;
     let label = if fields.list.is_empty() { "empty" } else { "only options here" };
     RULE.at(format!("gate `{name}` has no kind"), gate.value.span, label)
-        .help(format!("start with kind and type: `{name}: {{pub: Type}}`"))
+        .help(format!("the kind comes first, with the type as its value: `{name}: {{kind: type, option: value}}`"))
         .note(kinds())
 }
 
@@ -91,36 +126,101 @@ pub(in crate::parse) fn two_kinds(name: &str, first: &Field<'_>, second: &Field<
     let message = format!("gate `{name}` has two kinds, `{}` and `{}`", first.key, second.key);
     RULE.at(message, second.key_span, "second kind")
         .label(first.key_span, "first kind")
-        .help("a gate has one kind; make two gates of it")
+        .help(format!("a gate has one kind; `{}` needs a gate of its own, with a name of its own", second.key))
 }
 
-/// `- measurements: [pub]`.
+/// `- measurements: [pub]`, `- measurements: [pub, Type]`.
 pub(in crate::parse) fn kind_is_list(gate: Field<'_>) -> Diagnostic {
-    let message = format!("the kind of gate `{}` must be one word; this is a list", gate.key);
-    RULE.at(message, gate.value.span, format!("expected `{}: pub`", gate.key))
-        .help(format!("write `- {}: pub`, or `- {}: {{pub: Type}}`", gate.key, gate.key))
-        .note(kinds())
+    let name = gate.key;
+    let message = format!("the kind of gate `{name}` must be one word; this is a list");
+    let problem = RULE.at(message, gate.value.span, "expected a kind");
+    let words: Vec<String> =
+        gate.value.items().unwrap_or_default().iter().filter_map(scalar).map(|word| word.value).collect();
+    let value = match words.as_slice() {
+        [kind] if is_kind(kind) => kind.clone(),
+        [kind, payload] if is_kind(kind) && !is_kind(payload) => format!("{{{kind}: {payload}}}"),
+        _ => {
+            return problem
+                .help(format!("a gate is written `{name}: kind`, or `{name}: {{kind: type}}`"))
+                .note(kinds());
+        }
+    };
+    problem.propose(format!("write `- {name}: {value}`"), [replacement(gate, &value)]).note(kinds())
 }
 
-/// `- measurements: pub Type`: kind and type without braces.
+/// `- measurements: pub Type`, `- measurements: Publisher<Type>`: kind and type without braces.
 pub(in crate::parse) fn kind_and_type(gate: Field<'_>, value: &str) -> Option<Diagnostic> {
-    let (kind, payload) = value.split_once(char::is_whitespace).filter(|(kind, _)| is_kind(kind))?;
-    let message = format!("gate `{}` has its type outside of braces", gate.key);
+    let name = gate.key;
+    if let Some(written) = element(value) {
+        let message = format!("gate `{name}` is written as an element of XML");
+        let problem = RULE.at(message, gate.value.span, "read as one word");
+        return Some(problem.propose(format!("write `{name}: {written}`"), [replacement(gate, &written)]));
+    }
+    let (kind, rest) = value.split_at(value.find(|letter: char| !letter.is_alphanumeric() && letter != '_')?);
+    let kind = known_kind(kind)?;
+    let payload = rest.trim_matches([' ', '\t', '(', ')', '<', '>', '[', ']', ',', ':', '/']);
+    if payload.is_empty() {
+        return None;
+    }
+    let written = format!("{{{kind}: {payload}}}");
+    let message = format!("gate `{name}` has its type outside of braces");
     let problem = RULE.at(message, gate.value.span, "kind and type in one word");
-    Some(problem.help(format!("write `{}: {{{kind}: {}}}`", gate.key, payload.trim().trim_end_matches("[]"))))
+    let problem = problem.propose(format!("write `{name}: {written}`"), [replacement(gate, &written)]);
+    Some(problem.otherwise(format!("the type stands in braces, after its kind: `{name}: {{{kind}: type}}`")))
+}
+
+/// The kind that a word is, also in the words of other tools.
+fn known_kind(word: &str) -> Option<&'static str> {
+    match suggest::kind(word).as_slice() {
+        [kind] => Some(kind),
+        _ => GateKind::of(word).map(GateKind::word),
+    }
+}
+
+/// `<pub type="Fix" doc="One."/>` as `{pub: Fix, doc: "One."}`.
+fn element(text: &str) -> Option<String> {
+    let inner = text.strip_prefix('<')?.trim_end_matches(['>', '/', ' ']);
+    let (kind, mut rest) = inner.split_once(' ').unwrap_or((inner, ""));
+    let kind = known_kind(kind)?;
+    let (mut payload, mut options) = ("", String::new());
+    while let Some((key, behind)) = rest.split_once("=\"") {
+        let (value, behind) = behind.split_once('"')?;
+        match key.trim() {
+            key if is_option(key) && value.contains([' ', ',', ':']) => {
+                options.push_str(&format!(", {key}: \"{value}\""))
+            }
+            key if is_option(key) => options.push_str(&format!(", {key}: {value}")),
+            _ => payload = value,
+        }
+        rest = behind;
+    }
+    Some(format!("{{{kind}: {payload}{options}}}"))
 }
 
 /// `- measurements: {kind: pub, type: Type}`.
-pub(in crate::parse) fn kind_as_key(gate: Field<'_>, fields: &Fields<'_>) -> Option<Diagnostic> {
-    let field = fields.get("kind").filter(|_| fields.list.iter().all(|field| !is_kind(field.key)))?;
-    let kind = scalar(field.value).filter(|kind| is_kind(&kind.value))?.value;
-    let payload = fields.get("type").and_then(|field| scalar(field.value));
+pub(in crate::parse) fn kind_as_key(gate: Field<'_>, fields: &Fields<'_>, source: &SourceFile) -> Option<Diagnostic> {
+    if fields.list.iter().any(|field| is_kind(field.key)) {
+        return None;
+    }
+    let (field, kind) = fields.list.iter().find_map(|field| {
+        let is_for_kind = habits::of_key(habits::GATE, field.key).is_some_and(|habit| habit.is_kind());
+        Some((field, known_kind(field.value.text().filter(|_| is_for_kind)?)?))
+    })?;
+    let of_type = fields.list.iter().find(|field| {
+        habits::of_key(habits::GATE, field.key).is_some_and(|habit| habit.is_type()) && field.value.text().is_some()
+    });
     let message = format!("the kind of gate `{}` is written as a value", gate.key);
-    let help = match payload {
-        Some(payload) => format!("write `{}: {{{kind}: {}}}`", gate.key, payload.value),
-        None => format!("write `{}: {kind}`", gate.key),
-    };
-    Some(RULE.at(message, field.key_span, "the kind itself is the key").help(help))
+    let problem = RULE.at(message, field.key_span, "the kind itself is the key");
+    let payload = of_type.and_then(|field| field.value.text()).unwrap_or("");
+    let written = format!("{kind}: {payload}");
+    let mut edits = vec![Edit::new(field.key_span.to(field.value.span), written.clone())];
+    if let Some(of_type) = of_type {
+        match removal(source, of_type.key_span.to(of_type.value.span)) {
+            Some(removed) => edits.push(Edit::new(removed, "")),
+            None => return Some(problem.help("the type is the value of the kind")),
+        }
+    }
+    Some(problem.propose(format!("write `{}: {{{}}}`", gate.key, written.trim_end()), edits))
 }
 
 /// Name and kind of `{name: measurements, kind: pub}`; none if the item is written otherwise.
@@ -131,40 +231,79 @@ pub(in crate::parse) fn long_form(fields: &Fields<'_>) -> Option<[Option<Spanned
 }
 
 /// `- name: measurements` with `kind: pub` beside it.
-pub(in crate::parse) fn written_long(item: &Node, fields: &Fields<'_>) -> Diagnostic {
-    let value = |key: &str| fields.get(key).and_then(|field| scalar(field.value)).map(|value| value.value);
-    let name = value("name").unwrap_or_else(|| "measurements".to_owned());
-    let kind = value("kind").or_else(|| value("type")).unwrap_or_else(|| "pub".to_owned());
+pub(in crate::parse) fn written_long(item: &Node, fields: &Fields<'_>, source: &SourceFile) -> Diagnostic {
+    const FORM: &str = "a gate is written `name: kind`, or `name: {kind: type, option: value}`";
+    let value = |key: &str| fields.get(key).and_then(|field| field.value.text());
     let at = fields.list.first().map_or(item.span, |field| field.key_span);
-    RULE.at("a gate is written as `name: kind`", at, "the name itself is the key")
-        .help(format!("write `- {name}: {kind}`"))
-        .note(kinds())
+    let problem = RULE.at("a gate is written as `name: kind`", at, "the name itself is the key").note(kinds());
+    let (Some(name), Some(kind)) = (value("name"), value("kind").or(value("type"))) else { return problem.help(FORM) };
+    let is_type = |field: &&Field<'_>| habits::of_key(habits::GATE, field.key).is_some_and(|habit| habit.is_type());
+    let of_type = fields.list.iter().filter(|_| value("kind").is_some()).find(is_type);
+    let is_other = |field: &&Field<'_>| !matches!(field.key, "name" | "kind") && !is_type(field);
+    let options: String = fields
+        .list
+        .iter()
+        .filter(is_other)
+        .map(|field| format!(", {}: {}", field.key, source.snippet(field.value.span)))
+        .collect();
+    let payload = of_type.and_then(|field| field.value.text()).unwrap_or("");
+    if source.snippet(item.span).contains('#') || options.contains('\n') {
+        return problem.help(FORM);
+    }
+    let kind = known_kind(kind).unwrap_or(kind);
+    let gate = match (payload, options.as_str()) {
+        ("", "") => format!("{name}: {kind}"),
+        _ => format!("{name}: {{{kind}: {payload}{options}}}"),
+    };
+    let is_flow = source.snippet(item.span).starts_with('{');
+    let written = if is_flow { format!("{{{gate}}}") } else { gate.clone() };
+    problem.propose(format!("write `- {gate}`"), [Edit::new(item.span, written)]).otherwise(FORM)
 }
 
 /// Two names in one list item; there is at least one other.
-pub(in crate::parse) fn several_in_one_item(first: Field<'_>, others: &[&Field<'_>]) -> Diagnostic {
+pub(in crate::parse) fn several_in_one_item(
+    first: Field<'_>,
+    others: &[&Field<'_>],
+    source: &SourceFile,
+) -> Diagnostic {
     let names = quoted_list(std::iter::once(first.key).chain(others.iter().map(|other| other.key)));
     let count = if others.len() == 1 { "two".to_owned() } else { (others.len() + 1).to_string() };
     let second = others.first().map_or(first, |second| **second);
-    RULE.at(format!("{count} gates in one list item ({names})"), second.key_span, "the second gate")
-        .label(first.key_span, "the first gate")
-        .help(format!("start the second with `-`: `- {}: ...`", second.key))
+    let problem = RULE
+        .at(format!("{count} gates in one list item ({names})"), second.key_span, "the second gate")
+        .label(first.key_span, "the first gate");
+    let dash = |other: &&Field<'_>| {
+        let before = Span { start: other.key_span.start.checked_sub(2)?, end: other.key_span.start, ..other.key_span };
+        let is_line = shift::head(other.key_span.start, source).chars().all(|letter| letter == ' ');
+        (is_line && source.snippet(before) == "  ").then(|| Edit::new(before, "- "))
+    };
+    match others.iter().map(dash).collect::<Option<Vec<Edit>>>() {
+        Some(edits) => problem.suggest(format!("start the second with `-`: `- {}: ...`", second.key), edits),
+        None => problem.help("each gate is an item of its own in the list"),
+    }
 }
 
 /// `- {}`.
 pub(in crate::parse) fn empty_mapping(item: &Node) -> Diagnostic {
-    RULE.at("this gate has no name", item.span, "expected `measurements: pub`").note(kinds())
+    RULE.at("this gate has no name", item.span, "expected `name: kind`").note(kinds())
 }
 
 /// `- [measurements, pub]`.
 pub(in crate::parse) fn is_list(item: &Node) -> Diagnostic {
-    let problem = RULE.at("a gate is written as `name: kind`; this is a list", item.span, "a list");
-    let NodeKind::Sequence { items } = &item.kind else { return problem.note(kinds()) };
-    let [name, kind] = items.as_slice() else { return problem.help("write `- measurements: pub`").note(kinds()) };
-    match (scalar(name), scalar(kind)) {
-        (Some(name), Some(kind)) => problem.help(format!("write `- {}: {}`", name.value, kind.value)),
-        _ => problem.note(kinds()),
+    let problem = RULE.at("a gate is written as `name: kind`; this is a list", item.span, "a list").note(kinds());
+    let words: Vec<String> =
+        item.items().unwrap_or_default().iter().filter_map(scalar).map(|word| word.value).collect();
+    let gate = match words.as_slice() {
+        [name, kind] => format!("{name}: {kind}"),
+        [name, kind, payload] => format!("{name}: {{{kind}: {payload}}}"),
+        _ => return problem,
+    };
+    if words.iter().all(|word| word.contains('.')) {
+        return RULE
+            .at("a connection stands in a list of gates", item.span, "not a gate")
+            .help("connections stand in the section `connections`");
     }
+    problem.suggest(format!("write `- {gate}`"), [Edit::new(item.span, gate)])
 }
 
 fn kinds() -> String {
@@ -186,9 +325,9 @@ mod tests {
                  --> topology.yaml:4:9
                   |
                 4 |       - measurements
-                  |         ^^^^^^^^^^^^ expected `measurements: pub`
+                  |         ^^^^^^^^^^^^ expected a kind after the name
                   |
-                  = help: write the kind after the name: `- measurements: pub`
+                  = help: a gate is written `measurements: kind`, or `measurements: {kind: type}`
                   = note: kinds: `pub`, `sub`, `req`, `rep`, `push`, `pull`
 
                 error: [SCL0210] two gates in one list item (`status`, `health`)

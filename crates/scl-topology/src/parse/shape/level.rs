@@ -1,12 +1,13 @@
 //! SCL0214: a key that belongs elsewhere.
 
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use super::shift;
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity, removal};
 use crate::model::ComponentModel;
 use crate::parse::field::{Field, Fields, head};
+use crate::parse::with_dash;
 use crate::parse::words::{COMPONENT_KEYS, SECTIONS, is_kind, is_option};
-use crate::parse::{scalar, with_dash};
 use crate::source::{SourceFile, Span};
-use crate::yaml::Node;
+use crate::yaml::{Node, NodeKind};
 
 /// SCL0214.
 pub(crate) const RULE: Rule = Rule {
@@ -29,15 +30,36 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-/// A key of a component, or of a gate, at the top level.
-pub(in crate::parse) fn at_top(field: Field<'_>, source: &SourceFile) -> Option<Diagnostic> {
+/// A key of a component, or of a gate, at the top level; `above` is the component above it.
+pub(in crate::parse) fn at_top(
+    field: Field<'_>,
+    above: Option<&ComponentModel>,
+    source: &SourceFile,
+) -> Option<Diagnostic> {
     let key = field.key;
     if COMPONENT_KEYS.contains(&key) {
         let message = format!("`{key}` belongs inside a component, not at the top level");
-        return Some(problem(message, field.key_span, source).help("indent it below the `- name:` of its component"));
+        let problem = problem(message, field.key_span, source);
+        if key == "name" {
+            let renamed = [Edit::new(field.key_span, "system")];
+            return Some(problem.suggest("the name of the whole system is called `system`", renamed));
+        }
+        let Some(above) = above else {
+            return Some(problem.help("the keys of a component stand below its `- name:`"));
+        };
+        let by = key_column(above, source).saturating_sub(shift::column(field.key_span.start, source));
+        let edits = shift::indented(field.key_span.to(field.value.span), by, true, source);
+        let text = format!("indent it below the name of component `{}`", above.name.value);
+        return Some(problem.suggest(text, edits));
     }
     let message = format!("`{key}` belongs inside a gate, not at the top level");
     is_option(key).then(|| problem(message, field.key_span, source).help(in_gate(field)))
+}
+
+/// The column of the keys of a component.
+fn key_column(component: &ComponentModel, source: &SourceFile) -> usize {
+    let head = shift::head(component.name.span.start, source);
+    head.len() - head.trim_start_matches([' ', '-']).len()
 }
 
 /// A section, or an option of a gate, in a component.
@@ -45,7 +67,14 @@ pub(in crate::parse) fn in_component(field: Field<'_>, component: &str, source: 
     let key = field.key;
     if SECTIONS.contains(&key) {
         let message = format!("`{key}` belongs at the top level, not inside component `{component}`");
-        return Some(problem(message, field.key_span, source).help("move it to column 1"));
+        let problem = problem(message, field.key_span, source);
+        let whole = field.key_span.to(field.value.span);
+        let edits =
+            shift::outdented(whole, shift::column(whole.start, source), true, source).filter(|edits| !edits.is_empty());
+        return Some(match edits {
+            Some(edits) => problem.propose("move it to column 1", edits),
+            None => problem.help("sections start in column 1"),
+        });
     }
     let message = format!("`{key}` belongs inside a gate, not beside the gates of component `{component}`");
     is_option(key).then(|| problem(message, field.key_span, source).help(in_gate(field)))
@@ -54,8 +83,36 @@ pub(in crate::parse) fn in_component(field: Field<'_>, component: &str, source: 
 /// `- measurements: pub` with `queue: 4` below it.
 pub(in crate::parse) fn option_beside_gate(option: Field<'_>, gate: Field<'_>, source: &SourceFile) -> Diagnostic {
     let message = format!("`{}` belongs inside the braces of gate `{}`, not beside it", option.key, gate.key);
-    let kind = scalar(gate.value).filter(|kind| is_kind(&kind.value)).map_or("pub".to_owned(), |kind| kind.value);
-    problem(message, option.key_span, source).help(format!("write `{}: {{{kind}: , {}: ...}}`", gate.key, option.key))
+    let problem = problem(message, option.key_span, source);
+    let entry = option.key_span.to(option.value.span);
+    let written = source.snippet(entry);
+    let at = |place: u32| Span { start: place, end: place, ..entry };
+    let into = match &gate.value.kind {
+        NodeKind::Scalar { text, .. } if is_kind(text) => {
+            let braces = format!("{{{text}: , {written}}}");
+            Some((format!("write `{}: {braces}`", gate.key), Edit::new(gate.value.span, braces)))
+        }
+        NodeKind::Mapping { entries } => match (source.snippet(gate.value.span).starts_with('{'), entries.first()) {
+            (true, _) => {
+                let end = at(gate.value.span.end - 1);
+                Some((format!("write `{written}` in the braces"), Edit::new(end, format!(", {written}"))))
+            }
+            (false, Some((first, _))) => {
+                let column = |at: u32| shift::column(at, source);
+                let deeper = column(first.span.start).saturating_sub(column(entry.start));
+                let indented = shift::indented(entry, deeper, true, source);
+                return problem.propose(format!("indent it like the other keys of gate `{}`", gate.key), indented);
+            }
+            _ => None,
+        },
+        _ => None,
+    };
+    match (into, removal(source, entry)) {
+        (Some((text, edit)), Some(removed)) if !written.contains('\n') => {
+            problem.propose(text, [edit, Edit::new(removed, "")])
+        }
+        _ => problem.help(in_gate(option)),
+    }
 }
 
 /// A gate whose dash stands in the column of the components' dashes.
@@ -67,19 +124,36 @@ pub(in crate::parse) fn gate_among_components(item: &Node, above: &ComponentMode
     let message = format!("gate `{name}` stands among the components");
     let problem = RULE.at(message, Span { end, ..start }, "starts a component of its own");
     match above.gates.last() {
-        Some(gate) => problem
-            .label(gate.name.span, "the gate above")
-            .help(format!("indent it like the gates of component `{}`", above.name.value)),
-        None => problem.help(format!("indent it below the `gates:` of component `{}`", above.name.value)),
+        Some(gate) => {
+            let head = shift::head(gate.name.span.start, source);
+            let dash = head.len() - head.trim_start_matches(' ').len();
+            let by = dash.saturating_sub(shift::column(start.start, source));
+            let text = format!("indent it like the gates of component `{}`", above.name.value);
+            let problem = problem.label(gate.name.span, "the gate above");
+            match by {
+                0 => problem.help(format!("the gates of component `{}` stand in its `gates`", above.name.value)),
+                _ => problem.propose(text, shift::indented(start, by, true, source)),
+            }
+        }
+        None => problem.help(format!("a gate stands below the `gates:` of its component, `{}`", above.name.value)),
     }
 }
 
 /// `- measurements:` with `pub: Type` below it, in the same column as the name.
-pub(in crate::parse) fn kind_beside_name(kind: Field<'_>, gate: Field<'_>, source: &SourceFile) -> Diagnostic {
+pub(in crate::parse) fn kind_beside_name(
+    kind: Field<'_>,
+    gate: Field<'_>,
+    item: Span,
+    source: &SourceFile,
+) -> Diagnostic {
     let message = format!("`{}` stands beside the name of gate `{}`, not below it", kind.key, gate.key);
-    problem(message, kind.key_span, source)
-        .label(gate.key_span, "the gate's name")
-        .help(format!("indent it, and what belongs to the gate, deeper than `{}`", gate.key))
+    let problem = problem(message, kind.key_span, source).label(gate.key_span, "the gate's name");
+    let below = Span { start: gate.key_span.end, ..item };
+    let edits = shift::indented(below, 2, false, source);
+    match edits.is_empty() {
+        true => problem.help("what belongs to a gate stands in braces after its name, or below it and deeper"),
+        false => problem.propose(format!("indent it, and what belongs to the gate, deeper than `{}`", gate.key), edits),
+    }
 }
 
 /// `- gates:` after a component that has no gates: its `-` starts a new component.
@@ -96,11 +170,12 @@ pub(in crate::parse) fn gates_after_dash(
     }
     let name = &above.name.value;
     let message = format!("these `gates` belong to component `{name}`, but their `-` starts a new component");
-    Some(
-        RULE.at(message, head(item, fields, source), "a component of its own")
-            .label(above.name.span, "the component above")
-            .help("replace the `-` by a space"),
-    )
+    let problem = RULE
+        .at(message, head(item, fields, source), "a component of its own")
+        .label(above.name.span, "the component above");
+    let start = with_dash(item.span, source).start;
+    let dash = Span { start, end: start + 1, ..item.span };
+    Some(problem.propose("replace the `-` by a space", [Edit::new(dash, " ")]))
 }
 
 fn problem(message: String, key: Span, source: &SourceFile) -> Diagnostic {
@@ -116,7 +191,7 @@ fn problem(message: String, key: Span, source: &SourceFile) -> Diagnostic {
 }
 
 fn in_gate(field: Field<'_>) -> String {
-    format!("write it into the braces of a gate: `- name: {{pub: Type, {}: ...}}`", field.key)
+    format!("options stand in the braces of a gate, after its kind: `name: {{kind: type, {}: ...}}`", field.key)
 }
 
 #[cfg(test)]

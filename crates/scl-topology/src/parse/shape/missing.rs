@@ -1,9 +1,11 @@
 //! What a topology should have and lacks. SCL0203: the section `components`. SCL0205: components. SCL0206: connections.
 //! SCL0209: gates of a component.
 
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use super::option_value::filled;
+use super::shift;
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::parse::field::{Field, Fields};
-use crate::source::{SourceFile, Spanned};
+use crate::source::{SourceFile, Span, Spanned};
 use scl_text::list::quoted_list;
 
 /// SCL0203.
@@ -32,7 +34,7 @@ pub(in crate::parse) fn section(fields: &Fields<'_>, source: &SourceFile) -> Dia
         }
         _ => format!("this file has only {}", quoted_list(keys)),
     };
-    SECTION.at(MESSAGE, first, label).help("add the section; it declares each component and its gates")
+    SECTION.at(MESSAGE, first, label).help("the section `components` declares each component and its gates")
 }
 
 /// SCL0205.
@@ -50,10 +52,11 @@ pub(crate) const COMPONENTS: Rule = Rule {
 
 /// A section `components` without a value. An explicit `components: []` is accepted, as it is for gates and
 /// connections.
-pub(in crate::parse) fn components(section: Field<'_>) -> Diagnostic {
+pub(in crate::parse) fn components(section: Field<'_>, source: &SourceFile) -> Diagnostic {
     COMPONENTS
         .at("the topology has no components", section.key_span, "the section is empty")
-        .help("add at least one component")
+        .help("each component is an item of the list below it, with a `name` and its `gates`")
+        .suggest("if there are none yet, write `components: []`", [filled(section, "[]", source)])
 }
 
 /// SCL0206.
@@ -77,6 +80,7 @@ pub(in crate::parse) fn find_connections(
     components: Field<'_>,
     connections: Option<Field<'_>>,
     gates: usize,
+    source: &SourceFile,
 ) -> Option<Diagnostic> {
     if gates == 0 || connections.is_some_and(|section| !section.value.is_null()) {
         return None;
@@ -84,11 +88,16 @@ pub(in crate::parse) fn find_connections(
     let label =
         if gates == 1 { "1 gate is declared here".to_owned() } else { format!("{gates} gates are declared here") };
     let problem = CONNECTIONS.at("the topology has no connections", components.key_span, label);
-    let problem = match connections {
-        Some(section) => problem.label(section.key_span, "empty").help("write the connections below it"),
-        None => problem.help("add a `connections:` section"),
+    const FORM: &str =
+        "`connections` lists the pairs of gates that are connected: `- [component.gate, component.gate]`";
+    const LATER: &str = "if the gates are connected later, write `connections: []`";
+    let end = source.text().len();
+    let text = if source.text().ends_with('\n') { "connections: []\n" } else { "\nconnections: []\n" };
+    let (problem, edit) = match connections {
+        Some(section) => (problem.label(section.key_span, "empty"), filled(section, "[]", source)),
+        None => (problem, Edit::new(source.span(end..end), text)),
     };
-    Some(problem.help("if the gates are wired later, silence this with `connections: []`"))
+    Some(problem.help(FORM).suggest(LATER, [edit]))
 }
 
 /// SCL0209.
@@ -106,17 +115,36 @@ pub(crate) const GATES: Rule = Rule {
 };
 
 /// Returns a warning if `gates` is missing or has no value. An explicit `gates: []` is accepted.
-pub(in crate::parse) fn find_gates(component: &Spanned<String>, gates: Option<Field<'_>>) -> Option<Diagnostic> {
+pub(in crate::parse) fn find_gates(
+    component: &Spanned<String>,
+    gates: Option<Field<'_>>,
+    source: &SourceFile,
+) -> Option<Diagnostic> {
     if gates.is_some_and(|field| !field.value.is_null()) {
         return None;
     }
     let message = format!("component `{}` has no gates", component.value);
     let mut problem = GATES.at(message, component.span, "it cannot be part of any connection");
     if let Some(gates) = gates {
-        let span = crate::source::Span { end: gates.key_span.end + 1, ..gates.key_span };
+        let span = Span { end: gates.key_span.end + 1, ..gates.key_span };
         problem = problem.label(span, "empty");
     }
-    Some(problem.help("add a gate, or remove the component").help("if it is meant, write `gates: []`"))
+    let edit = gates.map_or_else(|| without_gates(component.span, source), |gates| filled(gates, "[]", source));
+    let form = "each gate is an item of the list `gates`: `- name: kind`";
+    Some(problem.help(form).suggest("if it is meant to have none, write `gates: []`", [edit]))
+}
+
+/// The change that gives a component an empty list of gates, after its name.
+fn without_gates(name: Span, source: &SourceFile) -> Edit {
+    let head = shift::head(name.start, source);
+    let column = head.len() - head.trim_start_matches([' ', '-']).len();
+    match head.contains(['{', ',']) {
+        true => Edit::new(Span { start: name.end, ..name }, ", gates: []"),
+        false => {
+            let line = source.line_range(name.start as usize).end as u32;
+            Edit::new(Span { start: line, end: line, ..name }, format!("\n{}gates: []", " ".repeat(column)))
+        }
+    }
 }
 
 #[cfg(test)]
@@ -130,13 +158,13 @@ mod tests {
         check(
             &SECTION,
             expect![[r#"
-            error: [SCL0203] the section `components` is missing
-             --> topology.yaml:1:1
-              |
-            1 | connections:
-              | ^^^^^^^^^^^ this file has only `connections`
-              |
-              = help: add the section; it declares each component and its gates"#]],
+                error: [SCL0203] the section `components` is missing
+                 --> topology.yaml:1:1
+                  |
+                1 | connections:
+                  | ^^^^^^^^^^^ this file has only `connections`
+                  |
+                  = help: the section `components` declares each component and its gates"#]],
         );
     }
 
@@ -145,13 +173,14 @@ mod tests {
         check(
             &COMPONENTS,
             expect![[r#"
-            error: [SCL0205] the topology has no components
-             --> topology.yaml:1:1
-              |
-            1 | components:
-              | ^^^^^^^^^^ the section is empty
-              |
-              = help: add at least one component"#]],
+                error: [SCL0205] the topology has no components
+                 --> topology.yaml:1:1
+                  |
+                1 | components:
+                  | ^^^^^^^^^^ the section is empty
+                  |
+                  = help: each component is an item of the list below it, with a `name` and its `gates`
+                  = help: if there are none yet, write `components: []`"#]],
         );
     }
 
@@ -160,14 +189,14 @@ mod tests {
         check(
             &CONNECTIONS,
             expect![[r#"
-            warning: [SCL0206] the topology has no connections
-             --> topology.yaml:1:1
-              |
-            1 | components:
-              | ^^^^^^^^^^ 1 gate is declared here
-              |
-              = help: add a `connections:` section
-              = help: if the gates are wired later, silence this with `connections: []`"#]],
+                warning: [SCL0206] the topology has no connections
+                 --> topology.yaml:1:1
+                  |
+                1 | components:
+                  | ^^^^^^^^^^ 1 gate is declared here
+                  |
+                  = help: `connections` lists the pairs of gates that are connected: `- [component.gate, component.gate]`
+                  = help: if the gates are connected later, write `connections: []`"#]],
         );
     }
 
@@ -176,16 +205,16 @@ mod tests {
         check(
             &GATES,
             expect![[r#"
-            warning: [SCL0209] component `logger` has no gates
-             --> topology.yaml:2:11
-              |
-            2 |   - name: logger
-              |           ^^^^^^ it cannot be part of any connection
-            3 |     gates:
-              |     ------ empty
-              |
-              = help: add a gate, or remove the component
-              = help: if it is meant, write `gates: []`"#]],
+                warning: [SCL0209] component `logger` has no gates
+                 --> topology.yaml:2:11
+                  |
+                2 |   - name: logger
+                  |           ^^^^^^ it cannot be part of any connection
+                3 |     gates:
+                  |     ------ empty
+                  |
+                  = help: each gate is an item of the list `gates`: `- name: kind`
+                  = help: if it is meant to have none, write `gates: []`"#]],
         );
     }
 }

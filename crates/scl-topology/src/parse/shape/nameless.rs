@@ -1,8 +1,10 @@
 //! SCL0208: a component without a name.
 
-use crate::diagnostic::{Diagnostic, Rule, Severity};
-use crate::parse::field::{Fields, head};
+use super::shift;
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
+use crate::parse::field::{Fields, end_with_colon, head};
 use crate::parse::shape_word;
+use crate::parse::words::COMPONENT_KEYS;
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
 
@@ -21,23 +23,52 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 const MESSAGE: &str = "this component has no name";
+const FORM: &str = "a component starts with `- name:` and its name, which connections and programs refer to";
 
 pub(in crate::parse) fn diagnose(item: &Node, fields: &Fields<'_>, source: &SourceFile) -> Diagnostic {
-    RULE.at(MESSAGE, head(item, fields, source), "`name` is missing").help("add `name: ...`")
+    let problem = RULE.at(MESSAGE, head(item, fields, source), "`name` is missing").otherwise(FORM);
+    match fields.list.first() {
+        // `- sensor:`, as in a mapping of names.
+        Some(first) if !COMPONENT_KEYS.contains(&first.key) && (first.value.is_null() || fields.list.len() == 1) => {
+            let colon = Span { end: end_with_colon(first.key_span, source), ..first.key_span };
+            let name = first.key;
+            let edit = Edit::new(colon, format!("name: {name}"));
+            let mut edits = vec![edit];
+            if let NodeKind::Mapping { entries } = &first.value.kind
+                && let Some((below, _)) = entries.first()
+            {
+                let deeper = shift::column(below.span.start, source).saturating_sub(shift::column(colon.start, source));
+                let block = Span { start: colon.end, ..first.value.span };
+                edits.extend(shift::outdented(block, deeper, false, source).unwrap_or_default());
+            }
+            problem.propose(format!("write `- name: {name}`"), edits)
+        }
+        _ => problem,
+    }
 }
 
 /// Keys of a component with no `- name:` above them.
 pub(in crate::parse) fn above(key: Span) -> Diagnostic {
-    RULE.at(MESSAGE, key, "`- name: ...` is missing above this").help("start the component with `- name: ...`")
+    RULE.at(MESSAGE, key, "`- name: ...` is missing above this").help(FORM)
 }
 
 /// `- sensor` or a list in the place of a component.
-pub(in crate::parse) fn not_a_mapping(item: &Node) -> Diagnostic {
+pub(in crate::parse) fn not_a_mapping(item: &Node, source: &SourceFile) -> Diagnostic {
     let label = format!("{}, where the keys of a component are expected", shape_word(item));
     let problem = RULE.at(MESSAGE, item.span, label);
     match &item.kind {
-        NodeKind::Scalar { text, .. } => problem.help(format!("write `- name: {}`", text.trim())),
-        _ => problem.help("write `- name: sensor` and below it `gates:`"),
+        NodeKind::Scalar { text, .. } if !text.contains('\n') => {
+            let name = text.trim();
+            let indent = " ".repeat(shift::column(item.span.start, source));
+            let head = shift::head(item.span.start, source);
+            let component = match head.contains(['[', ',']) {
+                true => format!("{{name: {name}, gates: []}}"),
+                false => format!("name: {name}\n{indent}gates: []"),
+            };
+            let text = format!("write `- name: {name}`, and below it `gates:`");
+            problem.suggest(text, [Edit::new(item.span, component)]).otherwise(FORM)
+        }
+        _ => problem.help(FORM),
     }
 }
 
@@ -58,7 +89,7 @@ mod tests {
                 2 |   - gates:
                   |   ^^^^^^^ `name` is missing
                   |
-                  = help: add `name: ...`"#]],
+                  = help: a component starts with `- name:` and its name, which connections and programs refer to"#]],
         );
     }
 }

@@ -1,12 +1,13 @@
 //! SCL0215: a value of the wrong kind.
 
-use crate::diagnostic::{Diagnostic, Rule, Severity};
-use crate::grammar::{self, Shape};
-use crate::parse::field::Field;
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
+use crate::grammar::Shape;
+use crate::habits;
+use crate::parse::field::{Field, end_with_colon};
+use crate::parse::meant::{Meant, meant};
 use crate::parse::shape_word;
-use crate::suggest::similar;
+use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
-use scl_text::size;
 
 /// SCL0215.
 pub(crate) const RULE: Rule = Rule {
@@ -14,7 +15,7 @@ pub(crate) const RULE: Rule = Rule {
     severity: Severity::Error,
     title: "option value has the wrong kind",
     explanation: "The value has the wrong type: text where a number belongs, a number without a unit where a duration \
-                  or a size belongs, or a word that the option does not know. The message gives an example.",
+                  or a size belongs, or a word that the option does not know. The message says what is allowed.",
     example: " components:
    - name: sensor
      gates:
@@ -27,20 +28,51 @@ pub(in crate::parse) fn diagnose(field: Field<'_>, expected: Shape) -> Diagnosti
     let key = field.key;
     let problem =
         RULE.at(format!("`{key}` must be {}", expected.rule()), field.value.span, label(field.value, expected));
-    let meant: Vec<String> = meant(field.value, expected).iter().map(|value| format!("`{key}: {value}`")).collect();
-    problem.help(match meant.is_empty() {
-        true => format!("for example `{key}: {}`", example(key, expected)),
-        false => format!("write {}", meant.join(" or ")),
-    })
+    let problem = with_meant(problem, field, meant(key, field.value, expected));
+    let words = field.value.text().and_then(|text| habits::of_value(key, text)).map_or("", |habit| habit.text);
+    if let (false, Some(largest)) = (words.is_empty() || problem.proposals().next().is_some(), expected.largest()) {
+        let text = format!("{words}; the largest is `{key}: {largest}`");
+        return problem.suggest(text, [replacement(field, &largest)]);
+    }
+    match words {
+        "" => problem.otherwise(format!("allowed: {}", expected.values())),
+        words => problem.otherwise(format!("{words}; allowed: {}", expected.values())),
+    }
 }
 
-/// A value that the key could have.
-fn example(key: &str, expected: Shape) -> String {
-    match (grammar::option(key), expected) {
-        (Some(option), _) => option.example().to_owned(),
-        (None, Shape::Number { least, .. }) => least.to_string(),
-        _ => "true".to_owned(),
+fn with_meant(problem: Diagnostic, field: Field<'_>, meant: Meant) -> Diagnostic {
+    let entries: Vec<String> = meant.values.iter().map(|value| format!("{}: {value}", field.key)).collect();
+    match entries.as_slice() {
+        [only] if !meant.is_certain => {
+            problem.suggest(format!("write `{only}`"), [replacement(field, &meant.values[0])])
+        }
+        entries => {
+            let edits = meant.values.iter().map(|value| replacement(field, value));
+            problem.choose(("write ", ""), entries.iter().map(String::as_str).zip(edits))
+        }
     }
+}
+
+/// The change that gives a key another value.
+pub(in crate::parse) fn replacement(field: Field<'_>, value: &str) -> Edit {
+    match field.value.kind {
+        NodeKind::Scalar { .. } => Edit::new(field.value.span, value),
+        // A list or mapping may start on another line.
+        _ => Edit::new(Span { start: field.key_span.end, ..field.value.span }, format!(": {value}")),
+    }
+}
+
+/// The change that gives a key without a value one.
+pub(in crate::parse) fn filled(field: Field<'_>, value: &str, source: &SourceFile) -> Edit {
+    if field.value.span.start < field.value.span.end {
+        return replacement(field, value);
+    }
+    let start = end_with_colon(field.key_span, source);
+    let behind = source.text().get(start as usize..).unwrap_or("");
+    let spaces = behind.len() - behind.trim_start_matches(' ').len();
+    // Spaces before a comment stay.
+    let spaces = if behind[spaces..].starts_with([',', '}']) { spaces as u32 } else { 0 };
+    Edit::new(Span { start, end: start + spaces, ..field.key_span }, format!(" {value}"))
 }
 
 /// A list or mapping where text belongs; `place` is where, for example `` `name` ``.
@@ -64,27 +96,6 @@ fn label(value: &Node, expected: Shape) -> String {
     }
 }
 
-/// The value without its quotes, or words that are nearly right.
-fn meant(value: &Node, expected: Shape) -> Vec<String> {
-    let NodeKind::Scalar { text, .. } = &value.kind else { return Vec::new() };
-    let words: Vec<&str> = match expected {
-        Shape::Number { .. } if !value.is_plain() && text.parse::<u32>().is_ok() => return vec![text.clone()],
-        // A number without a unit was probably meant in milliseconds.
-        Shape::Duration { .. } if text.parse::<u32>().is_ok() => return vec![format!("{text}ms")],
-        Shape::Size { .. } => return size::suggestions(text),
-        Shape::Boolean => vec!["true", "false"],
-        Shape::Word(words) => words.iter().map(|known| known.word).collect(),
-        _ => return Vec::new(),
-    };
-    let word = match text.to_ascii_lowercase().as_str() {
-        "yes" | "on" if words.contains(&"true") => Some("true".to_owned()),
-        "no" | "off" if words.contains(&"false") => Some("false".to_owned()),
-        lower if words.contains(&lower) => Some(lower.to_owned()),
-        lower => similar(lower, words.iter().copied()).first().map(|word| (*word).to_owned()),
-    };
-    word.into_iter().collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::RULE;
@@ -102,7 +113,7 @@ mod tests {
                 4 |       - measurements: {pub: Measurement, queue: many}
                   |                                                 ^^^^ this is text
                   |
-                  = help: for example `queue: 1`"#]],
+                  = help: allowed: 1 to 1000000"#]],
         );
     }
 
@@ -123,15 +134,15 @@ mod tests {
         expect![[r#"
             65536: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is a number without a unit ["write `max_size: 65536B` or `max_size: 64KiB`"]
             "65536": `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is a number without a unit ["write `max_size: 65536B` or `max_size: 64KiB`"]
-            8: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is a number without a unit ["write `max_size: 8MiB` or `max_size: 8KiB` or `max_size: 8B`"]
+            8: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is a number without a unit ["write `max_size: 8MiB`, `max_size: 8KiB` or `max_size: 8B`"]
             8MB: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["write `max_size: 8MiB`"]
             "8 mb": `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["write `max_size: 8MiB`"]
             1.5GiB: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["write `max_size: 1536MiB`"]
-            1TiB: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["for example `max_size: 8MiB`"]
-            large: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["for example `max_size: 8MiB`"]
-            0x10: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["for example `max_size: 8MiB`"]
-            [8MiB]: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is a list ["for example `max_size: 8MiB`"]
-            true: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["for example `max_size: 8MiB`"]
+            1TiB: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["allowed: 1B to 1GiB (units: `B`, `KiB`, `MiB`, `GiB`)"]
+            large: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["allowed: 1B to 1GiB (units: `B`, `KiB`, `MiB`, `GiB`)"]
+            0x10: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["write `max_size: 16MiB`, `max_size: 16KiB` or `max_size: 16B`"]
+            [8MiB]: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is a list ["write `max_size: 8MiB`"]
+            true: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["allowed: 1B to 1GiB (units: `B`, `KiB`, `MiB`, `GiB`)"]
         "#]].assert_eq(&told.concat());
     }
 }

@@ -1,6 +1,7 @@
 //! SCL0216: a connection in the list of components.
 
-use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity, removal};
+use crate::parse::field::{Field, end_with_colon};
 use crate::parse::{scalar, with_dash};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
@@ -42,11 +43,19 @@ pub(in crate::parse) fn diagnose(item: &Node, source: &SourceFile) -> Diagnostic
 }
 
 /// Changes such a problem to say that the section exists, below the pairs. Always returns true, to keep every problem.
-pub(in crate::parse) fn with_section(problem: &mut Diagnostic) -> bool {
+pub(in crate::parse) fn with_section(problem: &mut Diagnostic, section: Field<'_>, source: &SourceFile) -> bool {
     if *problem.rule == RULE {
         problem.message = "this connection stands above `connections:`".to_owned();
+        let above: Vec<Edit> = problem.proposals().flat_map(|way| way.edits.clone()).collect();
         problem.clear_helps();
-        *problem = problem.clone().help("move it below `connections:`");
+        let key = Span { end: end_with_colon(section.key_span, source), ..section.key_span };
+        let moved = problem.clone();
+        *problem = match removal(source, key).filter(|_| section.value.is_null()) {
+            Some(line) => {
+                moved.suggest("move the line `connections:` above it", above.into_iter().chain([Edit::new(line, "")]))
+            }
+            None => moved.help("connections stand below `connections:`"),
+        };
     }
     true
 }

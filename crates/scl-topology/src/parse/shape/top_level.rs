@@ -1,8 +1,7 @@
 //! SCL0201: the top level is not a mapping.
 
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::parse::dialect::Dialect;
-use crate::parse::words::SECTIONS;
 use crate::parse::{pitfall, with_dash};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
@@ -36,10 +35,15 @@ pub(in crate::parse) fn diagnose(root: &Node, source: &SourceFile, dialect: &Dia
     let (thing, label) = if is_list { ("a list", "list item") } else { ("text", "text without a key") };
     let message = format!("a topology starts with `components:`, and this file starts with {thing}");
     let problem = RULE.at(message, span, label);
+    const FORM: &str =
+        "a topology has `components:`, and below it a list of components, each with a `name` and `gates`";
     match &root.kind {
-        NodeKind::Sequence { .. } => problem.help("put this list under a `components:` key and indent it"),
-        NodeKind::Scalar { text, .. } if SECTIONS.contains(&text.as_str()) => problem.help(format!("write `{text}:`")),
-        _ => problem.help("write `components:` and below it a list of components"),
+        NodeKind::Sequence { .. } => {
+            let line = source.line_range(start.start as usize).start as u32;
+            let above = Edit::new(Span { start: line, end: line, ..start }, "components:\n");
+            problem.propose("write `components:` above this list", [above]).otherwise(FORM)
+        }
+        _ => problem.help(FORM),
     }
 }
 
@@ -54,13 +58,13 @@ mod tests {
         check(
             &RULE,
             expect![[r#"
-            error: [SCL0201] a topology starts with `components:`, and this file starts with a list
-             --> topology.yaml:1:1
-              |
-            1 | - name: sensor
-              | ^^^^^^^^^^^^^^ list item
-              |
-              = help: put this list under a `components:` key and indent it"#]],
+                error: [SCL0201] a topology starts with `components:`, and this file starts with a list
+                 --> topology.yaml:1:1
+                  |
+                1 | - name: sensor
+                  | ^^^^^^^^^^^^^^ list item
+                  |
+                  = help: write `components:` above this list"#]],
         );
     }
 }

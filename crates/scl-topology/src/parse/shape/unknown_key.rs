@@ -1,8 +1,11 @@
 //! Unknown keys. SCL0202: at the top level. SCL0207: in a component. SCL0212: in a gate.
 
+use super::habit::{with_habit, with_lifted, with_spelling};
+use super::option_value::filled;
 use super::own_key;
-use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
-use crate::grammar::{OPTIONS, option};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity, removal};
+use crate::grammar::{OPTIONS, is_whole_number, option};
+use crate::habits::{self, Habit};
 use crate::parse::field::{Field, Fields};
 use crate::parse::scalar;
 use crate::parse::words::{COMPONENT_KEYS, SECTIONS};
@@ -24,14 +27,19 @@ pub(crate) const SECTION: Rule = Rule {
 ",
 };
 
-pub(in crate::parse) fn section(field: Field<'_>) -> Diagnostic {
+pub(in crate::parse) fn section(field: Field<'_>, source: &SourceFile) -> Diagnostic {
     let message = format!("unknown section `{}`", field.key);
     let problem = SECTION.at(message, field.key_span, "not a section of a topology");
-    let meant = similar(field.key, SECTIONS);
-    problem
-        .did_you_mean(field.key, &meant)
-        .note(format!("sections: {}", quoted_list(SECTIONS)))
-        .note("keys that start with `x-` are ignored, for your own use")
+    let is_section = |key: &str| SECTIONS.contains(&key);
+    let problem = with_lifted(problem, field, habits::SECTIONS, is_section, source);
+    let (problem, is_spelling) = with_spelling(problem, field, SECTIONS);
+    match habits::of_key(habits::SECTIONS, field.key) {
+        _ if is_spelling => problem,
+        Some(habit) => with_habit(problem, habit, field, |_| true),
+        None => problem.did_you_mean(field.key, &similar(field.key, SECTIONS)),
+    }
+    .note(format!("sections: {}", quoted_list(SECTIONS)))
+    .note("keys that start with `x-` are ignored, for your own use")
 }
 
 /// SCL0207.
@@ -52,18 +60,25 @@ pub(crate) const OF_COMPONENT: Rule = Rule {
 pub(in crate::parse) fn of_component(field: Field<'_>, component: &str) -> Diagnostic {
     let message = format!("unknown key `{}` in component `{component}`", field.key);
     let problem = OF_COMPONENT.at(message, field.key_span, "not a key of a component");
-    own_key(problem, field.key)
-        .did_you_mean(field.key, &similar(field.key, COMPONENT_KEYS))
-        .note(format!("keys of a component: {}", quoted_list(COMPONENT_KEYS)))
+    let problem = own_key(problem, field.key);
+    let (problem, is_spelling) = with_spelling(problem, field, COMPONENT_KEYS);
+    match habits::of_key(habits::COMPONENT, field.key) {
+        _ if is_spelling => problem,
+        Some(habit) => with_habit(problem, habit, field, |_| true),
+        None => problem.did_you_mean(field.key, &similar(field.key, COMPONENT_KEYS)),
+    }
+    .note(format!("keys of a component: {}", quoted_list(COMPONENT_KEYS)))
 }
-
-/// Words that other formats use for a name.
-const OTHER_WORDS: [&str; 6] = ["id", "component", "node", "title", "label", "process"];
 
 /// Whether a key was probably meant to be `name`.
 pub(in crate::parse) fn is_misnamed(key: &str) -> bool {
     let is_near = !COMPONENT_KEYS.contains(&key) && similar(key, COMPONENT_KEYS).first() == Some(&"name");
-    is_near || OTHER_WORDS.contains(&key)
+    is_near || is_called_name(key)
+}
+
+/// Whether other tools use the word for a name.
+fn is_called_name(key: &str) -> bool {
+    habits::of_key(habits::COMPONENT, key).is_some_and(|habit| habit.ways == ["name"])
 }
 
 /// The key that was probably meant to be `name`.
@@ -73,14 +88,15 @@ pub(in crate::parse) fn misnamed<'n>(fields: &Fields<'n>) -> Option<Field<'n>> {
 
 /// A key in the place of `name`.
 pub(in crate::parse) fn instead_of_name(field: Field<'_>) -> Diagnostic {
-    let name = scalar(field.value).map_or(String::new(), |name| name.value);
     let problem =
         OF_COMPONENT.at(format!("unknown key `{}` in a component", field.key), field.key_span, "expected `name`");
-    match OTHER_WORDS.contains(&field.key) {
-        true => problem.help(format!("write `name: {name}`")),
-        false => problem.propose("a key with a similar name exists: `name`", [Edit::new(field.key_span, "name")]),
-    }
-    .note(format!("keys of a component: {}", quoted_list(COMPONENT_KEYS)))
+    let text = match is_called_name(field.key) {
+        true => "it is called `name` here",
+        false => "a key with a similar name exists: `name`",
+    };
+    problem
+        .propose(text, [Edit::new(field.key_span, "name")])
+        .note(format!("keys of a component: {}", quoted_list(COMPONENT_KEYS)))
 }
 
 /// SCL0212.
@@ -102,22 +118,71 @@ pub(crate) const OF_GATE: Rule = Rule {
 const SIMILAR_KEY: (&str, &str) = ("a key with a similar name exists: ", "");
 
 /// An unknown key in a gate. `kind` is the kind as written, `path` the gate with its component.
-pub(in crate::parse) fn of_gate(field: Field<'_>, kind: &str, path: &str) -> Diagnostic {
+pub(in crate::parse) fn of_gate(field: Field<'_>, kind: Field<'_>, path: &str, source: &SourceFile) -> Diagnostic {
     let message = format!("unknown key `{}` in gate `{path}`", field.key);
-    let mut problem = own_key(OF_GATE.at(message, field.key_span, ""), field.key);
-    let similar = similar(field.key, OPTIONS.iter().map(|option| option.key));
-    for name in similar {
+    let problem = own_key(OF_GATE.at(message, field.key_span, ""), field.key);
+    let problem = with_lifted(problem, field, habits::GATE, |key| option(key).is_some(), source);
+    let problem = with_type(problem, field, kind, source);
+    let kind = kind.key;
+    let fits = |key: &&str| only_of(key, kind).is_empty();
+    let (problem, is_spelling) = with_spelling(problem, field, OPTIONS.iter().map(|option| option.key).filter(fits));
+    let problem = match habits::of_key(habits::GATE, field.key) {
+        _ if is_spelling && field.value.text().is_none_or(|text| !is_whole_number(text)) => problem,
+        Some(habit) => of_another_tool(problem, habit, field, kind, source),
+        None => with_similar(problem, field, kind),
+    };
+    let keys = OPTIONS.iter().filter(|option| option.kinds.iter().any(|of| of.word() == kind)).map(|option| option.key);
+    match GateKind::of(kind).is_some() {
+        true => problem.note(format!("keys of a `{kind}` gate: {}", quoted_list(std::iter::once(kind).chain(keys)))),
+        false => problem.note(format!("keys of a gate: {}", quoted_list(OPTIONS.iter().map(|option| option.key)))),
+    }
+}
+
+/// `{pub: , type: Fix}`: the type belongs after the kind.
+fn with_type(problem: Diagnostic, field: Field<'_>, kind: Field<'_>, source: &SourceFile) -> Diagnostic {
+    let is_type = habits::of_key(habits::GATE, field.key).is_some_and(|habit| habit.is_type());
+    let entry = field.key_span.to(field.value.span);
+    match (scalar(field.value), removal(source, entry)) {
+        (Some(name), Some(removed)) if is_type && kind.value.is_null() => problem.propose(
+            format!("write `{}: {}`", kind.key, name.value),
+            [filled(kind, &name.value, source), Edit::new(removed, "")],
+        ),
+        _ => problem,
+    }
+}
+
+/// An option by the name that another tool has for it, as far as this kind of gate has the option.
+fn of_another_tool(
+    problem: Diagnostic,
+    habit: &'static Habit,
+    field: Field<'_>,
+    kind: &str,
+    source: &SourceFile,
+) -> Diagnostic {
+    let fits = |key: &str| only_of(key, kind).is_empty();
+    let misfit = habit.ways.first().map(|way| way.split(": ").next().unwrap_or(way)).filter(|key| !fits(key));
+    let problem = with_habit(problem, habit, field, fits);
+    let Some(key) = misfit.filter(|_| !habit.ways.iter().any(|way| fits(way.split(": ").next().unwrap_or(way)))) else {
+        return problem;
+    };
+    let problem = match removal(source, field.key_span.to(field.value.span)) {
+        Some(removed) => problem.suggest("remove it", [Edit::new(removed, "")]),
+        None => problem,
+    };
+    let reason = GateKind::of(kind).and_then(|kind| option(key)?.reason(kind)).map(|reason| format!(": {reason}"));
+    problem.help(format!("it is called `{key}`{}{}", only_of(key, kind), reason.unwrap_or_default()))
+}
+
+/// Options whose names are similar to an unknown key.
+fn with_similar(mut problem: Diagnostic, field: Field<'_>, kind: &str) -> Diagnostic {
+    for name in similar(field.key, OPTIONS.iter().map(|option| option.key)) {
         // An option that this kind does not have would be the next mistake.
         problem = match only_of(name, kind) {
             kinds if kinds.is_empty() => problem.choose_word(SIMILAR_KEY, field.key, &[name]),
             kinds => problem.help(format!("{}`{name}`{kinds}", SIMILAR_KEY.0)),
         };
     }
-    let keys = OPTIONS.iter().filter(|option| option.kinds.iter().any(|of| of.word() == kind)).map(|option| option.key);
-    match GateKind::of(kind).is_some() {
-        true => problem.note(format!("keys of a `{kind}` gate: {}", quoted_list(std::iter::once(kind).chain(keys)))),
-        false => problem.note(format!("keys of a gate: {}", quoted_list(OPTIONS.iter().map(|option| option.key)))),
-    }
+    problem
 }
 
 /// `{pub: Fix, doc: One, two}`: `two` is a key, because the text has no quotes. `text` is all of it.
@@ -126,8 +191,9 @@ pub(in crate::parse) fn comma_in_doc(key: Span, text: Span, source: &SourceFile,
     let problem = OF_GATE.at(message, key, "read as a key of the gate");
     let words = source.snippet(text);
     // These characters would need escaping in double quotes.
-    if words.contains(['"', '\\', '\n']) {
-        return problem.help("put the text in single quotes");
+    if words.contains(['"', '\\']) {
+        let quoted = format!("'{}'", words.replace('\'', "''"));
+        return problem.propose(format!("put it in quotes: `doc: {quoted}`"), [Edit::new(text, quoted)]);
     }
     problem.propose(format!("put it in quotes: `doc: \"{words}\"`"), [Edit::new(text, format!("\"{words}\""))])
 }
@@ -206,7 +272,7 @@ mod tests {
             4 |       - measurements: {pub: Measurement, doc: It says "one", two.}
               |                                                              ^^^^ read as a key of the gate
               |
-              = help: put the text in single quotes
+              = help: put it in quotes: `doc: 'It says "one", two.'`
 
             error: [SCL0212] unknown key `que` in gate `sensor.measurements`
              --> topology.yaml:4:52

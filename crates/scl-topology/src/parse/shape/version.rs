@@ -1,6 +1,6 @@
 //! SCL0213: a format version that this version of scl does not read.
 
-use super::option_value;
+use super::option_value::{self, replacement};
 use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::grammar::{FORMAT, Shape, is_whole_number};
 use crate::parse::field::Field;
@@ -27,15 +27,29 @@ pub(in crate::parse) fn find(field: Field<'_>) -> Option<Diagnostic> {
         NodeKind::Scalar { text, .. } if field.value.is_plain() && is_whole_number(text) => {
             Some(leading_zero::find(field, text).unwrap_or_else(|| unsupported(field, text)))
         }
-        _ => Some(option_value::diagnose(field, Shape::Number { least: FORMAT, most: FORMAT })),
+        _ => {
+            let problem = option_value::diagnose(field, Shape::Number { least: FORMAT, most: FORMAT });
+            if problem.proposals().next().is_some() {
+                return Some(problem);
+            }
+            let text = format!("the version of the format is {FORMAT}, whatever that of scl: write `scl: {FORMAT}`");
+            Some(problem.suggest(text, [replacement(field, &FORMAT.to_string())]))
+        }
     }
 }
 
 fn unsupported(field: Field<'_>, version: &str) -> Diagnostic {
     let message = format!("this file needs topology format {version}; this version of scl reads format {FORMAT}");
     let own = env!("CARGO_PKG_VERSION");
-    RULE.at(message, field.value.span, "")
-        .help(format!("update the `scl` crate (this is scl {own}), or use format {FORMAT}"))
+    let problem = RULE.at(message, field.value.span, "");
+    match version.parse::<u32>() {
+        Ok(version) if version > FORMAT => problem.help(format!("a later version of scl than {own} is needed")),
+        _ => problem,
+    }
+    .suggest(
+        format!("if the file has format {FORMAT}, write `scl: {FORMAT}`"),
+        [replacement(field, &FORMAT.to_string())],
+    )
 }
 
 #[cfg(test)]
@@ -49,13 +63,14 @@ mod tests {
         check(
             &RULE,
             expect![[r#"
-            error: [SCL0213] this file needs topology format 3; this version of scl reads format 1
-             --> topology.yaml:1:6
-              |
-            1 | scl: 3
-              |      ^
-              |
-              = help: update the `scl` crate (this is scl 0.1.0), or use format 1"#]],
+                error: [SCL0213] this file needs topology format 3; this version of scl reads format 1
+                 --> topology.yaml:1:6
+                  |
+                1 | scl: 3
+                  |      ^
+                  |
+                  = help: a later version of scl than 0.1.0 is needed
+                  = help: if the file has format 1, write `scl: 1`"#]],
         );
     }
 }

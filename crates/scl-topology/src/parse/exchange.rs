@@ -1,0 +1,75 @@
+//! The two types of a `req` or `rep` gate in the notation of other languages.
+
+/// Words that stand before or between two types.
+const WORDS: [&str; 10] = ["returns", "return", "to", "and", "stream", "rpc", "yields", "gives", "then", "into"];
+
+/// Something between two types that stands for `->`, and the text with `->` in its place: `A => B`, `A -&gt; B`,
+/// `(A) returns (B)`, `A, B`.
+pub(super) fn odd_arrow(payload: &str) -> Option<(String, String)> {
+    let text = payload.replace("&gt;", ">").replace("&lt;", "<");
+    let is_right = text.split("->").count() == 2 && text.split("->").all(|part| is_type(part.trim()));
+    let is_generic = text.contains('<') && text.ends_with('>') && !text.contains("->");
+    if is_right && text == payload || is_generic {
+        return None;
+    }
+    let words = text.split(|letter: char| !is_part(letter)).map(|word| word.trim_matches(['.', ':', '/']));
+    let words: Vec<&str> = words.filter(|word| !word.is_empty() && !WORDS.contains(word)).collect();
+    let [request, reply] = match words.as_slice() {
+        [request, reply] => [*request, *reply],
+        [only] => glued(only)?,
+        _ => return None,
+    };
+    if !is_type(request) || !is_type(reply) {
+        return None;
+    }
+    let end = payload.find(request)? + request.len();
+    let between = payload.get(end..payload.rfind(reply)?)?.trim_matches([' ', '(', ')', ',']);
+    let mark = if between.is_empty() { payload.get(end..)?.trim().chars().next().map(String::from) } else { None };
+    let mark = mark.filter(|mark| mark == ",").unwrap_or_else(|| between.to_owned());
+    Some((mark, format!("{request} -> {reply}")))
+}
+
+/// `rover.Command/rover.Status`: two names with a dot each.
+fn glued(word: &str) -> Option<[&str; 2]> {
+    let (request, reply) = word.split_once(['/', ':'])?;
+    [request, reply].iter().all(|name| name.contains('.') && !name.contains(['/', ':'])).then_some([request, reply])
+}
+
+fn is_part(letter: char) -> bool {
+    letter.is_ascii_alphanumeric() || matches!(letter, '_' | '.' | ':' | '/')
+}
+
+fn is_type(word: &str) -> bool {
+    word.starts_with(|letter: char| letter.is_ascii_alphabetic()) && word.chars().all(is_part)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::odd_arrow;
+
+    #[test]
+    fn two_types_in_other_notations_are_an_exchange() {
+        let texts = [
+            "a.A => a.B",
+            "a.A -&gt; a.B",
+            "(a.A) returns (a.B)",
+            "A, B",
+            "A -< B",
+            "A B",
+            "A to B",
+            "(A) -> (B)",
+            "a.A/a.B",
+            "a.A:a.B",
+            "rpc (A) returns (stream B)",
+            "A → B",
+            "A | B",
+        ];
+        for text in texts {
+            let meant = odd_arrow(text).map(|(_, meant)| meant.replace("a.", ""));
+            assert_eq!(meant.as_deref(), Some("A -> B"), "{text}");
+        }
+        for text in ["A -> B", "A", "a.A", "Map<K, V>", "a::A", "pkg/msg/A", "A -> B -> C", "A ->", ""] {
+            assert_eq!(odd_arrow(text), None, "{text}");
+        }
+    }
+}
