@@ -208,7 +208,7 @@ fn topology() -> String {
     format!(
         "system: cost\ncomponents:\n  - name: source\n    gates:\n{}  - name: sink\n    gates:\n{}connections:\n{}",
         lines(&|number| format!("      - g{number}: pub\n")),
-        lines(&|number| format!("      - g{number}: {{sub: bytes, queue: 1000}}\n")),
+        lines(&|number| format!("      - g{number}: {{sub: , queue: 1000}}\n")),
         lines(&|number| format!("  - [source.g{number}, sink.g{number}]\n")),
     )
 }

@@ -202,7 +202,9 @@ fn a_key_given_twice_is_named() {
             3 |   a: {command: ls}
               |   ^ second time
               |
-              = help: merge the two into one, or remove one of them
+              = help: the entries of both belong into one
+              = help: remove the second one
+              = help: remove the first one
               = help: write what is here in the first `a`
               = note: YAML tools disagree which one wins: PyYAML silently keeps the second
 

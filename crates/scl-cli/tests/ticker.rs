@@ -21,7 +21,7 @@ components:
   - name: viewer
     optional: true
     gates:
-      - ticks: {sub: bytes, queue: 1, when_full: drop_oldest}
+      - ticks: {sub: , queue: 1, when_full: drop_oldest}
 connections:
   - [sensor.ticks, viewer.ticks]
 ";

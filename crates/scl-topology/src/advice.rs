@@ -28,8 +28,8 @@ pub struct Judged {
     pub extent: Extent,
 }
 
-/// Applies every proposal of the `found` problems to a copy of the file, has the copy checked by `judge`, and removes the
-/// proposals that leave their problem or add another.
+/// Applies every proposal of the `found` problems to a copy of the file, has the copy checked by `judge`, and removes
+/// the proposals that leave their problem or add another.
 ///
 /// At most 20 copies of together 1 MiB are checked. If there are more proposals, many are tried at once, and those that
 /// could not be tried are removed. Lints are off, so their proposals are kept untried, and none of them is sure.

@@ -11,6 +11,7 @@ mod deadlock;
 mod draft;
 mod duplicate_connection;
 mod duplicate_name;
+mod end;
 mod ends;
 mod exchange_type;
 mod feedback;

@@ -5,59 +5,35 @@
 /// What people write who know another tool.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Habit {
-    /// The words of other tools, in lower case and without `_`, `-` and spaces.
-    words: &'static [&'static str],
+    /// The words of other tools, in lower case, without `_` and `-`, and with spaces between them.
+    words: &'static str,
     /// What to write, the most likely first: `key` in the place of the word, or `key: value` in that of its entry.
     pub ways: &'static [&'static str],
     /// In words, if there is nothing to write, or nothing fits.
     pub text: &'static str,
 }
 
-const fn habit(words: &'static [&'static str], ways: &'static [&'static str], text: &'static str) -> Habit {
+const fn habit(words: &'static str, ways: &'static [&'static str], text: &'static str) -> Habit {
     Habit { words, ways, text }
 }
 
 /// In the place of a section: ROS, dora, Docker Compose, Kubernetes, AUTOSAR, protobuf.
 pub(crate) static SECTIONS: &[Habit] = &[
+    habit("nodes services modules processes programs tasks agents actors blocks units apps", &["components"], ""),
+    habit("links edges wires wiring routes bindings channels connectors", &["connections"], ""),
+    habit("name systemname project robot namespace id title", &["system"], ""),
     habit(
-        &[
-            "nodes",
-            "services",
-            "modules",
-            "processes",
-            "programs",
-            "tasks",
-            "agents",
-            "actors",
-            "blocks",
-            "units",
-            "apps",
-        ],
-        &["components"],
-        "",
-    ),
-    habit(&["links", "edges", "wires", "wiring", "routes", "bindings", "channels", "connectors"], &["connections"], ""),
-    habit(&["name", "systemname", "project", "robot", "namespace", "id", "title"], &["system"], ""),
-    habit(
-        &["proto", "protos", "protobuf", "protofiles", "messages", "import", "imports", "include", "includes", "types"],
+        "proto protos protobuf protofiles messages import imports include includes types",
         &["schemas"],
         "`schemas` lists the `.proto` files that define the messages",
     ),
+    habit("includepaths includedirs includepath protopath protopaths importpaths schemapath", &["schema_roots"], ""),
+    habit("encoding serialization serializer format rmw", &["codec"], ""),
+    habit("version apiversion schemaversion formatversion edition", &["scl: 1"], ""),
+    habit("topics subjects", &[], "there are no topics: each entry of `connections` joins two gates"),
+    habit("spec metadata data topology graph", &[], "the sections stand at the top level, not inside another key"),
     habit(
-        &["includepaths", "includedirs", "includepath", "protopath", "protopaths", "importpaths", "schemapath"],
-        &["schema_roots"],
-        "",
-    ),
-    habit(&["encoding", "serialization", "serializer", "format", "rmw"], &["codec"], ""),
-    habit(&["version", "apiversion", "schemaversion", "formatversion", "edition"], &["scl: 1"], ""),
-    habit(&["topics", "subjects"], &[], "there are no topics: each entry of `connections` joins two gates"),
-    habit(
-        &["spec", "metadata", "data", "topology", "graph"],
-        &[],
-        "the sections stand at the top level, not inside another key",
-    ),
-    habit(
-        &["launch", "environment", "env", "hosts", "networks", "volumes", "deploy", "machines", "transport"],
+        "launch environment env hosts networks volumes deploy machines transport",
         &[],
         "how and where programs are started stands in the launch file, not in the topology",
     ),
@@ -65,101 +41,76 @@ pub(crate) static SECTIONS: &[Habit] = &[
 
 /// In the place of a key of a component.
 pub(crate) static COMPONENT: &[Habit] = &[
-    habit(&["id", "component", "node", "title", "label", "process", "service", "module"], &["name"], ""),
+    habit("id component node title label process service module", &["name"], ""),
+    habit("ports pins interfaces endpoints sockets io topics channels slots", &["gates"], ""),
+    habit("description comment desc summary documentation help note notes brief", &["doc"], ""),
     habit(
-        &["ports", "pins", "interfaces", "endpoints", "sockets", "io", "topics", "channels", "slots"],
-        &["gates"],
-        "",
-    ),
-    habit(
-        &["description", "comment", "desc", "summary", "documentation", "help", "note", "notes", "brief"],
-        &["doc"],
-        "",
-    ),
-    habit(
-        &["required", "mandatory", "essential"],
+        "required mandatory essential",
         &["optional: !"],
         "`optional: true` says that peers do not wait for this component",
     ),
     habit(
-        &["inputs", "subscribers", "subscriptions", "subscribes", "subscribe", "requires", "in", "sub"],
+        "inputs subscribers subscriptions subscribes subscribe requires in sub",
         &[],
         "what a component receives are gates of kind `sub` in its `gates`; each entry of `connections` joins two gates",
     ),
     habit(
-        &["outputs", "publishers", "publications", "publishes", "publish", "provides", "out", "pub"],
+        "outputs publishers publications publishes publish provides out pub",
         &[],
         "what a component sends are gates of kind `pub` in its `gates`; each entry of `connections` joins two gates",
     ),
     habit(
-        &["services", "servers", "clients", "actions", "rpcs", "rpc"],
+        "services servers clients actions rpcs rpc",
         &[],
         "a service is a gate of kind `rep` in `gates`, and its client a gate of kind `req`",
     ),
     habit(
-        &["dependson", "depends", "after", "wants", "dependencies", "links", "needs", "waitfor"],
+        "dependson depends after wants dependencies links needs waitfor",
         &[],
         "the order of start is not declared: each program waits for its peers, unless they are `optional: true`",
     ),
     habit(
-        &[
-            "command",
-            "cmd",
-            "exec",
-            "executable",
-            "entrypoint",
-            "args",
-            "arguments",
-            "run",
-            "program",
-            "binary",
-            "image",
-            "plugin",
-            "package",
-            "pkg",
-            "build",
-            "path",
-        ],
+        "command cmd exec executable entrypoint args arguments run program binary image plugin package pkg build path",
         &[],
         "which program runs a component stands in the launch file, as its `command`",
     ),
     habit(
-        &["env", "environment", "envfile", "variables", "parameters", "params", "config", "arg"],
+        "env environment envfile variables parameters params config arg",
         &[],
         "settings of a program stand in the launch file, as its `environment` or in its `command`",
     ),
     habit(
-        &["restart", "respawn", "restartpolicy", "restartdelay", "respawndelay"],
+        "restart respawn restartpolicy restartdelay respawndelay",
         &[],
         "when a program is started again stands in the launch file, as its `restart`",
     ),
     habit(
-        &["priority", "nice", "scheduler", "schedpolicy", "cpu", "cpus", "cores", "affinity", "core"],
+        "priority nice scheduler schedpolicy cpu cpus cores affinity core",
         &[],
         "processors and priority of a program stand in the launch file, as `cpu` and `priority`",
     ),
     habit(
-        &["healthcheck", "watchdog", "livenessprobe", "readinessprobe", "heartbeat"],
+        "healthcheck watchdog livenessprobe readinessprobe heartbeat",
         &[],
         "signs of life are required in the launch file, by `alive_within` and `ready_within`",
     ),
     habit(
-        &["host", "machine", "hostname", "address", "port", "url", "network", "networks"],
+        "host machine hostname address port url network networks",
         &[],
         "where a component runs stands in the launch file, under `hosts`",
     ),
     habit(
-        &["workingdir", "workdir", "workingdirectory", "cwd", "user", "volumes"],
+        "workingdir workdir workingdirectory cwd user volumes",
         &[],
         "how a program is started stands in the launch file, for example its `working_directory`",
     ),
     habit(
-        &["count", "replicas", "instances", "scale", "number"],
+        "count replicas instances scale number",
         &[],
         "each program that runs is a component of its own, with a name of its own",
     ),
     habit(
-        &["type", "kind", "class", "stacksize", "stack", "period", "rate", "frequency", "language"],
+        "type kind class stacksize stack period rate frequency language",
         &[],
         "a component has only a name, gates and a text; what its program does stands in the program",
     ),
@@ -168,224 +119,91 @@ pub(crate) static COMPONENT: &[Habit] = &[
 /// In the place of an option of a gate: ROS, DDS, ZeroMQ, MQTT, Kafka, gRPC, AsyncAPI.
 pub(crate) static GATE: &[Habit] = &[
     habit(
-        &[
-            "queuesize",
-            "depth",
-            "hwm",
-            "rcvhwm",
-            "sndhwm",
-            "qsize",
-            "queuelength",
-            "queuelen",
-            "queuedepth",
-            "capacity",
-            "buffer",
-            "buffersize",
-            "bufferlength",
-            "backlog",
-            "maxlen",
-            "historydepth",
-            "prefetch",
-            "keeplast",
-            "fifosize",
-        ],
+        "queuesize depth hwm rcvhwm sndhwm qsize queuelength queuelen queuedepth capacity buffer buffersize bufferlength backlog maxlen historydepth prefetch keeplast fifosize",
         &["queue"],
         "",
     ),
-    habit(&["size", "maxsize"], &["queue", "max_size"], ""),
+    habit("size maxsize", &["queue", "max_size"], ""),
     habit(
-        &[
-            "onfull",
-            "overflow",
-            "overflowpolicy",
-            "droppolicy",
-            "policy",
-            "whenoverflow",
-            "congestioncontrol",
-            "iffull",
-            "onoverflow",
-            "discard",
-            "discardpolicy",
-        ],
+        "onfull overflow overflowpolicy droppolicy policy whenoverflow congestioncontrol iffull onoverflow discard discardpolicy",
         &["when_full"],
         "",
     ),
     habit(
-        &["reliability", "qos", "history", "delivery", "guarantee"],
+        "reliability qos history delivery guarantee",
         &["when_full"],
         "a receiver with `when_full: wait` loses no message, if its sender has `backpressure: true`; otherwise `queue` \
          says how many messages may wait for it",
     ),
     habit(
-        &["reliable", "blocking", "block", "lossless", "flowcontrol"],
+        "reliable blocking block lossless flowcontrol",
         &["backpressure", "when_full: wait"],
         "a receiver with `when_full: wait` loses no message, if its sender has `backpressure: true`",
     ),
+    habit("besteffort lossy conflate latestonly", &["queue: 1"], "`queue: 1` keeps only the newest message"),
     habit(
-        &["besteffort", "lossy", "conflate", "latestonly"],
-        &["queue: 1"],
-        "`queue: 1` keeps only the newest message",
-    ),
-    habit(
-        &[
-            "retain",
-            "retained",
-            "latch",
-            "latching",
-            "sticky",
-            "persistent",
-            "transientlocal",
-            "durability",
-            "durable",
-            "islatched",
-            "keep",
-            "cached",
-        ],
+        "retain retained latch latching sticky persistent transientlocal durability durable islatched keep cached",
         &["latched"],
         "a publisher with `latched: true` keeps its last message for subscribers that join later",
     ),
     habit(
-        &[
-            "deadline",
-            "requesttimeout",
-            "calltimeout",
-            "responsetimeout",
-            "rpctimeout",
-            "timeoutms",
-            "timeouts",
-            "replytimeout",
-            "maxwait",
-            "rcvtimeo",
-            "wait",
-        ],
+        "deadline requesttimeout calltimeout responsetimeout rpctimeout timeoutms timeouts replytimeout maxwait rcvtimeo wait",
         &["timeout"],
         "",
     ),
     habit(
-        &[
-            "maxmessagesize",
-            "maxmsgsize",
-            "maxbytes",
-            "messagesize",
-            "sizelimit",
-            "maxpayload",
-            "maxpayloadsize",
-            "maxlength",
-            "limit",
-            "msgsize",
-            "bytes",
-            "maxrequestsize",
-        ],
+        "maxmessagesize maxmsgsize maxbytes messagesize sizelimit maxpayload maxpayloadsize maxlength limit msgsize bytes maxrequestsize",
         &["max_size"],
         "",
     ),
     habit(
-        &[
-            "maxinflight",
-            "concurrency",
-            "pipelining",
-            "maxrequests",
-            "parallel",
-            "window",
-            "maxinflightrequests",
-            "outstanding",
-            "concurrentrequests",
-        ],
+        "maxinflight concurrency pipelining maxrequests parallel window maxinflightrequests outstanding concurrentrequests",
         &["in_flight"],
         "",
     ),
+    habit("encoding serialization serializer format contenttype mimetype encoder wireformat mediatype", &["codec"], ""),
+    habit("description comment desc summary documentation help note brief title", &["doc"], ""),
+    habit("ondecodeerror onerror ondecodingerror errorpolicy invalid malformed oninvalid", &["undecodable"], ""),
     habit(
-        &[
-            "encoding",
-            "serialization",
-            "serializer",
-            "format",
-            "contenttype",
-            "mimetype",
-            "encoder",
-            "wireformat",
-            "mediatype",
-        ],
-        &["codec"],
-        "",
-    ),
-    habit(
-        &["description", "comment", "desc", "summary", "documentation", "help", "note", "brief", "title"],
-        &["doc"],
-        "",
-    ),
-    habit(
-        &["ondecodeerror", "onerror", "ondecodingerror", "errorpolicy", "invalid", "malformed", "oninvalid"],
-        &["undecodable"],
-        "",
-    ),
-    habit(
-        &["optional", "required", "mandatory"],
+        "optional required mandatory",
         &[],
         "`optional` is a key of a component, whose peers then do not wait for it; a gate without a peer has `unconnected: ok`",
     ),
-    habit(&["allowunconnected", "mayunconnected", "unused", "open"], &["unconnected: ok"], ""),
-    habit(&["shared", "loadbalance", "loadbalancing", "roundrobin", "competing"], &["share"], ""),
+    habit("allowunconnected mayunconnected unused open", &["unconnected: ok"], ""),
+    habit("shared loadbalance loadbalancing roundrobin competing", &["share"], ""),
     habit(
-        &["group", "consumergroup", "queuegroup", "groupid"],
+        "group consumergroup queuegroup groupid",
         &[],
         "pullers share the work of a `push` gate that has `share: true`; groups need no name",
     ),
     habit(
-        &[
-            "topic",
-            "name",
-            "channel",
-            "subject",
-            "remap",
-            "key",
-            "path",
-            "address",
-            "endpoint",
-            "bind",
-            "connect",
-            "port",
-            "url",
-            "host",
-            "from",
-            "to",
-            "source",
-            "target",
-            "peer",
-            "connection",
-            "connections",
-            "connectedto",
-        ],
+        "topic name channel subject remap key path address endpoint bind connect port url host from to source target peer connection connections connectedto",
         &[],
         "gates need no topics and no addresses: an entry of `connections` joins two gates, `[component.gate, component.gate]`",
     ),
     habit(
-        &["rate", "frequency", "period", "hz", "interval", "cycle", "cycletime", "ratehz"],
+        "rate frequency period hz interval cycle cycletime ratehz",
         &[],
         "how often a gate sends is decided by its program; `doc` can tell it to readers",
     ),
+    habit("retries retry maxretries attempts backoff", &[], "there is no option for retries: the program calls again"),
     habit(
-        &["retries", "retry", "maxretries", "attempts", "backoff"],
-        &[],
-        "there is no option for retries: the program calls again",
-    ),
-    habit(
-        &["type", "msgtype", "msg", "message", "messagetype", "schema", "datatype", "payload", "interface"],
+        "type msgtype msg message messagetype schema datatype payload interface",
         &[],
         "the type is the value of the kind, as in `pub: package.Message`",
     ),
     habit(
-        &["kind", "direction", "role", "pattern", "dir", "mode"],
+        "kind direction role pattern dir mode",
         &[],
         "the kind is a key, with the type as its value, as in `pub: package.Message`",
     ),
     habit(
-        &["priority", "lifespan", "ttl", "expiry", "security", "encryption", "auth", "partition", "ordering", "unit"],
+        "priority lifespan ttl expiry security encryption auth partition ordering unit",
         &[],
         "there is no such option",
     ),
     habit(
-        &["transport", "protocol", "shm", "ipc", "tcp", "udp"],
+        "transport protocol shm ipc tcp udp",
         &[],
         "the transport of a connection stands in the launch file, under `transports`",
     ),
@@ -395,28 +213,28 @@ const ACTION: &str = "an action is a `rep` gate for its goal, and a `pub` gate f
 
 /// In the place of the kind of a gate, without a kind that is the same.
 pub(crate) static KINDS: &[Habit] = &[
-    habit(&["actionserver"], &["rep"], ACTION),
-    habit(&["actionclient"], &["req"], ACTION),
-    habit(&["action", "feedback"], &[], ACTION),
+    habit("actionserver", &["rep"], ACTION),
+    habit("actionclient", &["req"], ACTION),
+    habit("action feedback", &[], ACTION),
     habit(
-        &["dealer", "router", "pair", "bus", "xpub", "xsub", "stream", "duplex", "bidirectional", "inout", "io"],
+        "dealer router pair bus xpub xsub stream duplex bidirectional inout io",
         &[],
         "a gate has one direction: two gates are needed for both; `req` and `rep` may have several calls in progress",
     ),
     habit(
-        &["parameter", "param", "property", "field", "variable"],
+        "parameter param property field variable",
         &[],
         "a value that others read is sent by a `pub` gate with `latched: true`; one that others set is a `rep` gate",
     ),
-    habit(&["timer", "cron", "signal", "event"], &[], "there are only gates for messages; timers are the program's"),
+    habit("timer cron signal event", &[], "there are only gates for messages; timers are the program's"),
 ];
 
 /// In the place of a codec: others that do nearly the same.
 pub(crate) static CODECS: &[Habit] = &[
-    habit(&["bincode", "bitcode", "borsh", "ron"], &["postcard"], ""),
-    habit(&["bson", "ubjson", "smile"], &["cbor"], ""),
+    habit("bincode bitcode borsh ron", &["postcard"], ""),
+    habit("bson ubjson smile", &["cbor"], ""),
     habit(
-        &["xml", "yaml", "toml", "csv", "flatbuffers", "capnp", "capnproto", "avro", "cdr", "thrift", "asn1", "dds"],
+        "xml yaml toml csv flatbuffers capnp capnproto avro cdr thrift asn1 dds",
         &[],
         "scl has no such codec; a codec of your own is a Rust type, named by its path",
     ),
@@ -428,56 +246,17 @@ static VALUES: &[(&str, &[Habit])] = &[
         "when_full",
         &[
             habit(
-                &[
-                    "block",
-                    "blocking",
-                    "reliable",
-                    "suspend",
-                    "backpressure",
-                    "keepall",
-                    "pause",
-                    "never",
-                    "await",
-                    "true",
-                    "exactlyonce",
-                    "atleastonce",
-                ],
+                "block blocking reliable suspend backpressure keepall pause never await true exactlyonce atleastonce",
                 &["wait"],
                 "it is called `wait` here, and needs `backpressure: true` at the sender",
             ),
             habit(
-                &[
-                    "overwrite",
-                    "besteffort",
-                    "keeplast",
-                    "keeplatest",
-                    "latest",
-                    "ring",
-                    "discardold",
-                    "discardoldest",
-                    "drophead",
-                    "head",
-                    "drop",
-                    "oldest",
-                    "conflate",
-                    "atmostonce",
-                    "shift",
-                ],
+                "overwrite besteffort keeplast keeplatest latest ring discardold discardoldest drophead head drop oldest conflate atmostonce shift",
                 &["drop_oldest"],
                 "",
             ),
             habit(
-                &[
-                    "droptail",
-                    "tail",
-                    "reject",
-                    "ignore",
-                    "discardnew",
-                    "discardnewest",
-                    "newest",
-                    "keepfirst",
-                    "keepoldest",
-                ],
+                "droptail tail reject ignore discardnew discardnewest newest keepfirst keepoldest",
                 &["drop_newest"],
                 "",
             ),
@@ -486,67 +265,46 @@ static VALUES: &[(&str, &[Habit])] = &[
     (
         "undecodable",
         &[
-            habit(&["ignore", "drop", "discard", "dropnewest", "dropoldest", "continue", "log", "warn"], &["skip"], ""),
-            habit(&["error", "raise", "throw", "abort", "stop", "crash", "exit", "panic"], &["fail"], ""),
+            habit("ignore drop discard dropnewest dropoldest continue log warn", &["skip"], ""),
+            habit("error raise throw abort stop crash exit panic", &["fail"], ""),
         ],
     ),
-    (
-        "unconnected",
-        &[habit(
-            &["true", "yes", "allow", "allowed", "on", "1", "optional", "intended", "okay", "ignore"],
-            &["ok"],
-            "",
-        )],
-    ),
+    ("unconnected", &[habit("true yes allow allowed on 1 optional intended okay ignore", &["ok"], "")]),
     (
         "latched",
-        &[
-            habit(&["transientlocal", "transient", "persistent", "retain", "last"], &["true"], ""),
-            habit(&["volatile"], &["false"], ""),
-        ],
+        &[habit("transientlocal transient persistent retain last", &["true"], ""), habit("volatile", &["false"], "")],
     ),
     ("queue", &[habit(UNLIMITED, &[], "there is no unlimited queue")]),
     ("max_size", &[habit(UNLIMITED, &[], "a size is always limited")]),
     ("timeout", &[habit(UNLIMITED, &[], "a call always ends: there is no unlimited timeout")]),
 ];
 
-const UNLIMITED: &[&str] = &[
-    "unlimited",
-    "infinite",
-    "infinity",
-    "inf",
-    "none",
-    "unbounded",
-    "forever",
-    "never",
-    "max",
-    "all",
-    "keepall",
-    "1",
-    ".inf",
-    "∞",
-];
+const UNLIMITED: &str = "unlimited infinite infinity inf none unbounded forever never max all keepall 1 .inf ∞";
 
 /// `True` in other words.
-const YES: Habit = habit(&["true", "yes", "y", "on", "1", "t", "enabled", "enable"], &["true"], "");
-const NO: Habit = habit(&["false", "no", "n", "off", "0", "f", "disabled", "disable"], &["false"], "");
+const YES: Habit = habit("true yes y on 1 t enabled enable", &["true"], "");
+const NO: Habit = habit("false no n off 0 f disabled disable", &["false"], "");
 
 impl Habit {
+    fn has(&self, word: &str) -> bool {
+        self.words.split(' ').any(|other| other == word)
+    }
+
     /// Whether the words stand before the type of a gate.
     pub(crate) fn is_type(&self) -> bool {
-        self.words.contains(&"msgtype")
+        self.has("msgtype")
     }
 
     /// Whether the words stand before the kind of a gate.
     pub(crate) fn is_kind(&self) -> bool {
-        self.words.contains(&"direction")
+        self.has("direction")
     }
 }
 
 /// The habit that a word in the place of a key comes from.
 pub(crate) fn of_key(table: &'static [Habit], word: &str) -> Option<&'static Habit> {
     let word = compact(word);
-    table.iter().find(|habit| habit.words.contains(&word.as_str()))
+    table.iter().find(|habit| habit.has(&word))
 }
 
 /// The habit that a value of an option comes from.
@@ -558,7 +316,7 @@ pub(crate) fn of_value(option: &str, word: &str) -> Option<&'static Habit> {
 /// `true` or `false` in the words of other formats.
 pub(crate) fn boolean(word: &str) -> Option<&'static str> {
     let word = compact(word);
-    [YES, NO].into_iter().find(|habit| habit.words.contains(&word.as_str())).map(|habit| habit.ways[0])
+    [YES, NO].into_iter().find(|habit| habit.has(&word)).map(|habit| habit.ways[0])
 }
 
 /// A word in lower case, without the marks between its parts: `DropOldest` and `drop-oldest` are the same.
@@ -576,10 +334,10 @@ mod tests {
         let mut seen: Vec<&str> = Vec::new();
         for habit in table {
             assert!(!habit.ways.is_empty() || !habit.text.is_empty(), "{place}: {:?}", habit.words);
-            for word in habit.words {
+            for word in habit.words.split(' ') {
                 assert_eq!(*word, compact(word), "{place}");
-                assert!(!known.contains(word), "{place}: `{word}` is right there");
-                assert!(!seen.contains(word), "{place}: `{word}` twice");
+                assert!(!known.contains(&word), "{place}: `{word}` is right there");
+                assert!(!seen.contains(&word), "{place}: `{word}` twice");
                 seen.push(word);
             }
             habit.ways.iter().for_each(|way| assert!(takes(way), "{place}: {way}"));

@@ -13,9 +13,8 @@ use std::ops::Range;
 /// The viewer never runs, so that its queues drop what nobody takes.
 fn topology(count: u32) -> String {
     let gates: String = (0..count).map(|number| format!("      - g{number}: pub\n")).collect();
-    let views: String = (0..count)
-        .map(|number| format!("      - g{number}: {{sub: bytes, queue: 1, when_full: drop_oldest}}\n"))
-        .collect();
+    let views: String =
+        (0..count).map(|number| format!("      - g{number}: {{sub: , queue: 1, when_full: drop_oldest}}\n")).collect();
     let connections: String = (0..count).map(|number| format!("  - [source.g{number}, viewer.g{number}]\n")).collect();
     format!(
         "\

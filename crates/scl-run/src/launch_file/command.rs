@@ -1,10 +1,10 @@
 //! Commands: their words, and what no program can have been meant to get.
 
 use super::super::command_line;
-use super::edits::{flow_list, flow_word};
 use super::reader::{Keys, Reader, wrong};
 use super::rules::WRONG_VALUE;
 use super::value::{text, texts};
+use super::words::{flow_list, flow_word};
 use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
@@ -25,7 +25,7 @@ const PARTS: [&[&str]; 3] = [
 
 /// Where a word belongs in a command, if it is a part of one.
 fn part(word: &str) -> Option<usize> {
-    let word = super::likely::bare(word);
+    let word = super::words::bare(word);
     PARTS.iter().position(|words| words.contains(&word.as_str()))
 }
 
@@ -53,7 +53,7 @@ impl Reader<'_> {
         }
         let place = parts.iter().find(|field| field.key == "command").copied().unwrap_or(parts[0]);
         parts.sort_by_key(|field| part(field.key));
-        let problem = super::unknown_key::problem(told.key, told.key_span, owner);
+        let problem = super::likely_key::problem(told.key, told.key_span, owner);
         let others = unknown.iter().filter(|field| is_part(field.key) && field.key_span != told.key_span);
         let problem = problem.labels(others.map(|field| (field.key_span, "unknown too")));
         let edits = joined(&parts).and_then(|command| {

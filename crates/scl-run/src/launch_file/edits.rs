@@ -1,6 +1,7 @@
 //! Changes of the text of a launch file, for the proposals of problems.
 
 use super::reader::Reader;
+use super::words::flow_word;
 use scl_topology::diagnostic::{Edit, removal};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
@@ -70,8 +71,8 @@ impl Reader<'_> {
         self.written(node.span).starts_with(['[', '{'])
     }
 
-    /// The text of a value as it may stand in brackets. `None` for a list or a mapping of several lines, and for one with
-    /// comments.
+    /// The text of a value as it may stand in brackets. `None` for a list or a mapping of several lines, and for one
+    /// with comments.
     pub(super) fn in_brackets(&self, value: &Node) -> Option<String> {
         match value.text() {
             Some(text) if value.is_plain() => Some(flow_word(text)),
@@ -83,28 +84,4 @@ impl Reader<'_> {
             }
         }
     }
-}
-
-/// A word as it may stand in a list or a mapping in brackets: in quotes where it needs them.
-pub(super) fn flow_word(text: &str) -> String {
-    let is_odd_start = text.starts_with(|letter: char| "-?!&*|>%@`\"'#,[]{}:= ".contains(letter))
-        && !(text.starts_with('-') && text.len() > 1 && !text.starts_with("- "));
-    let needs_quotes = text.is_empty()
-        || is_odd_start
-        || text.ends_with([' ', ':'])
-        || text.contains(|letter: char| ",[]{}".contains(letter) || letter.is_control())
-        || text.contains(": ")
-        || text.contains(" #")
-        || matches!(text, "~" | "null" | "Null" | "NULL");
-    match needs_quotes {
-        false => text.to_owned(),
-        true if text.contains(char::is_control) => format!("{text:?}"),
-        true if !text.contains(['"', '\\']) => format!("\"{text}\""),
-        true => format!("'{}'", text.replace('\'', "''")),
-    }
-}
-
-/// A list in brackets.
-pub(super) fn flow_list<S: AsRef<str>>(words: &[S]) -> String {
-    format!("[{}]", words.iter().map(|word| flow_word(word.as_ref())).collect::<Vec<_>>().join(", "))
 }

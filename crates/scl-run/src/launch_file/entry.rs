@@ -2,14 +2,14 @@
 
 use super::super::terminal::StandardInput;
 use super::command::command_words;
-use super::edits::flow_list;
 use super::keys;
-use super::likely::bare;
 use super::reader::{Keys, Reader, wrong};
 use super::rules::{CONTRADICTION, MISSING, WRONG_VALUE};
 use super::settings::Settings;
 use super::unknown_key::names_program;
 use super::value::{path, placed_texts, texts};
+use super::words::bare;
+use super::words::flow_list;
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
 

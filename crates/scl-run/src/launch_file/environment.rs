@@ -1,9 +1,9 @@
 //! `environment`: variables for programs.
 
-use super::edits::flow_word;
 use super::reader::{Keys, Reader, wrong};
 use super::rules::{WRONG_NAME, WRONG_VALUE};
 use super::value::{shown, text};
+use super::words::flow_word;
 use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::parse::Field;
 
@@ -45,8 +45,8 @@ impl Reader<'_> {
         Some((name.to_owned(), value?.to_owned()))
     }
 
-    /// Proposes what a name with `=` may mean: a variable and its value, or the rest of the value before it, which a comma
-    /// has ended.
+    /// Proposes what a name with `=` may mean: a variable and its value, or the rest of the value before it, which a
+    /// comma has ended.
     fn separate(&self, problem: Diagnostic, field: Field<'_>, before: Option<Field<'_>>) -> Diagnostic {
         if !field.value.is_null() {
             return problem;

@@ -1,6 +1,6 @@
 //! Keys of other tools that a launch file does not have: why not, and what to write instead.
 
-use super::likely::bare;
+use super::words::bare;
 
 /// Words of other tools with one meaning.
 pub(super) struct Habit {

@@ -4,12 +4,12 @@ mod address;
 mod together;
 
 use super::super::deployment::{Deployment, Host};
-use super::edits::flow_list;
 use super::keys;
 use super::likely::likely;
 use super::reader::{Keys, Reader, wrong};
 use super::rules::{CONTRADICTION, MISSING, WRONG_NAME, WRONG_VALUE};
 use super::value::{flag, path, placed_texts, port as port_of, texts};
+use super::words::flow_list;
 use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;

@@ -2,7 +2,7 @@
 
 use super::super::policy::Restart;
 use super::super::terminal::StandardInput;
-use super::likely::is_bare;
+use super::words::is_bare;
 use scl_text::list::either;
 
 /// A key of a mapping.

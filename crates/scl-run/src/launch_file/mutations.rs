@@ -1,5 +1,6 @@
-//! Sound launch files with one word, line or character deleted, doubled or misspelt. No mutant makes a panic or more than
-//! three errors, each proposal solves its problem and adds no error, and what is sure gives the meaning of the sound file.
+//! Sound launch files with one word, line or character deleted, doubled or misspelt. No mutant makes a panic or more
+//! than three errors, each proposal solves its problem and adds no error, and what is sure gives the meaning of the
+//! sound file.
 
 use super::super::system_names::SystemNames;
 use super::{EXAMPLE, LaunchDocument};
@@ -121,7 +122,7 @@ fn advice_about_mutants_of_launch_files_helps() {
     let (mut all, mut proposed, mut sure) = (0, 0, 0);
     let (mut useless, mut wrong, mut cascades) = (Vec::new(), Vec::new(), Vec::new());
     for text in [EXAMPLE, OTHER] {
-        let sound = meaning(text).expect("the file is sound");
+        let sound = meaning(text).unwrap();
         for mutant in mutants(text) {
             all += 1;
             let found = problems(&mutant);
@@ -133,7 +134,7 @@ fn advice_about_mutants_of_launch_files_helps() {
                 for proposal in problem.proposals() {
                     proposed += 1;
                     let edits: Vec<_> = proposal.edits.iter().collect();
-                    let mended = apply(&mutant, &edits).expect("the changes of a proposal do not overlap");
+                    let mended = apply(&mutant, &edits).unwrap();
                     if !is_better(&found, &problems(&mended), problem) {
                         useless.push(format!("{:?}\n{mutant}\n=>\n{mended}", told()));
                     }

@@ -7,18 +7,9 @@ use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::source::Span;
 use scl_topology::suggest::similar;
 use scl_topology::yaml::Node;
-use std::collections::HashMap;
 
 /// Maximum number of places of a name that a proposal changes.
 const MOST_PLACES: usize = 100;
-
-/// The unknown components of a file with their places.
-#[derive(Default)]
-pub(super) struct UnknownNames {
-    /// In the order of their first places.
-    found: Vec<(String, Vec<Span>)>,
-    indices: HashMap<String, usize>,
-}
 
 impl Reader<'_> {
     /// Reports a component that the topology does not have or, without a topology, the launch file.

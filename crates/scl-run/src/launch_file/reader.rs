@@ -3,13 +3,12 @@
 use super::super::system_names::SystemNames;
 use super::LaunchFile;
 use super::keys::Key;
-use super::names::UnknownNames;
-use super::unknown_key::{MOST_KEYS, likely_key};
+use super::likely_key::{MOST_KEYS, likely_key};
 use scl_topology::diagnostic::{Diagnostic, Diagnostics, Edit, Rule};
 use scl_topology::parse::{Dialect, Document, Field, Fields, fields};
 use scl_topology::source::{SourceFile, Span};
 use scl_topology::yaml::Node;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// Maximum number of repeated keys in one mapping for which a merge is proposed.
 const MOST_REPEATED: usize = 4;
@@ -29,6 +28,14 @@ pub(super) struct Reader<'a> {
     /// The keys at the top of the file that are missing above their entries.
     pub(super) missing_sections: Vec<&'static str>,
     problems: Diagnostics,
+}
+
+/// The unknown components of a file with their places.
+#[derive(Default)]
+pub(super) struct UnknownNames {
+    /// In the order of their first places.
+    pub(super) found: Vec<(String, Vec<Span>)>,
+    pub(super) indices: HashMap<String, usize>,
 }
 
 impl<'a> Reader<'a> {

@@ -1,12 +1,13 @@
 //! The keys of a component that may also stand in `defaults`: restarts, time limits, processors, priority, descriptors.
 
 use super::super::policy::{Policy, Restart, RestartDelay, RestartLimit};
+use super::forms::{any_duration, limit, priority, restart_delay, restart_limit};
 use super::keys::{Form, form_of};
-use super::likely::{Likely, bare, likely};
+use super::likely::{Likely, likely};
 use super::reader::{Keys, Reader, wrong};
 use super::rules::WRONG_VALUE;
 use super::value::{flag, number, path, processors, shown, texts};
-use scl_terminal::parse_duration;
+use super::words::bare;
 use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::parse::Field;
 use scl_topology::yaml::{Node, NodeKind};
@@ -161,28 +162,4 @@ fn is_unlimited(key: &str, value: &Node) -> bool {
 fn shown_value(form: Form, value: &Node) -> String {
     let items = texts(value).filter(|items| form == Form::Processors && !items.is_empty());
     items.map_or_else(|| shown(value), |items| format!("`[{}]`", items.join(", ")))
-}
-
-fn any_duration(text: &str) -> Option<Duration> {
-    parse_duration(text.trim()).ok()
-}
-
-/// Parses a time limit, which must not be zero.
-pub(super) fn limit(text: &str) -> Option<Duration> {
-    any_duration(text).filter(|time| !time.is_zero())
-}
-
-pub(super) fn restart_delay(text: &str) -> Option<RestartDelay> {
-    let (first, longest) = text.split_once("..").unwrap_or((text, text));
-    let (first, longest) = (any_duration(first)?, any_duration(longest)?);
-    (first <= longest).then_some(RestartDelay { first, longest })
-}
-
-pub(super) fn restart_limit(text: &str) -> Option<RestartLimit> {
-    let (count, within) = text.split_once(" in ")?;
-    Some(RestartLimit { count: count.trim().parse().ok()?, within: limit(within)? })
-}
-
-pub(super) fn priority(text: &str) -> Option<u8> {
-    text.strip_prefix("fifo:")?.parse().ok().filter(|priority| (1..=99).contains(priority))
 }

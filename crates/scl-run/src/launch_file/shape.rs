@@ -1,12 +1,12 @@
 //! Values of another shape than their key needs, and what they are as this format writes them.
 
 use super::command::command_words;
-use super::edits::{flow_list, flow_word};
 use super::keys;
-use super::likely::{bare, likely};
+use super::likely::likely;
 use super::reader::{Reader, wrong};
 use super::rules::WRONG_SHAPE;
 use super::value::{shown, texts};
+use super::words::{bare, flow_list, flow_word};
 use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::parse::{Field, damaged_key};
 use scl_topology::source::Span;

@@ -3,55 +3,20 @@
 use super::command::is_part;
 use super::habits::Habit;
 use super::keys::{self, Key, is_called, is_own};
-use super::likely::{bare, fits, is_bare, likely};
+use super::likely::{fits, likely};
+use super::likely_key::{MOST_KEYS, NOT_ESSENTIAL, PLACES, likely_key, likely_keys, problem};
 use super::reader::{Keys, Reader};
-use super::rules::UNKNOWN_KEY;
 use super::shape::variables;
-use scl_terminal::{closest_name, quoted_list};
+use super::words::bare;
+use scl_terminal::quoted_list;
 use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
 use scl_topology::yaml::Node;
 use std::collections::HashSet;
 
-/// Words that say at a component where it runs.
-const PLACES: [&str; 7] = ["machine", "host", "node", "hosts", "runson", "placement", "on"];
-
-/// Maximum number of keys of a mapping among which one is searched that stands for another.
-pub(super) const MOST_KEYS: usize = 200;
-
 /// Maximum number of components that are searched for the name of a host.
 const MOST_COMPONENTS: usize = 1_000;
-
-/// Words that mean the opposite of `essential`.
-const NOT_ESSENTIAL: [&str; 5] = ["optional", "nonessential", "ignorefailure", "allowfailure", "besteffort"];
-
-/// The problem of an unknown key without its advice.
-pub(super) fn problem(key: &str, at: Span, owner: &str) -> Diagnostic {
-    UNKNOWN_KEY.at(format!("unknown key `{key}` in {owner}"), at, "")
-}
-
-/// The key that an unknown one probably means: another tool's word for it, or a similar name.
-pub(super) fn likely_key<'k>(word: &str, allowed: &[&'k Key]) -> Option<&'k str> {
-    likely_keys(word, allowed).first().copied()
-}
-
-fn likely_keys<'k>(word: &str, allowed: &[&'k Key]) -> Vec<&'k str> {
-    let word_alone = bare(word);
-    if let Some(key) = allowed.iter().find(|key| is_bare(key.name, &word_alone)) {
-        return vec![key.name];
-    }
-    let called: Vec<&str> = allowed.iter().filter(|key| is_called(key, &word_alone)).map(|key| key.name).collect();
-    if !called.is_empty() {
-        return called;
-    }
-    let is_other = |words: &[&str]| words.contains(&word_alone.as_str());
-    if Habit::of(word).is_some() || is_other(&PLACES) || is_other(&NOT_ESSENTIAL) {
-        return Vec::new();
-    }
-    let lower = word.to_lowercase().replace(['-', ' '], "_");
-    closest_name(&lower, allowed.iter().map(|key| key.name)).into_iter().collect()
-}
 
 /// Whether a key of another tool names a program, or a part of its command.
 pub(super) fn names_program(key: &str) -> bool {

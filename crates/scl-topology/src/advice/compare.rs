@@ -3,7 +3,7 @@
 use super::Judged;
 use super::edit::{is_crlf, sorted};
 use crate::diagnostic::{Diagnostic, Edit, Label, Severity};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 /// What identifies a problem in two versions of a file: its rule and its headline.
@@ -31,14 +31,19 @@ pub(super) struct Change<'c> {
 }
 
 impl Change<'_> {
+    /// Whether it moves lines only: then all lines of a section may belong to others than before.
+    fn is_indentation(&self) -> bool {
+        self.edits.iter().all(|edit| edit.replacement.trim().is_empty())
+    }
+
     /// Whether it removes words and writes no others.
     fn is_removal(&self) -> bool {
         self.edits.iter().any(|edit| edit.replacement.is_empty())
     }
 }
 
-/// Whether a change of a text solves its problems without adding any; `before` and `after` are what was found in the text
-/// and in the changed `copy`.
+/// Whether a change of a text solves its problems without adding any; `before` and `after` are what was found in the
+/// text and in the changed `copy`.
 ///
 /// If a file can be read further than before, problems that were there before may show outside of the changed lines and
 /// what belongs to them. This does not hold for a removal, which could hide one mistake and make another.
@@ -47,16 +52,20 @@ pub(super) fn passes(before: &Judged, change: &Change<'_>, after: &Judged, copy:
         return false;
     }
     let reads_further = before.extent.is_cut_off || after.extent.unread < before.extent.unread;
-    let block = block(&changed(change.edits, is_crlf(copy), copy), copy);
-    let is_elsewhere = |label: &Label| match label.span.start as usize {
-        at if after.extent.is_cut_off => at >= block.end,
-        at => !block.contains(&at),
-    };
+    let changed = changed(change.edits, is_crlf(copy), copy);
+    let block = if change.is_indentation() { section(&changed, copy) } else { block(&changed, copy) };
+    let own = || change.problems.iter().map(|number| &before.problems[*number]);
+    let own_rules: HashSet<&str> = own().map(Diagnostic::code).collect();
     let is_revealed = |problem: &Diagnostic| {
+        // The same mistake in the next line may be the same one, moved.
+        let end = if own_rules.contains(problem.code()) { with_next_line(block.end, copy) } else { block.end };
+        let is_elsewhere = |label: &Label| match label.span.start as usize {
+            at if after.extent.is_cut_off => at >= end,
+            at => !(block.start..end).contains(&at),
+        };
         let mut labels = problem.primary.iter().chain(&problem.secondary);
         !change.is_removal() && reads_further && problem.primary.is_some() && labels.all(is_elsewhere)
     };
-    let own = || change.problems.iter().map(|number| &before.problems[*number]);
     // A change that solves an error may leave the file with a warning.
     let worst = own().map(|problem| problem.severity).max().unwrap_or(Severity::Error);
     let (known, own) = (counts(as_bad(before, worst)), counts(own()));
@@ -116,4 +125,33 @@ fn block(changed: &Range<usize>, copy: &str) -> Range<usize> {
         end += line.len();
     }
     start..end
+}
+
+/// The lines of the top-level keys around a change.
+fn section(changed: &Range<usize>, copy: &str) -> Range<usize> {
+    let is_top = |line: &str| line.starts_with(|letter: char| !letter.is_whitespace() && !matches!(letter, '-' | '#'));
+    let above = copy.get(..changed.start).unwrap_or_default().split_inclusive('\n').rev();
+    let mut start = changed.start;
+    for line in above {
+        start -= line.len();
+        if is_top(line) {
+            break;
+        }
+    }
+    let mut below = copy.get(changed.end..).unwrap_or_default().split_inclusive('\n');
+    let rest = below.next().map_or(0, str::len);
+    start..changed.end + rest + below.take_while(|line| !is_top(line)).map(str::len).sum::<usize>()
+}
+
+/// The end of the first line with content after some bytes.
+fn with_next_line(at: usize, copy: &str) -> usize {
+    let lines = copy.get(at..).unwrap_or_default().split_inclusive('\n');
+    let mut end = at;
+    for line in lines {
+        end += line.len();
+        if !line.trim().is_empty() {
+            break;
+        }
+    }
+    end
 }

@@ -109,7 +109,8 @@ fn problems_further_down_are_revealed() {
     assert_eq!(tried("(a b\nbad").0, ["close it"], "it was there before");
     assert_eq!(tried("(a bad").0, [""], "it may be the consequence");
     assert_eq!(tried("(a b\n  bad").0, [""], "it belongs to the changed line");
-    assert_eq!(tried("(a b\n(c").0, ["close it"]);
+    assert_eq!(tried("(a b\n(c").0, [""], "it may be the same mistake, moved");
+    assert_eq!(tried("(a b\nc\n(d").0, ["close it"]);
     assert_eq!(tried("(a b\nc").0, ["remove it, close it"]);
 }
 

@@ -1,7 +1,7 @@
 //! SCL0503: an end that is not `component.gate`.
 
 use super::draft::Draft;
-use super::ends::{End, MOST_PLACES};
+use super::end::{End, MOST_PLACES};
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::source::{Span, Spanned};
 use scl_text::list::{listed, shortened};
@@ -90,8 +90,8 @@ fn is_letter(letter: char) -> bool {
     letter.is_alphanumeric() || letter == '_' || letter == '-'
 }
 
-/// The gate that an end means, if it contains the names of a component and of its gate in this order and nothing else but
-/// marks, or names before or after them. Returns a label that names the slip, too.
+/// The gate that an end means, if it contains the names of a component and of its gate in this order and nothing else
+/// but marks, or names before or after them. Returns a label that names the slip, too.
 fn respelt(draft: &Draft<'_>, text: &str) -> Option<(String, usize)> {
     if text.len() > LONGEST || text.contains('*') {
         return None;

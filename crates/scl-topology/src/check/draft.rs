@@ -2,10 +2,9 @@
 //!
 //! A part that a rule rejected is `None` here, and later rules pass over it, so that one mistake is reported once.
 
-use super::message_type::differ;
 use crate::model::{ComponentModel, ConnectionModel, GateModel, Model};
 use crate::source::{Sources, Span, Spanned};
-use crate::topology::{Codec, DeclaredOptions, GateKind, Payload};
+use crate::topology::{Codec, DeclaredOptions, GateKind, Payload, TypeName};
 use crate::work;
 use std::collections::HashMap;
 
@@ -272,4 +271,14 @@ fn sorted_names(model: &Model) -> Vec<&str> {
     names.sort_unstable();
     names.dedup();
     names
+}
+
+/// Returns true if two types are certainly not the same. Rust paths with the same last part may be aliases, which only
+/// rustc can tell; the types of schemas have one name each.
+pub(super) fn differ(a: &TypeName, b: &TypeName) -> bool {
+    a.dotted() != b.dotted() && (a.in_schemas() || b.in_schemas() || last(a) != last(b))
+}
+
+fn last(name: &TypeName) -> Option<&str> {
+    name.dotted().rsplit('.').next()
 }

@@ -2,7 +2,7 @@
 //! it means.
 
 use super::draft::Draft;
-use super::ends::{End, Fault, MOST_PLACES};
+use super::end::{End, Fault, MOST_PLACES};
 use super::named::{Name, with_first};
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 

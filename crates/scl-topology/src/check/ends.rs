@@ -2,26 +2,10 @@
 //! unknown component or gate together, because they are one mistake.
 
 use super::draft::Draft;
+use super::end::{End, Fault};
 use super::{connection_end, duplicate_name, suspect, unknown_component, unknown_gate};
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::source::Span;
+use crate::diagnostic::Diagnostics;
 use std::collections::HashMap;
-
-/// Maximum number of places that one problem shows.
-pub(super) const MOST_PLACES: usize = 9;
-
-/// An end of a connection: the number of the connection, and 0 or 1.
-pub(super) type End = [usize; 2];
-
-/// What is wrong with an end.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Fault<'m> {
-    /// Not `component.gate`.
-    Shape,
-    Swapped(&'m str, &'m str),
-    Component(&'m str),
-    Gate(&'m str, &'m str),
-}
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     for link in 0..draft.links.len() {
@@ -74,16 +58,6 @@ fn name_all(draft: &mut Draft<'_>) {
     for gate in whole.iter().chain(&broken) {
         draft.gates[*gate].named = true;
         draft.gates[*gate].uses += 1;
-    }
-}
-
-/// Adds the other places of a mistake, and their number.
-pub(super) fn with_places(found: Diagnostic, places: &[Span]) -> Diagnostic {
-    let others = places.iter().take(MOST_PLACES).skip(1);
-    let found = found.labels(others.map(|place| (*place, "and here")));
-    match places.len() {
-        0 | 1 => found,
-        count => found.note(format!("{count} connections name it")),
     }
 }
 

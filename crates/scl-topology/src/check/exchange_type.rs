@@ -2,7 +2,7 @@
 //! one end has request and reply swapped.
 
 use super::draft::Draft;
-use super::message_type::differ;
+use super::draft::differ;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::source::Span;
 use crate::topology::{Payload, TypeName};

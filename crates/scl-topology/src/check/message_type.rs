@@ -1,7 +1,7 @@
 //! SCL0601: a sender and a receiver of different types. The connections of one gate are reported together, at the gate
 //! if it alone differs from all its peers.
 
-use super::draft::Draft;
+use super::draft::{Draft, differ};
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::topology::{GateKind, Payload, TypeName};
 use scl_text::list::listed;
@@ -50,16 +50,6 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     for (sink, peers) in by_sink {
         problems.push(report(draft, sink, &peers));
     }
-}
-
-/// Returns true if two types are certainly not the same. Rust paths with the same last part may be aliases, which only
-/// rustc can tell; the types of schemas have one name each.
-pub(super) fn differ(a: &TypeName, b: &TypeName) -> bool {
-    a.dotted() != b.dotted() && (a.in_schemas() || b.in_schemas() || last(a) != last(b))
-}
-
-fn last(name: &TypeName) -> Option<&str> {
-    name.dotted().rsplit('.').next()
 }
 
 fn message<'a>(draft: &'a Draft<'_>, gate: usize) -> Option<&'a TypeName> {

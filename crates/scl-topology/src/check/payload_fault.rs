@@ -8,6 +8,8 @@ pub(super) struct Fault {
     pub(super) label: &'static str,
     /// The types that may be meant.
     pub(super) meant: Vec<String>,
+    /// The name is whole, and only its separators differ.
+    pub(super) is_certain: bool,
     /// No type is meant: the gate carries bytes.
     pub(super) is_bytes: bool,
     /// What is allowed here.
@@ -28,7 +30,7 @@ pub(super) fn of(text: &str) -> Option<Fault> {
     if NOTHING.contains(&text) {
         return Some(Fault { is_bytes: true, ..fault("no type", BYTES) });
     }
-    if text == "bytes" || !is_name && is_bytes(text) {
+    if !is_name && is_bytes(text) {
         return Some(Fault { is_bytes: true, ..fault("bytes of no type", BYTES) });
     }
     (!is_name).then(|| other(text))
@@ -51,7 +53,8 @@ fn other(text: &str) -> Fault {
         _ if text.starts_with("repeated ") => fault("not a dotted name", "a list is the `repeated` field of a message"),
         _ if text.contains("..") || text.starts_with('.') || text.ends_with('.') => {
             let parts: Vec<&str> = text.split('.').filter(|part| !part.is_empty()).collect();
-            with("a part between the dots is empty", vec![parts.join(".")], NAME)
+            // A letter may be missing between two dots.
+            Fault { is_certain: false, ..with("a part between the dots is empty", vec![parts.join(".")], NAME) }
         }
         _ => with("not a dotted name", respelt(text), NAME),
     }
@@ -63,7 +66,7 @@ fn fault(label: &'static str, allowed: &'static str) -> Fault {
 
 fn with(label: &'static str, mut meant: Vec<String>, allowed: &'static str) -> Fault {
     meant.retain(|name| name.split('.').all(is_word));
-    Fault { label, meant, is_bytes: false, allowed }
+    Fault { label, meant, is_certain: true, is_bytes: false, allowed }
 }
 
 /// The names with other separators or with marks around them: `nav::Fix`, `nav/msg/Fix`, `nav.Fix?`.

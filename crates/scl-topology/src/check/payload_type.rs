@@ -186,7 +186,10 @@ fn no_type(draft: &Draft<'_>, text: &str, [span, whole]: [Span; 2], fault: Fault
     };
     let ways: Vec<(&str, Edit)> =
         fault.meant.iter().map(|name| (name.as_str(), Edit::new(span, draft.sources.quoted_as(span, name)))).collect();
-    let found = NO_TYPE_NAME.at(headline, span, fault.label).about(text).choose(("write ", ""), ways);
+    let mut found = NO_TYPE_NAME.at(headline, span, fault.label).about(text).choose(("write ", ""), ways);
+    if !fault.is_certain {
+        found.doubt();
+    }
     match fault.is_bytes {
         true => found.propose(format!("write nothing after the colon: {}", fault.allowed), [Edit::new(whole, "")]),
         false => found,

@@ -1,5 +1,5 @@
-//! Mistakes that are made once and show at several places: an unknown type at several gates, and a gate of the wrong kind
-//! that fits none of its connections. They are reported at the first place, with the other places as labels.
+//! Mistakes that are made once and show at several places: an unknown type at several gates, and a gate of the wrong
+//! kind that fits none of its connections. They are reported at the first place, with the other places as labels.
 
 use super::{backpressure, codec_agreement, exchange_type, message_type, pair_kinds};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule};

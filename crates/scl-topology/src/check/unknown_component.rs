@@ -1,7 +1,7 @@
 //! SCL0501: an end of a component that does not exist. SCL0504: its two names are swapped.
 
 use super::draft::Draft;
-use super::ends::{End, with_places};
+use super::end::{End, with_places};
 use super::named::is_well_formed;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::rust_name::{component_type, gate_field};

@@ -1,7 +1,7 @@
 //! SCL0502: an end with a gate that its component does not have.
 
 use super::draft::Draft;
-use super::ends::{End, with_places};
+use super::end::{End, with_places};
 use super::named::is_well_formed;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::rust_name::gate_field;

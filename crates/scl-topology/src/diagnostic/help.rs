@@ -107,8 +107,8 @@ impl Diagnostic {
         self.with_way(text, edits, false)
     }
 
-    /// Adds the names that a wrong `word` may have meant, if there are any. The word is at the primary place, perhaps in
-    /// quotes; if it is written in another way, for example with escapes, they are told in words alone.
+    /// Adds the names that a wrong `word` may have meant, if there are any. The word is at the primary place, perhaps
+    /// in quotes; if it is written in another way, for example with escapes, they are told in words alone.
     pub fn did_you_mean<S: AsRef<str>>(self, word: &str, names: &[S]) -> Self {
         self.choose_word(("did you mean ", "?"), word, names)
     }

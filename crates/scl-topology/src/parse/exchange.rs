@@ -12,7 +12,7 @@ pub(super) fn odd_arrow(payload: &str) -> Option<(String, String)> {
     if is_right && text == payload || is_generic {
         return None;
     }
-    let words = text.split(|letter: char| !is_part(letter)).map(|word| word.trim_matches(['.', ':', '/']));
+    let words = text.split(|letter: char| !is_part(letter)).map(|word| word.trim_matches([':', '/']));
     let words: Vec<&str> = words.filter(|word| !word.is_empty() && !WORDS.contains(word)).collect();
     let [request, reply] = match words.as_slice() {
         [request, reply] => [*request, *reply],

@@ -330,8 +330,8 @@ fn rest_of_doc<'f, 'n>(fields: &'f Fields<'n>) -> &'f [Field<'n>] {
     &rest[..rest.iter().take_while(|field| is_text(field)).count()]
 }
 
-/// `{pub Type, queue 4}`: the keys that lack their colon, so that the value belongs to the key, each with the word up to
-/// its end and the key that is meant.
+/// `{pub Type, queue 4}`: the keys that lack their colon, so that the value belongs to the key, each with the word up
+/// to its end and the key that is meant.
 fn glued_keys<'n>(fields: &Fields<'n>) -> Vec<(Field<'n>, &'n str, &'n str)> {
     let known = |field: &Field<'n>| {
         let word = first_word(field.key);

@@ -189,7 +189,7 @@ fn a_sure_fix_of_an_example_removes_its_problem() {
             fixed_rules.push(rule.code);
         }
     }
-    expect!["SCL0101 SCL0102 SCL0103 SCL0108 SCL0113 SCL0114 SCL0117 SCL0118 SCL0119 SCL0122 SCL0123 SCL0124 SCL0127 SCL0129 SCL0130 SCL0131 SCL0132 SCL0202 SCL0207 SCL0216 SCL0304 SCL0401 SCL0407 SCL0501 SCL0502 SCL0503 SCL0504 SCL0510 SCL0711"]
+    expect!["SCL0101 SCL0102 SCL0103 SCL0108 SCL0113 SCL0114 SCL0117 SCL0118 SCL0119 SCL0122 SCL0123 SCL0124 SCL0127 SCL0129 SCL0130 SCL0131 SCL0132 SCL0201 SCL0202 SCL0204 SCL0207 SCL0214 SCL0216 SCL0303 SCL0304 SCL0401 SCL0403 SCL0407 SCL0503 SCL0504 SCL0510 SCL0711"]
         .assert_eq(&fixed_rules.join(" "));
 }
 
@@ -203,7 +203,8 @@ fn a_sure_fix_restores_what_was_there() {
     assert_ne!(expected, "");
     let (mut restored, mut wrong) = (0, Vec::new());
     for (at, letter) in sound.char_indices() {
-        let other = ["", "q", "."][at % 3].to_owned();
+        // In place of a mark, a letter would be a second mistake.
+        let other = if letter.is_alphanumeric() { ["", "q", "."][at % 3] } else { "" }.to_owned();
         for other in [other, format!("{letter}{letter}")] {
             let mutant = format!("{}{other}{}", &sound[..at], &sound[at + letter.len_utf8()..]);
             let (new, applied, errors) = fixed(&mutant);

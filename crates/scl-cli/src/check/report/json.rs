@@ -10,8 +10,8 @@ use serde_json::Value;
 /// A label is `{"file","line","column","end_line","end_column","text"}`; the first one is the primary label. Lines and
 /// columns count from 1, columns in characters, and the end is one past the last character. Without a place, `file` and
 /// the positions are `null`. A fix is
-/// `{"file","line","column","end_line","end_column","replacement","sure","proposal","help"}`: those with the same number
-/// in `proposal` belong together, and others are alternatives; `help` is the number of the text in `helps` that
+/// `{"file","line","column","end_line","end_column","replacement","sure","proposal","help"}`: those with the same
+/// number in `proposal` belong together, and others are alternatives; `help` is the number of the text in `helps` that
 /// describes it. Both count from 0.
 pub(in crate::check) fn to_json(diagnostic: &Diagnostic, sources: &Sources) -> String {
     let severity = match diagnostic.severity {

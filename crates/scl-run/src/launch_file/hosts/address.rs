@@ -1,10 +1,10 @@
 //! `address`: where the gateway of a host listens, and where the others find it.
 
-use super::super::edits::flow_word;
 use super::super::keys;
 use super::super::reader::{Keys, Reader, wrong};
 use super::super::rules::{HOSTS, MISSING, WRONG_VALUE};
 use super::super::value::{shown, text};
+use super::super::words::flow_word;
 use scl_topology::diagnostic::Edit;
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
@@ -95,8 +95,8 @@ fn is_dns_name(text: &str) -> bool {
     text.len() <= LONGEST && text.split('.').all(is_label) && !last.chars().all(|letter| letter.is_ascii_digit())
 }
 
-/// Returns the address in a text like `192.0.2.10:7447`, `tcp://192.0.2.10:7447`, `pi@board.local` or `192.0.2.10/24`, and
-/// its port. `None` if the text is an address alone, or has none.
+/// Returns the address in a text like `192.0.2.10:7447`, `tcp://192.0.2.10:7447`, `pi@board.local` or `192.0.2.10/24`,
+/// and its port. `None` if the text is an address alone, or has none.
 fn parts(text: &str) -> Option<(String, Option<u16>)> {
     let behind_scheme = text.split_once("://").map_or(text, |(_, rest)| rest);
     let behind_scheme = ["tcp/", "udp/", "tls/", "tcp:", "udp:"]

@@ -45,8 +45,11 @@ fn edit(start: usize, written: &str, dialect: &Dialect) -> Option<Edit> {
     }
     let mut words = written.split_whitespace().filter_map(|word| word.split_once(':'));
     let has_key = words.any(|(word, _)| (dialect.word)(word.trim_start_matches(['{', '['])).is_some());
+    let closes_more = |open, close| written.matches(close).count() > written.matches(open).count();
     let cost = match () {
         _ if has_key => WITH_KEY,
+        // The bracket may be one too many.
+        _ if closes_more('{', '}') || closes_more('[', ']') => DOUBTFUL,
         _ if written.contains(" #") && !written.starts_with(['"', '\'']) => DOUBTFUL,
         _ => 1,
     };

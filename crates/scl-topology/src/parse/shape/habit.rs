@@ -12,7 +12,8 @@ use crate::yaml::NodeKind;
 /// Longest value that a text repeats.
 const SHOWN: usize = 40;
 
-/// Adds the key that a word is in another spelling, such as `whenFull`; returns false in the second place if it is none.
+/// Adds the key that a word is in another spelling, such as `whenFull`; returns false in the second place if it is
+/// none.
 pub(super) fn with_spelling(
     problem: Diagnostic,
     field: Field<'_>,

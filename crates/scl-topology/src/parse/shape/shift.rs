@@ -10,8 +10,8 @@ pub(super) fn indented(block: Span, by: usize, has_first: bool, source: &SourceF
     starts.map(|at| Edit::new(Span { start: at, end: at, ..block }, spaces.clone())).collect()
 }
 
-/// Removes spaces at the start of each line of a block, of the first one only if `has_first`. None if a line is indented
-/// less.
+/// Removes spaces at the start of each line of a block, of the first one only if `has_first`. None if a line is
+/// indented less.
 pub(super) fn outdented(block: Span, by: usize, has_first: bool, source: &SourceFile) -> Option<Vec<Edit>> {
     let starts: Vec<u32> = line_starts(block, has_first, source).filter(|&at| !is_blank(at, source)).collect();
     let removed = |at: u32| {
