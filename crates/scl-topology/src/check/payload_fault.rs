@@ -1,7 +1,6 @@
 //! A text that cannot be a type name: why, and what may be meant.
 
 use super::named;
-use crate::topology::GateKind;
 
 /// Why a text is no type name.
 pub(super) struct Fault {
@@ -96,17 +95,4 @@ fn is_bytes(text: &str) -> bool {
 
 fn is_word(word: &str) -> bool {
     word != "_" && named::is_word(word)
-}
-
-/// The request and the reply that a text means which joins them in another way: `A =&gt; B`, `(A) returns (B)`.
-pub(super) fn exchange(kind: Option<GateKind>, text: &str) -> Option<String> {
-    if !matches!(kind, Some(GateKind::Req | GateKind::Rep)) {
-        return None;
-    }
-    let words = text.split(|letter: char| letter.is_whitespace() || "()[]{},;&|=<>-→⇒".contains(letter));
-    let words = words.filter(|word| !matches!(*word, "" | "gt" | "lt" | "returns" | "rpc" | "stream" | "to"));
-    match words.collect::<Vec<_>>().as_slice() {
-        [request, reply] if of(request).is_none() && of(reply).is_none() => Some(format!("{request} -> {reply}")),
-        _ => None,
-    }
 }

@@ -69,14 +69,6 @@ fn read_payload(
         let span = if parts.len() == 1 { written.span } else { draft.part(written.span, part, at > 0) };
         match payload_fault::of(part) {
             None => types.push(TypeName { dotted: (*part).to_owned(), span, in_schemas: false }),
-            Some(_) if let Some(meant) = payload_fault::exchange(gate.kind, &written.value) => {
-                let edit = Edit::new(written.span, draft.sources.quoted_as(written.span, &meant));
-                let headline = format!("`{}` cannot be a message type", written.value.trim());
-                let found = NO_TYPE_NAME.at(headline, written.span, "request and reply are joined by `->`");
-                let found = found.about(written.value.trim());
-                problems.push(found.propose(format!("write `{meant}`"), [edit]));
-                return None;
-            }
             Some(fault) => problems.push(no_type(draft, part, [span, written.span], fault)),
         }
     }
