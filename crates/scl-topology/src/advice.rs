@@ -33,11 +33,11 @@ pub struct Judged {
 ///
 /// At most 20 copies of together 1 MiB are checked. If there are more proposals, many are tried at once, and those that
 /// could not be tried are removed. Lints are off, so their proposals are kept untried, and none of them is sure.
-pub fn try_advice(found: &mut Judged, source: &SourceFile, mut judge: impl FnMut(&str) -> Judged) {
+pub fn try_advice(found: &mut Judged, source: &SourceFile, judge: impl FnMut(&str) -> Judged) {
     let text = source.text();
     let tries = tries(text);
-    let candidates: Vec<Candidate> = candidates(&found.problems);
-    let mut trial = Trial { before: found, source, tries, judge: &mut judge };
+    let candidates = candidates(&found.problems);
+    let mut trial = Trial { before: found, source, tries, judge };
     let mut passed = vec![false; candidates.len()];
     match candidates.len() <= tries {
         true => candidates.iter().enumerate().for_each(|(at, way)| passed[at] = trial.try_together(&[way])),
@@ -59,17 +59,15 @@ fn is_tried(problem: &Diagnostic) -> bool {
 }
 
 /// One proposal, and the number of its problem.
-struct Candidate {
+struct Candidate<'p> {
     problem: usize,
-    edits: Vec<Edit>,
+    edits: &'p [Edit],
 }
 
-fn candidates(problems: &[Diagnostic]) -> Vec<Candidate> {
+fn candidates(problems: &[Diagnostic]) -> Vec<Candidate<'_>> {
     let tried = problems.iter().enumerate().filter(|(_, problem)| is_tried(problem));
     tried
-        .flat_map(|(at, problem)| {
-            problem.proposals().map(move |way| Candidate { problem: at, edits: way.edits.clone() })
-        })
+        .flat_map(|(at, problem)| problem.proposals().map(move |way| Candidate { problem: at, edits: &way.edits }))
         .collect()
 }
 
@@ -83,8 +81,8 @@ struct Trial<'t, J> {
 
 impl<J: FnMut(&str) -> Judged> Trial<'_, J> {
     /// Whether candidates of different problems pass when they are applied together.
-    fn try_together(&mut self, candidates: &[&Candidate]) -> bool {
-        let edits: Vec<&Edit> = candidates.iter().flat_map(|candidate| &candidate.edits).collect();
+    fn try_together(&mut self, candidates: &[&Candidate<'_>]) -> bool {
+        let edits: Vec<&Edit> = candidates.iter().flat_map(|candidate| candidate.edits).collect();
         let text = self.source.text();
         let is_here = edits.iter().all(|edit| edit.span.file == self.source.id());
         let Some(copy) = apply(text, &edits).filter(|copy| is_here && copy != text) else { return false };
@@ -97,7 +95,7 @@ impl<J: FnMut(&str) -> Judged> Trial<'_, J> {
 
     /// Tries the first proposals of all problems at once, then the second ones, and so on. If such a group does not
     /// pass, its halves are tried.
-    fn try_many(&mut self, candidates: &[Candidate], passed: &mut [bool]) {
+    fn try_many(&mut self, candidates: &[Candidate<'_>], passed: &mut [bool]) {
         let mut rounds: Vec<Vec<usize>> = Vec::new();
         let mut number = 0;
         for (at, candidate) in candidates.iter().enumerate() {
@@ -111,7 +109,7 @@ impl<J: FnMut(&str) -> Judged> Trial<'_, J> {
         // The halves of a round are tried before the next round.
         let mut groups: Vec<Vec<usize>> = rounds.into_iter().rev().collect();
         while let Some(mut group) = groups.pop().filter(|_| self.tries > 0) {
-            let together: Vec<&Candidate> = group.iter().map(|&at| &candidates[at]).collect();
+            let together: Vec<&Candidate<'_>> = group.iter().map(|&at| &candidates[at]).collect();
             if self.try_together(&together) {
                 group.into_iter().for_each(|at| passed[at] = true);
             } else if group.len() > 1 {

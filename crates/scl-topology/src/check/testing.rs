@@ -86,28 +86,25 @@ pub(crate) fn topology(yaml: &str) -> Topology {
 fn run(yaml: &str, messages: Option<&[&str]>) -> (Option<Topology>, Vec<Diagnostic>, Sources) {
     let mut sources = Sources::new();
     let file = sources.add("topology.yaml", yaml);
-    let mut problems = Diagnostics::new();
-    let model = parse(&sources, file, &mut problems);
     let declared = |names: &[&str]| SchemaMessages {
         names: names.iter().map(|&name| name.to_owned()).collect(),
         ..SchemaMessages::default()
     };
     let messages = messages.map(|names| vec![declared(names)]);
     let facts = Facts { default_system: "topology".to_owned(), messages, sockets: SocketPaths::example() };
-    let topology = check(&model, &facts, &sources, &mut problems);
-    assert_eq!(
-        topology.is_none(),
-        problems.has_errors(),
-        "a topology comes out exactly when there is no error: {yaml}"
-    );
-    let mut found = Judged { problems: problems.into_sorted(), extent: Extent::of(&model) };
-    try_advice(&mut found, sources.file(file), |copy| {
-        let sources = sources.with_text(file, copy);
+    let judge = |sources: &Sources| {
         let mut problems = Diagnostics::new();
-        let model = parse(&sources, file, &mut problems);
-        check(&model, &facts, &sources, &mut problems);
-        Judged { problems: problems.into_sorted(), extent: Extent::of(&model) }
-    });
+        let model = parse(sources, file, &mut problems);
+        let topology = check(&model, &facts, sources, &mut problems);
+        assert_eq!(
+            topology.is_none(),
+            problems.has_errors(),
+            "a topology comes out exactly when there is no error: {yaml}"
+        );
+        (topology, Judged { problems: problems.into_sorted(), extent: Extent::of(&model) })
+    };
+    let (topology, mut found) = judge(&sources);
+    try_advice(&mut found, sources.file(file), |copy| judge(&sources.with_text(file, copy)).1);
     let found = found.problems;
     let unlisted = found.iter().find(|found| find(found.code()).is_none());
     assert!(unlisted.is_none(), "the rule of this problem is missing from the list of its stage: {unlisted:?}");
