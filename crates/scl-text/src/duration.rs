@@ -5,6 +5,20 @@ use std::time::Duration;
 /// The units, each with its seconds, the smallest first.
 pub const UNITS: [(&str, f64); 6] = [("us", 1e-6), ("ms", 1e-3), ("s", 1.0), ("min", 60.0), ("m", 60.0), ("h", 3600.0)];
 
+/// Each unit in the words of people and of other formats.
+const SPELLINGS: [(&str, &str); 5] = [
+    ("us", "us µs μs usec usecs micros microsec microsecond microseconds"),
+    ("ms", "ms msec msecs millis millisec millisecond milliseconds"),
+    ("s", "s sec secs second seconds"),
+    ("min", "m min mins minute minutes"),
+    ("h", "h hr hrs hour hours"),
+];
+
+/// The unit that a word in lower case probably means: `us`, `ms`, `s`, `min` or `h`.
+pub fn unit(word: &str) -> Option<&'static str> {
+    SPELLINGS.iter().find(|(_, words)| words.split(' ').any(|other| other == word)).map(|(unit, _)| *unit)
+}
+
 /// Why a text is not a duration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DurationError {

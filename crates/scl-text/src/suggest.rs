@@ -83,6 +83,20 @@ fn without_common_ends<'a>(one: &'a str, other: &'a str) -> (&'a str, &'a str) {
     (&one[..one.len() - end], &other[..other.len() - end])
 }
 
+/// A word without case and marks: `GpsFix`, `gps_fix` and `gps-fix` are the same.
+pub fn bare(word: &str) -> String {
+    word.chars().filter(|letter| letter.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
+
+/// `true` or `false` in the words of other formats, in lower case.
+pub fn boolean(word: &str) -> Option<&'static str> {
+    match word {
+        "true" | "yes" | "y" | "on" | "1" | "t" | "enabled" | "enable" => Some("true"),
+        "false" | "no" | "n" | "off" | "0" | "f" | "disabled" | "disable" => Some("false"),
+        _ => None,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

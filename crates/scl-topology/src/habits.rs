@@ -281,10 +281,6 @@ static VALUES: &[(&str, &[Habit])] = &[
 
 const UNLIMITED: &str = "unlimited infinite infinity inf none unbounded forever never max all keepall 1 .inf ∞";
 
-/// `True` in other words.
-const YES: Habit = habit("true yes y on 1 t enabled enable", &["true"], "");
-const NO: Habit = habit("false no n off 0 f disabled disable", &["false"], "");
-
 impl Habit {
     fn has(&self, word: &str) -> bool {
         self.words.split(' ').any(|other| other == word)
@@ -315,8 +311,7 @@ pub(crate) fn of_value(option: &str, word: &str) -> Option<&'static Habit> {
 
 /// `true` or `false` in the words of other formats.
 pub(crate) fn boolean(word: &str) -> Option<&'static str> {
-    let word = compact(word);
-    [YES, NO].into_iter().find(|habit| habit.has(&word)).map(|habit| habit.ways[0])
+    scl_text::suggest::boolean(&compact(word))
 }
 
 /// A word in lower case, without the marks between its parts: `DropOldest` and `drop-oldest` are the same.

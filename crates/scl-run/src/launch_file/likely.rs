@@ -8,6 +8,7 @@ use super::value::{flag, number, port, processors, texts};
 use super::words::{bare, flow_word};
 use scl_terminal::closest_name;
 use scl_text::duration;
+use scl_text::suggest::boolean;
 use scl_topology::yaml::Node;
 use times::{delay_range, limit_of_restarts, time};
 
@@ -91,11 +92,10 @@ pub(super) fn likely(key: &str, value: &Node) -> Likely {
     }
     match form {
         Form::Word(words) => word(key, text, words),
-        Form::Flag => Likely::certain(match bare(text).as_str() {
-            "yes" | "on" | "y" | "t" | "1" | "enabled" | "enable" => Some("true".to_owned()),
-            "no" | "off" | "n" | "f" | "0" | "disabled" | "disable" => Some("false".to_owned()),
-            other => closest_name(other, ["true", "false"]).map(str::to_owned),
-        }),
+        Form::Flag => {
+            let word = bare(text);
+            Likely::certain(boolean(&word).or_else(|| closest_name(&word, ["true", "false"])).map(str::to_owned))
+        }
         Form::Port => {
             let digits = text.trim_start_matches(|letter: char| !letter.is_ascii_digit()).split([':', '/']).next();
             let digits = digits.unwrap_or_default().replace(['_', ' '], "");

@@ -1,9 +1,6 @@
 //! Words: compared without case and marks, and written into brackets.
 
-/// A word without case and marks.
-pub(super) fn bare(word: &str) -> String {
-    word.chars().filter(|letter| letter.is_alphanumeric()).flat_map(char::to_lowercase).collect()
-}
+pub(super) use scl_text::suggest::bare;
 
 /// Whether a word is another one without case and marks, which [`bare`] has removed from `bare_word`.
 pub(super) fn is_bare(word: &str, bare_word: &str) -> bool {

@@ -1,7 +1,7 @@
 //! SCL0405: a type of the schemas that none of them declares. Decides which types are those of the schemas.
 //!
 //! A type whose first part is a package of the schemas is one of theirs. Any other is a Rust path, which rustc looks up
-//! where the macro is called, unless it is nearly the name of a message.
+//! where the macro is called, unless it is nearly the name of a message or a single word in lower case.
 
 use super::draft::Draft;
 use super::rust_path::{is_rust, is_scalar};
@@ -10,6 +10,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::suggest::{same_parts, similar};
 use crate::topology::TypeName;
 use scl_text::list::listed;
+use scl_text::suggest::bare;
 use std::collections::{BTreeSet, HashMap};
 
 /// Maximum number of names that a message suggests.
@@ -22,7 +23,8 @@ pub(crate) const RULE: Rule = Rule {
     title: "unknown message type",
     explanation: "The first part of this type is a package of the `schemas`, or almost one, but no schema declares \
                   such a message. The type is probably misspelt, or lacks its package. If the first part is not a \
-                  package, the type is a Rust path, which rustc looks up where the macro is called.",
+                  package, the type is a Rust path, which rustc looks up where the macro is called; a single word in \
+                  lower case is neither.",
     example: " schemas: [uav.proto]
  components:
    - name: sensor
@@ -44,9 +46,9 @@ pub(super) fn check(draft: &mut Draft<'_>, facts: &Facts, problems: &mut Diagnos
                 continue;
             }
             let meant = known.nearest(name.dotted(), || draft.may_search());
-            let is_bare =
+            let is_lower_word =
                 || !name.dotted().contains('.') && name.dotted().starts_with(|first: char| first.is_lowercase());
-            if known.has_root(name.dotted()) || !meant.is_empty() || is_bare() && !is_rust(name.dotted()) {
+            if known.has_root(name.dotted()) || !meant.is_empty() || is_lower_word() && !is_rust(name.dotted()) {
                 problems.push(report(draft, schemas, &known, name, &meant));
                 unknown = true;
             }
@@ -62,8 +64,8 @@ struct Known<'s> {
     roots: BTreeSet<&'s str>,
     /// The names by their last part.
     by_last: HashMap<&'s str, Vec<&'s str>>,
-    /// The names by themselves and by their last part, both [`folded`].
-    by_folded: HashMap<String, Vec<&'s str>>,
+    /// The names by themselves and by their last part, both [`bare`].
+    by_bare: HashMap<String, Vec<&'s str>>,
 }
 
 impl<'s> Known<'s> {
@@ -73,16 +75,16 @@ impl<'s> Known<'s> {
         let packages = packages.filter(|package| !package.is_empty());
         let roots = all.iter().copied().chain(packages).map(root).chain(["google"]).collect();
         let mut by_last: HashMap<&str, Vec<&str>> = HashMap::new();
-        let mut by_folded: HashMap<String, Vec<&str>> = HashMap::new();
+        let mut by_bare: HashMap<String, Vec<&str>> = HashMap::new();
         for name in &all {
             let last = name.rsplit('.').next().unwrap_or_default();
             by_last.entry(last).or_default().push(name);
-            by_folded.entry(folded(last)).or_default().push(name);
+            by_bare.entry(bare(last)).or_default().push(name);
             if last != *name {
-                by_folded.entry(folded(name)).or_default().push(name);
+                by_bare.entry(bare(name)).or_default().push(name);
             }
         }
-        Self { all, roots, by_last, by_folded }
+        Self { all, roots, by_last, by_bare }
     }
 
     /// Returns true if the type can only be one of the schemas, because its first part belongs to them.
@@ -131,8 +133,8 @@ impl<'s> Known<'s> {
     /// that or a message that has no package.
     fn without_package(&self, name: &str, mut may_search: impl FnMut() -> bool) -> Vec<&'s str> {
         let found = |names: Option<&Vec<&'s str>>| names.map(|names| names.iter().copied().take(MOST).collect());
-        let folded = folded(name);
-        if let Some(names) = found(self.by_last.get(name)).or_else(|| found(self.by_folded.get(&folded))) {
+        let bare_name = bare(name);
+        if let Some(names) = found(self.by_last.get(name)).or_else(|| found(self.by_bare.get(&bare_name))) {
             return names;
         }
         if !may_search() {
@@ -141,11 +143,6 @@ impl<'s> Known<'s> {
         let ends = similar(name, self.by_last.keys().copied());
         ends.iter().flat_map(|end| &self.by_last[end]).copied().take(MOST).collect()
     }
-}
-
-/// A name in small letters, without the marks that separate its words.
-fn folded(name: &str) -> String {
-    name.chars().filter(char::is_ascii_alphanumeric).map(|letter| letter.to_ascii_lowercase()).collect()
 }
 
 fn some(names: Vec<&str>) -> Option<Vec<&str>> {

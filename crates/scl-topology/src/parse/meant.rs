@@ -14,16 +14,11 @@ pub(super) struct Meant {
     pub(super) is_certain: bool,
 }
 
-/// Other words for the units of time, in lower case, and the seconds of units that a topology does not have.
-const TIMES: [(&str, f64, &[&str]); 8] = [
-    ("", 1e-9, &["ns", "nsec", "nanosec", "nanosecs", "nanos", "nanosecond", "nanoseconds"]),
-    ("us", 1e-6, &["us", "µs", "μs", "usec", "usecs", "micros", "microsec", "microsecond", "microseconds"]),
-    ("ms", 1e-3, &["ms", "msec", "msecs", "millis", "millisec", "millisecond", "milliseconds"]),
-    ("s", 1.0, &["s", "sec", "secs", "second", "seconds"]),
-    ("min", 60.0, &["m", "min", "mins", "minute", "minutes"]),
-    ("h", 3600.0, &["h", "hr", "hrs", "hour", "hours"]),
-    ("", 86_400.0, &["d", "day", "days"]),
-    ("", 604_800.0, &["w", "week", "weeks"]),
+/// The seconds of units of time that a topology does not have.
+const OTHER_UNITS: [(f64, &[&str]); 3] = [
+    (1e-9, &["ns", "nsec", "nanosec", "nanosecs", "nanos", "nanosecond", "nanoseconds"]),
+    (86_400.0, &["d", "day", "days"]),
+    (604_800.0, &["w", "week", "weeks"]),
 ];
 
 const NUMBERS: [&str; 13] =
@@ -162,7 +157,7 @@ fn with_units(text: &str) -> Option<String> {
         rest = behind.trim_start();
     }
     if let [(number, unit)] = parts.as_slice() {
-        let (known, _, _) = TIMES.iter().find(|(known, _, others)| !known.is_empty() && others.contains(unit))?;
+        let known = duration::unit(unit)?;
         return Some(format!("{}{known}", decimal(number)?)).filter(|text| duration::parse(text).is_ok());
     }
     total(parts.into_iter().map(|(number, unit)| seconds(number, unit)).collect::<Option<_>>()?)
@@ -170,7 +165,9 @@ fn with_units(text: &str) -> Option<String> {
 
 fn seconds(number: &str, unit: &str) -> Option<f64> {
     let unit = unit.to_lowercase();
-    let (_, factor, _) = TIMES.iter().find(|(_, _, others)| others.contains(&unit.as_str()))?;
+    let known = duration::unit(&unit).and_then(|known| duration::UNITS.iter().find(|(word, _)| *word == known));
+    let other = || OTHER_UNITS.iter().find(|(_, words)| words.contains(&unit.as_str())).map(|(factor, _)| *factor);
+    let factor = known.map(|(_, factor)| *factor).or_else(other)?;
     Some(decimal(number)?.parse::<f64>().ok()? * factor)
 }
 

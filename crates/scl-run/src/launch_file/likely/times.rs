@@ -5,15 +5,16 @@ use super::Likely;
 use scl_text::duration;
 use std::time::Duration;
 
-/// The names of units that people write, with the unit here and its factor.
-const UNITS: &[(&[&str], &str, u64)] = &[
-    (&["us", "µs", "usec", "usecs", "microsecond", "microseconds"], "us", 1),
-    (&["ms", "msec", "msecs", "millis", "millisecond", "milliseconds"], "ms", 1),
-    (&["s", "sec", "secs", "second", "seconds"], "s", 1),
-    (&["m", "min", "mins", "minute", "minutes"], "m", 1),
-    (&["h", "hr", "hrs", "hour", "hours"], "h", 1),
-    (&["d", "day", "days"], "h", 24),
-];
+/// The unit that a word means, and how many of it.
+fn unit_of(word: &str) -> Option<(&'static str, u64)> {
+    match word {
+        "d" | "day" | "days" => Some(("h", 24)),
+        _ => match duration::unit(word)? {
+            "min" => Some(("m", 1)),
+            unit => Some((unit, 1)),
+        },
+    }
+}
 
 /// A time in another spelling.
 pub(super) fn time(text: &str) -> Likely {
@@ -48,12 +49,12 @@ fn time_of(text: &str) -> Option<String> {
         let after = after.trim_start();
         let letters = after.find(|letter: char| !letter.is_alphabetic()).unwrap_or(after.len());
         let (unit, behind) = after.split_at(letters);
-        let (_, unit, factor) = UNITS.iter().find(|(names, ..)| names.contains(&unit))?;
+        let (unit, factor) = unit_of(unit)?;
         // A unit alone, as in `per minute`.
         let number = if number.is_empty() && parts.is_empty() { "1" } else { number };
         let number = match factor {
             1 => number.to_owned(),
-            factor => number.parse::<u64>().ok()?.checked_mul(*factor)?.to_string(),
+            factor => number.parse::<u64>().ok()?.checked_mul(factor)?.to_string(),
         };
         if parts.iter().any(|part: &String| part.ends_with(unit)) {
             return None;
