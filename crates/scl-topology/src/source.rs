@@ -104,6 +104,11 @@ impl SourceFile {
         LineColumn { line, column: self.characters(end) - self.characters(start) + 1 }
     }
 
+    /// Number of characters before a byte in its line.
+    pub fn column(&self, byte: u32) -> usize {
+        self.line_column(byte).column as usize - 1
+    }
+
     /// Number of characters that begin before a byte.
     fn characters(&self, byte: usize) -> u32 {
         let block = byte / BLOCK;

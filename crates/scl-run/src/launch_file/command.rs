@@ -199,8 +199,8 @@ impl Reader<'_> {
         match self.is_flow(list) {
             true => ", ".to_owned(),
             false => {
-                let column = self.source.line_column(list.span.start).column as usize - 1;
-                let dash = self.source.line_column(item.span.start).column as usize - 1;
+                let column = self.source.column(list.span.start);
+                let dash = self.source.column(item.span.start);
                 format!("\n{}-{}", " ".repeat(column), " ".repeat(dash.saturating_sub(column + 1).max(1)))
             }
         }

@@ -28,7 +28,7 @@ impl Reader<'_> {
 
     /// Removes a key with its value; `None` if it shares its line with something that stays.
     pub(super) fn remove_entry(&self, field: Field<'_>) -> Option<Edit> {
-        removal(self.source, self.whole_entry(field)?).map(|span| Edit::new(span, ""))
+        removal(self.source, self.whole_entry(field)?)
     }
 
     /// Writes something else in place of a key and its value.
@@ -45,7 +45,7 @@ impl Reader<'_> {
             let is_inside = behind.end < mapping.span.end && last.span.start > first.start && !last.is_null();
             return is_inside.then(|| Edit::new(behind, format!(", {entry}")));
         }
-        let indent = " ".repeat(self.source.line_column(first.start).column as usize - 1);
+        let indent = " ".repeat(self.source.column(first.start));
         Some(Edit::new(Span { end: first.start, ..first }, format!("{entry}\n{indent}")))
     }
 
@@ -56,7 +56,7 @@ impl Reader<'_> {
         }
         let (text, end) = (self.source.text(), field.value.span.end as usize);
         let line_end = text.get(end..)?.find(['\r', '\n']).map_or(text.len(), |at| end + at) as u32;
-        let indent = " ".repeat(self.source.line_column(field.key_span.start).column as usize - 1);
+        let indent = " ".repeat(self.source.column(field.key_span.start));
         Some(Edit::new(Span { start: line_end, end: line_end, ..field.key_span }, format!("\n{indent}{entry}")))
     }
 

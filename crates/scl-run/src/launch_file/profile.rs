@@ -137,7 +137,7 @@ impl Reader<'_> {
         // The component whose program it is: the one that the entry names, or the only one.
         let named: Vec<&String> = started.iter().filter(|name| entry.contains(name.as_str())).collect();
         let likely = if named.is_empty() && started.len() < 4 { started.iter().collect() } else { named };
-        let column = self.source.line_column(all.start).column as usize - 1;
+        let column = self.source.column(all.start);
         Some(likely.into_iter().take(3).fold(problem, |problem, component| {
             let (help, text) = match entry.contains('\n') {
                 false => (format!("write `{component}: {{{entry}}}`"), format!("{component}: {{{entry}}}")),
@@ -160,7 +160,7 @@ impl Reader<'_> {
         let message = format!("profile `{}` has `components` in place of their entries", field.key);
         let problem = WRONG_SHAPE.at(message, key.span, "").note("a profile is a mapping from components to entries");
         let written = self.written(inner.span);
-        let column = |span: Span| self.source.line_column(span.start).column as usize - 1;
+        let column = |span: Span| self.source.column(span.start);
         let deeper = "\n".to_owned() + &" ".repeat(column(first).saturating_sub(column(key.span)));
         let text = match (self.is_flow(inner), self.is_flow(field.value)) {
             (true, true) => written.trim_matches(['{', '}']).to_owned(),

@@ -80,7 +80,7 @@ impl Reader<'_> {
         }
         out.push_str(text.get(at..last.end as usize)?);
         // A list may have the column of its key; a mapping may not.
-        let column = self.source.line_column(field.key_span.start).column as usize - 1;
+        let column = self.source.column(field.key_span.start);
         let deeper = if indent <= column { "  " } else { "" };
         let lines: Vec<String> = out.split('\n').map(|line| format!("{deeper}{line}")).collect();
         Some(Edit::new(Span { start: start as u32, ..last }, lines.join("\n")))
@@ -148,7 +148,7 @@ impl Reader<'_> {
         let message = format!("`{key}:` is missing above `{}`", self.written(name));
         let problem = WRONG_SHAPE.at(message, name, format!("not an entry of `{}`", section.key));
         let start = self.source.line_start(self.source.line_column(name.start).line as usize - 1) as u32;
-        let indent = " ".repeat(self.source.line_column(section.key_span.start).column as usize - 1);
+        let indent = " ".repeat(self.source.column(section.key_span.start));
         let is_block = self.written(Span { start, end: name.start, ..name }).trim().is_empty();
         let edit = Edit::new(Span { start, end: start, ..name }, format!("{indent}{key}:\n"));
         self.report(if is_block { problem.propose(format!("write `{key}:` above it"), [edit]) } else { problem });
@@ -167,7 +167,7 @@ impl Reader<'_> {
         let problem = problem.labels(outer.iter().skip(1).map(|field| (field.key_span, "this one too")));
         let inner = fields.iter().find(|field| field.key == "components").and_then(|field| field.value.entries());
         let inner = inner.and_then(|entries| entries.first());
-        let indent = inner.map_or(2, |(key, _)| self.source.line_column(key.span.start).column as usize - 1);
+        let indent = inner.map_or(2, |(key, _)| self.source.column(key.span.start));
         let problem = match self.indented(&outer, indent) {
             Some((all, text)) if has_components => {
                 problem.propose("indent it below `components`", [Edit::new(all, text)])

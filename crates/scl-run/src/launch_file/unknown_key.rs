@@ -168,7 +168,7 @@ impl Reader<'_> {
         if parts.is_empty() {
             return self.without(problem, field, format!("remove `{}`", field.key));
         }
-        let column = self.source.line_column(field.key_span.start).column as usize - 1;
+        let column = self.source.column(field.key_span.start);
         let line = self.source.line_text(self.source.line_column(field.key_span.start).line);
         let is_block = line.trim_start().len() + column == line.len();
         let separator = if is_block { format!("\n{}", " ".repeat(column)) } else { ", ".to_owned() };

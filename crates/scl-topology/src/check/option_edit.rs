@@ -24,7 +24,7 @@ impl Draft<'_> {
         match file.snippet(head) {
             head if head.contains(['{', ',']) => Edit::new(end, format!(", {key}: {value}")),
             head if head.contains('\n') => {
-                let indent = file.line_column(kind.start).column as usize - 1;
+                let indent = file.column(kind.start);
                 Edit::new(end, format!("\n{}{key}: {value}", " ".repeat(indent)))
             }
             _ => Edit::new(kind, format!("{{{}: , {key}: {value}}}", file.snippet(kind))),
@@ -35,6 +35,6 @@ impl Draft<'_> {
     pub(super) fn without_option(&self, gate: usize, key: &str) -> Option<Edit> {
         let option = self.gates[gate].option(key)?;
         let entry = option.key.span.to(option.value.span);
-        removal(self.sources.file(entry.file), entry).map(|removed| Edit::new(removed, ""))
+        removal(self.sources.file(entry.file), entry)
     }
 }

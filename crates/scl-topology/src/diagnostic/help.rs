@@ -58,6 +58,12 @@ impl Edit {
     }
 }
 
+impl Proposal {
+    fn new(word: String, edits: Vec<Edit>, is_certain: bool) -> Self {
+        Self { word, edits, is_certain, is_sure: false }
+    }
+}
+
 impl Help {
     /// The text, which may have several lines.
     pub fn text(&self) -> Cow<'_, str> {
@@ -152,24 +158,19 @@ impl Diagnostic {
         (before, after): (&'static str, &'static str),
         ways: impl IntoIterator<Item = (&'w str, Vec<Edit>)>,
     ) -> Self {
-        let mut proposals: Vec<Proposal> = ways
-            .into_iter()
-            .map(|(word, edits)| Proposal { word: clipped(word), edits, is_certain: false, is_sure: false })
-            .collect();
-        match proposals.as_mut_slice() {
-            [] => self,
-            [only] => {
-                only.is_certain = true;
-                self.with_help(Wording::Choice(before, after), proposals)
-            }
-            _ => self.with_help(Wording::Choice(before, after), proposals),
+        let ways: Vec<_> = ways.into_iter().collect();
+        if ways.is_empty() {
+            return self;
         }
+        let is_only = ways.len() == 1;
+        let proposals = ways.into_iter().map(|(word, edits)| Proposal::new(clipped(word), edits, is_only)).collect();
+        self.with_help(Wording::Choice(before, after), proposals)
     }
 
     /// Adds the removal of an item or an entry; in words alone if it shares its line with something else.
     pub(crate) fn propose_removal(self, text: impl Into<String>, source: &SourceFile, span: Span) -> Self {
         match removal(source, span) {
-            Some(removed) => self.propose(text, [Edit::new(removed, "")]),
+            Some(removed) => self.propose(text, [removed]),
             None => self.help(text),
         }
     }
@@ -178,7 +179,7 @@ impl Diagnostic {
     pub(crate) fn carry(mut self, edits: Vec<Edit>, is_certain: bool) -> Self {
         let is_short = edits.len() <= MOST_EDITS;
         if let Some(help) = self.helps.first_mut().filter(|help| is_short && help.proposals.is_empty()) {
-            help.proposals.push(Proposal { word: String::new(), edits, is_certain, is_sure: false });
+            help.proposals.push(Proposal::new(String::new(), edits, is_certain));
         }
         self
     }
@@ -242,7 +243,7 @@ impl Diagnostic {
         if edits.len() > MOST_EDITS {
             return self.help(text);
         }
-        let way = Proposal { word: String::new(), edits, is_certain, is_sure: false };
+        let way = Proposal::new(String::new(), edits, is_certain);
         self.with_help(Wording::Text(clipped(text)), vec![way])
     }
 
@@ -252,9 +253,13 @@ impl Diagnostic {
     }
 }
 
-/// Returns what to remove so that an item or an entry disappears with its comma, or with its line. `None` if it shares
-/// its line with something else.
-pub fn removal(source: &SourceFile, span: Span) -> Option<Span> {
+/// The removal of an item or an entry with its comma, or with its line. `None` if it shares its line with something
+/// else.
+pub fn removal(source: &SourceFile, span: Span) -> Option<Edit> {
+    removed(source, span).map(|removed| Edit::new(removed, ""))
+}
+
+fn removed(source: &SourceFile, span: Span) -> Option<Span> {
     let text = source.text();
     let (before, after) = (text.get(..span.start as usize)?, text.get(span.end as usize..)?);
     let line = source.line_range(span.start as usize);
@@ -284,7 +289,7 @@ pub fn removal(source: &SourceFile, span: Span) -> Option<Span> {
 
 #[cfg(test)]
 mod tests {
-    use super::removal;
+    use super::removed;
     use crate::source::{Sources, Span};
 
     #[test]
@@ -305,7 +310,7 @@ mod tests {
             let file = sources.add("t.yaml", text);
             let start = text.find(item).unwrap();
             let span = Span { file, start: start as u32, end: (start + item.len()) as u32 };
-            let found = removal(sources.file(file), span);
+            let found = removed(sources.file(file), span);
             let without = |span: Span| format!("{}{}", &text[..span.start as usize], &text[span.end as usize..]);
             assert_eq!(found.map_or("-".to_owned(), without), left, "{text:?}");
         }

@@ -69,7 +69,7 @@ impl Reader<'_> {
 
     /// Two entries in the place of one.
     fn both(&self, field: Field<'_>, one: &str, other: &str) -> String {
-        let column = self.source.line_column(field.key_span.start).column as usize - 1;
+        let column = self.source.column(field.key_span.start);
         let line = self.source.line_text(self.source.line_column(field.key_span.start).line);
         match line.len() - line.trim_start().len() == column {
             true => format!("{one}\n{}{other}", " ".repeat(column)),

@@ -27,7 +27,7 @@ impl Reader<'_> {
             let problem = HOSTS.at(message, place, "").label(earlier, "first here");
             let ways = [(earlier, &first.name), (place, &host.name)];
             let problem = ways.into_iter().fold(problem, |problem, (at, of)| match removal(self.source, at) {
-                Some(removed) => problem.suggest(format!("remove it from `{of}`"), [Edit::new(removed, "")]),
+                Some(removed) => problem.suggest(format!("remove it from `{of}`"), [removed]),
                 None => problem,
             });
             self.report(problem);

@@ -48,7 +48,7 @@ pub(in crate::parse) fn duplicate(
         None => problem,
     };
     removals
-        .fold(problem, |problem, (help, removed)| problem.suggest(help, [Edit::new(removed, "")]))
+        .fold(problem, |problem, (help, removed)| problem.suggest(help, [removed]))
         .note("YAML tools disagree which one wins: PyYAML silently keeps the second")
 }
 

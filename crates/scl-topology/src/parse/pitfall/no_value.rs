@@ -1,6 +1,6 @@
 //! SCL0110: nothing where a name or value is expected.
 
-use crate::diagnostic::{Diagnostic, Edit, Rule, Severity, removal};
+use crate::diagnostic::{Diagnostic, Rule, Severity, removal};
 use crate::parse::field::{Field, end_with_colon};
 use crate::parse::with_dash;
 use crate::source::{SourceFile, Span};
@@ -42,8 +42,8 @@ pub(in crate::parse) fn in_field(field: Field<'_>, what: &str, source: &SourceFi
     let problem = if is_unfinished { problem.help(&*help) } else { problem };
     let problem = match removal(source, entry).filter(|_| key != "name") {
         // Empty quotes are written by programs; a key without anything may be unfinished.
-        Some(removed) if !is_unfinished => problem.propose(format!("remove `{key}`"), [Edit::new(removed, "")]),
-        Some(removed) => problem.suggest(format!("remove `{key}`"), [Edit::new(removed, "")]),
+        Some(removed) if !is_unfinished => problem.propose(format!("remove `{key}`"), [removed]),
+        Some(removed) => problem.suggest(format!("remove `{key}`"), [removed]),
         None => problem,
     };
     problem.note("`~` and `null` are also read as \"no value\"")
@@ -56,7 +56,7 @@ pub(in crate::parse) fn in_list(item: &Node, what: &str, source: &SourceFile) ->
         if item.span.start < item.span.end { value_label(item) } else { "nothing follows; YAML reads this as `null`" };
     let problem = diagnose(what, span, label);
     let problem = match removal(source, span) {
-        Some(removed) => problem.suggest("remove this entry", [Edit::new(removed, "")]),
+        Some(removed) => problem.suggest("remove this entry", [removed]),
         None => problem,
     };
     problem.otherwise("an item follows the `-`").note("`~` and `null` are also read as \"no value\"")

@@ -71,7 +71,7 @@ pub(in crate::parse) fn count(span: Span, items: &[Node], source: &SourceFile) -
 /// `[]`: nothing is lost without it.
 fn with_removal(problem: Diagnostic, span: Span, source: &SourceFile) -> Diagnostic {
     match removal(source, span) {
-        Some(removed) => problem.suggest("remove it", [Edit::new(removed, "")]),
+        Some(removed) => problem.suggest("remove it", [removed]),
         None => problem.help(FORM),
     }
 }
@@ -153,7 +153,7 @@ pub(in crate::parse) fn separator(item: Span, source: &SourceFile) -> String {
     let dash = with_dash(item, source);
     match dash.start == item.start {
         true => ", ".to_owned(),
-        false => format!("\n{}- ", " ".repeat(source.line_column(dash.start).column as usize - 1)),
+        false => format!("\n{}- ", " ".repeat(source.column(dash.start))),
     }
 }
 
@@ -254,7 +254,7 @@ pub(in crate::parse) fn of_section(value: &Node, source: &SourceFile) -> Option<
             _ => vec![end(to)?],
         };
         let entry = from.span.to(to.span);
-        let indent = " ".repeat(source.line_column(from.span.start).column as usize - 1);
+        let indent = " ".repeat(source.column(from.span.start));
         let (start, separator) = if is_flow { ("", ", ".to_owned()) } else { ("- ", format!("\n{indent}- ")) };
         let pairs: Vec<String> = others.iter().map(|other| pair([&from_end, other])).collect();
         if source.snippet(entry).contains('#') || pairs.is_empty() {

@@ -216,7 +216,7 @@ pub(in crate::parse) fn kind_as_key(gate: Field<'_>, fields: &Fields<'_>, source
     let mut edits = vec![Edit::new(field.key_span.to(field.value.span), written.clone())];
     if let Some(of_type) = of_type {
         match removal(source, of_type.key_span.to(of_type.value.span)) {
-            Some(removed) => edits.push(Edit::new(removed, "")),
+            Some(removed) => edits.push(removed),
             None => return Some(problem.help("the type is the value of the kind")),
         }
     }

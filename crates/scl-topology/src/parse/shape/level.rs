@@ -47,7 +47,7 @@ pub(in crate::parse) fn at_top(
         let Some(above) = above else {
             return Some(problem.help("the keys of a component stand below its `- name:`"));
         };
-        let by = key_column(above, source).saturating_sub(shift::column(field.key_span.start, source));
+        let by = key_column(above, source).saturating_sub(source.column(field.key_span.start));
         let edits = shift::indented(field.key_span.to(field.value.span), by, true, source);
         let text = format!("indent it below the name of component `{}`", above.name.value);
         return Some(problem.suggest(text, edits));
@@ -69,8 +69,7 @@ pub(in crate::parse) fn in_component(field: Field<'_>, component: &str, source: 
         let message = format!("`{key}` belongs at the top level, not inside component `{component}`");
         let problem = problem(message, field.key_span, source);
         let whole = field.key_span.to(field.value.span);
-        let edits =
-            shift::outdented(whole, shift::column(whole.start, source), true, source).filter(|edits| !edits.is_empty());
+        let edits = shift::outdented(whole, source.column(whole.start), true, source).filter(|edits| !edits.is_empty());
         return Some(match edits {
             Some(edits) => problem.propose("move it to column 1", edits),
             None => problem.help("sections start in column 1"),
@@ -98,8 +97,7 @@ pub(in crate::parse) fn option_beside_gate(option: Field<'_>, gate: Field<'_>, s
                 Some((format!("write `{written}` in the braces"), Edit::new(end, format!(", {written}"))))
             }
             (false, Some((first, _))) => {
-                let column = |at: u32| shift::column(at, source);
-                let deeper = column(first.span.start).saturating_sub(column(entry.start));
+                let deeper = source.column(first.span.start).saturating_sub(source.column(entry.start));
                 let indented = shift::indented(entry, deeper, true, source);
                 return problem.propose(format!("indent it like the other keys of gate `{}`", gate.key), indented);
             }
@@ -108,9 +106,7 @@ pub(in crate::parse) fn option_beside_gate(option: Field<'_>, gate: Field<'_>, s
         _ => None,
     };
     match (into, removal(source, entry)) {
-        (Some((text, edit)), Some(removed)) if !written.contains('\n') => {
-            problem.propose(text, [edit, Edit::new(removed, "")])
-        }
+        (Some((text, edit)), Some(removed)) if !written.contains('\n') => problem.propose(text, [edit, removed]),
         _ => problem.help(in_gate(option)),
     }
 }
@@ -127,7 +123,7 @@ pub(in crate::parse) fn gate_among_components(item: &Node, above: &ComponentMode
         Some(gate) => {
             let head = shift::head(gate.name.span.start, source);
             let dash = head.len() - head.trim_start_matches(' ').len();
-            let by = dash.saturating_sub(shift::column(start.start, source));
+            let by = dash.saturating_sub(source.column(start.start));
             let text = format!("indent it like the gates of component `{}`", above.name.value);
             let problem = problem.label(gate.name.span, "the gate above");
             match by {

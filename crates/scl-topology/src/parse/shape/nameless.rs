@@ -37,7 +37,7 @@ pub(in crate::parse) fn diagnose(item: &Node, fields: &Fields<'_>, source: &Sour
             if let NodeKind::Mapping { entries } = &first.value.kind
                 && let Some((below, _)) = entries.first()
             {
-                let deeper = shift::column(below.span.start, source).saturating_sub(shift::column(colon.start, source));
+                let deeper = source.column(below.span.start).saturating_sub(source.column(colon.start));
                 let block = Span { start: colon.end, ..first.value.span };
                 edits.extend(shift::outdented(block, deeper, false, source).unwrap_or_default());
             }
@@ -59,7 +59,7 @@ pub(in crate::parse) fn not_a_mapping(item: &Node, source: &SourceFile) -> Diagn
     match &item.kind {
         NodeKind::Scalar { text, .. } if !text.contains('\n') => {
             let name = text.trim();
-            let indent = " ".repeat(shift::column(item.span.start, source));
+            let indent = " ".repeat(source.column(item.span.start));
             let head = shift::head(item.span.start, source);
             let component = match head.contains(['[', ',']) {
                 true => format!("{{name: {name}, gates: []}}"),

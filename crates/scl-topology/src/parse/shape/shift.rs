@@ -22,11 +22,6 @@ pub(super) fn outdented(block: Span, by: usize, has_first: bool, source: &Source
     starts.into_iter().map(removed).collect()
 }
 
-/// Number of characters before a place in its line.
-pub(super) fn column(at: u32, source: &SourceFile) -> usize {
-    source.line_column(at).column as usize - 1
-}
-
 /// The text of a line before a place.
 pub(super) fn head(at: u32, source: &SourceFile) -> &str {
     let start = source.line_range(at as usize).start;

@@ -51,9 +51,7 @@ pub(in crate::parse) fn with_section(problem: &mut Diagnostic, section: Field<'_
         let key = Span { end: end_with_colon(section.key_span, source), ..section.key_span };
         let moved = problem.clone();
         *problem = match removal(source, key).filter(|_| section.value.is_null()) {
-            Some(line) => {
-                moved.suggest("move the line `connections:` above it", above.into_iter().chain([Edit::new(line, "")]))
-            }
+            Some(line) => moved.suggest("move the line `connections:` above it", above.into_iter().chain([line])),
             None => moved.help("connections stand below `connections:`"),
         };
     }

@@ -143,10 +143,8 @@ fn with_type(problem: Diagnostic, field: Field<'_>, kind: Field<'_>, source: &So
     let is_type = habits::of_key(habits::GATE, field.key).is_some_and(|habit| habit.is_type());
     let entry = field.key_span.to(field.value.span);
     match (scalar(field.value), removal(source, entry)) {
-        (Some(name), Some(removed)) if is_type && kind.value.is_null() => problem.propose(
-            format!("write `{}: {}`", kind.key, name.value),
-            [filled(kind, &name.value, source), Edit::new(removed, "")],
-        ),
+        (Some(name), Some(removed)) if is_type && kind.value.is_null() => problem
+            .propose(format!("write `{}: {}`", kind.key, name.value), [filled(kind, &name.value, source), removed]),
         _ => problem,
     }
 }
@@ -166,7 +164,7 @@ fn of_another_tool(
         return problem;
     };
     let problem = match removal(source, field.key_span.to(field.value.span)) {
-        Some(removed) => problem.suggest("remove it", [Edit::new(removed, "")]),
+        Some(removed) => problem.suggest("remove it", [removed]),
         None => problem,
     };
     let reason = GateKind::of(kind).and_then(|kind| option(key)?.reason(kind)).map(|reason| format!(": {reason}"));
