@@ -41,29 +41,33 @@ fn expand_gate(private: &TokenStream, gate: &GatePlan) -> TokenStream {
 /// The options that differ from their defaults.
 fn expand_options(private: &TokenStream, options: &GateOptions) -> TokenStream {
     let fields = GateOptions::ALL.iter().filter_map(|option| {
-        let [ours, default] =
-            [options, &GateOptions::DEFAULT].map(|it| expand_option(private, it.clone(), option.access));
+        let value = expand_option(private, options, option.access)?;
         let name = format_ident!("{}", option.key);
-        (ours.to_string() != default.to_string()).then(|| quote!(#name: #ours,))
+        Some(quote!(#name: #value,))
     });
     quote!(#private::GateOptions { #(#fields)* ..#private::GateOptions::DEFAULT })
 }
 
-fn expand_option(private: &TokenStream, mut options: GateOptions, access: OptionAccess) -> TokenStream {
-    match access {
-        OptionAccess::Number(number) => number(&mut options).to_token_stream(),
-        OptionAccess::Size(size) => size(&mut options).to_token_stream(),
-        OptionAccess::Duration(duration) => expand_duration(private, *duration(&mut options)),
-        OptionAccess::Flag(flag) => flag(&mut options).to_token_stream(),
-        OptionAccess::Policy(policy) => {
-            let policy = variant(policy(&mut options));
+/// The value of an option, unless it is the default.
+fn expand_option(private: &TokenStream, options: &GateOptions, access: OptionAccess) -> Option<TokenStream> {
+    fn changed<T: PartialEq + Clone>(options: &GateOptions, get: fn(&mut GateOptions) -> &mut T) -> Option<T> {
+        let [ours, default] = [options, &GateOptions::DEFAULT].map(|options| get(&mut options.clone()).clone());
+        (ours != default).then_some(ours)
+    }
+    Some(match access {
+        OptionAccess::Number(get) => changed(options, get)?.to_token_stream(),
+        OptionAccess::Size(get) => changed(options, get)?.to_token_stream(),
+        OptionAccess::Duration(get) => expand_duration(private, changed(options, get)?),
+        OptionAccess::Flag(get) => changed(options, get)?.to_token_stream(),
+        OptionAccess::Policy(get) => {
+            let policy = variant(changed(options, get)?);
             quote!(#private::WhenFull::#policy)
         }
-        OptionAccess::Undecodable(choice) => {
-            let choice = variant(choice(&mut options));
+        OptionAccess::Undecodable(get) => {
+            let choice = variant(changed(options, get)?);
             quote!(#private::Undecodable::#choice)
         }
-    }
+    })
 }
 
 fn expand_connection(private: &TokenStream, connection: &ConnectionPlan) -> TokenStream {
