@@ -51,6 +51,39 @@ fn a_clean_file_is_counted() {
 }
 
 #[test]
+fn names_that_clash_in_another_language_are_a_note() {
+    let text = "\
+components:
+  - name: motor
+    gates:
+      - speed: pub
+  - name: motor-open
+    gates:
+      - speed: sub
+connections:
+  - [motor.speed, motor-open.speed]
+";
+    let expected = |err| Expected { code: 0, out: expect![[""]], err };
+    check(
+        &[("topology.yaml", text)],
+        &[],
+        &expected(expect![[r#"
+        topology.yaml: note: component `motor` and component `motor-open` would both become `topology_motor_open` in C; `scl check --for c` shows where
+        topology.yaml: 2 components, 2 gates, 1 connection
+    "#]]),
+    );
+    // With `--for`, the languages that were not asked for are still named.
+    check(
+        &[("topology.yaml", text)],
+        &["--for", "python"],
+        &expected(expect![[r#"
+        topology.yaml: note: component `motor` and component `motor-open` would both become `topology_motor_open` in C; `scl check --for c` shows where
+        topology.yaml: 2 components, 2 gates, 1 connection
+    "#]]),
+    );
+}
+
+#[test]
 fn warnings_do_not_fail() {
     let warned = CLEAN.replace("connections:", "  - name: logger\nconnections:");
     let expected = Expected {

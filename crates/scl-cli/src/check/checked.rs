@@ -1,10 +1,16 @@
 //! The result of checking one file: its diagnostics and its exit code.
 
 use super::CheckArguments;
+#[cfg(feature = "generate")]
+use super::Format;
 use super::deny::deny;
 use super::fix::{Outcome, fix_file};
 use super::source::Source;
 use crate::exit::COULD_NOT_DO;
+#[cfg(feature = "generate")]
+use crate::generate::Language;
+#[cfg(feature = "generate")]
+use clap::ValueEnum;
 use scl_loader::Loaded;
 use scl_topology::diagnostic::{Diagnostic, Severity};
 use std::path::{Path, PathBuf};
@@ -17,6 +23,8 @@ pub(super) struct Checked {
     pub(super) loaded: Loaded,
     /// The diagnostics to show.
     pub(super) shown: Vec<Diagnostic>,
+    /// What `scl generate` would refuse in languages that `--for` does not name, one line for each.
+    pub(super) notes: Vec<String>,
     /// The result of `--fix`; `None` without it, or if the file could not be read.
     pub(super) outcome: Option<Outcome>,
 }
@@ -29,7 +37,7 @@ pub(super) fn check_file(path: &Path, arguments: &CheckArguments) -> Checked {
     let all = std::mem::take(&mut loaded.diagnostics).into_iter().chain(refusals(&loaded, arguments));
     let all = all.map(|it| deny(it, &arguments.deny));
     let shown = all.filter(|it| arguments.lints || it.severity != Severity::Lint).collect();
-    Checked { path: path.to_path_buf(), loaded, shown, outcome }
+    Checked { path: path.to_path_buf(), notes: other_refusals(&loaded, arguments), loaded, shown, outcome }
 }
 
 /// Returns the name clashes for which `scl generate` would refuse a topology without errors, in the languages given
@@ -39,6 +47,25 @@ fn refusals(loaded: &Loaded, arguments: &CheckArguments) -> Vec<Diagnostic> {
     let Some(system) = scl_generate::System::of(loaded) else { return Vec::new() };
     let targets = arguments.languages.iter().map(|language| language.target());
     targets.flat_map(|target| scl_generate::find_clashes(&system, target)).collect()
+}
+
+/// Names that clash only in a language that was not asked for are no problem of the file, unless it has such programs.
+#[cfg(feature = "generate")]
+fn other_refusals(loaded: &Loaded, arguments: &CheckArguments) -> Vec<String> {
+    let others = [Language::C, Language::Cpp, Language::Python].into_iter();
+    let others = others.filter(|other| arguments.format == Format::Text && !arguments.languages.contains(other));
+    let Some(system) = scl_generate::System::of(loaded) else { return Vec::new() };
+    let notes = others.filter_map(|other| {
+        let clash = scl_generate::find_clashes(&system, other.target()).into_iter().next()?;
+        let word = other.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
+        Some(format!("{}; `scl check --for {word}` shows where\n", clash.message))
+    });
+    notes.collect()
+}
+
+#[cfg(not(feature = "generate"))]
+fn other_refusals(_: &Loaded, _: &CheckArguments) -> Vec<String> {
+    Vec::new()
 }
 
 #[cfg(not(feature = "generate"))]

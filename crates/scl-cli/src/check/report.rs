@@ -40,6 +40,8 @@ fn report_text(checked: &Checked) {
         print_err(&fixes_line(outcome, checked));
     }
     show_diagnostics(&checked.loaded, &checked.shown);
+    let path = shown_path(&checked.path);
+    checked.notes.iter().for_each(|note| print_err(&format!("{path}: note: {note}")));
     print_err(&closing_line(checked));
 }
 
