@@ -47,7 +47,7 @@ pub fn plan_text(text: &str) {
 
 fn judge(model: &Model, sources: &Sources, mut problems: Diagnostics) {
     let sockets = SocketPaths { longest_root: LONGEST_ROOT.to_owned(), limit: LONGEST_PATH };
-    let facts = Facts { default_system: "fuzz".to_owned(), messages: None, sockets };
+    let facts = Facts { default_system: "fuzz".to_owned(), messages: None, sockets, ..Facts::default() };
     let topology = check(model, &facts, sources, &mut problems);
     assert!(topology.is_none() || !problems.has_errors(), "a topology in spite of errors");
     // Where the parser has reported an error (here: a mark in the model), the checker need not add one.

@@ -46,19 +46,20 @@ fn sure_fixes_are_written_and_the_rest_is_told() {
         &[],
         1,
         expect![[r#"
-        ----
-        topology.yaml: 2 problems fixed
+            ----
+            topology.yaml: 2 problems fixed
 
-        error: [SCL0501] unknown component `nobody`
-          --> topology.yaml:10:27
-           |
-        10 |   - [sensor.measurements, nobody.there]
-           |                           ^^^^^^ no component has this name
-           |
-           = note: declared components: `controller`, `sensor`
+            error: [SCL0501] unknown component `nobody`
+              --> topology.yaml:10:27
+               |
+            10 |   - [sensor.measurements, nobody.there]
+               |                           ^^^^^^ no component has this name
+               |
+               = help: declare the component `nobody` with the gate `there` (sub), or remove the connection
+               = note: declared components: `controller`, `sensor`
 
-        topology.yaml: 1 error
-    "#]],
+            topology.yaml: 1 error
+        "#]],
     );
     assert_eq!(text, fixed());
 }
@@ -124,6 +125,7 @@ fn a_dry_run_prints_the_difference_and_writes_nothing() {
             10 |   - [sensor.measurements, nobody.there]
                |                           ^^^^^^ no component has this name
                |
+               = help: declare the component `nobody` with the gate `there`, or remove the connection
                = note: declared components: `controller`, `sensor`
 
             topology.yaml: 3 errors

@@ -102,8 +102,12 @@ fn checked(request: &Request, mut loaded: Loaded) -> Loaded {
     let compiled = schemas::compile(request, &loaded.model, &mut loaded.sources, &mut of_schemas);
     let of_schemas = of_schemas.into_sorted();
     found.extend(of_schemas.iter().cloned());
-    let facts =
-        Facts { default_system: request.default_system(), messages: compiled.messages, sockets: plan::socket_paths() };
+    let facts = Facts {
+        default_system: request.default_system(),
+        messages: compiled.messages,
+        unlisted: compiled.unlisted,
+        sockets: plan::socket_paths(),
+    };
     loaded.files_read.extend(compiled.files_read);
     loaded.schemas = compiled.schemas;
     loaded.outlines = compiled.outlines;

@@ -13,6 +13,8 @@ mod edition;
 #[cfg(feature = "protobuf")]
 mod entry;
 #[cfg(feature = "protobuf")]
+mod explain;
+#[cfg(feature = "protobuf")]
 mod folders;
 #[cfg(feature = "protobuf")]
 mod imports;
@@ -30,6 +32,8 @@ pub mod rust;
 #[cfg(not(feature = "protobuf"))]
 mod switched_off;
 #[cfg(feature = "protobuf")]
+mod unlisted;
+#[cfg(feature = "protobuf")]
 pub mod walk;
 
 #[cfg(feature = "protobuf")]
@@ -40,7 +44,7 @@ pub use outline::Outline;
 #[cfg(not(feature = "protobuf"))]
 pub(crate) use switched_off::compile;
 
-use scl_topology::check::SchemaMessages;
+use scl_topology::check::{SchemaMessages, UnlistedSchema};
 use std::path::PathBuf;
 
 /// The compiled schema files of a topology, with all that they import.
@@ -59,6 +63,8 @@ pub struct Schemas {
 pub(crate) struct Compiled {
     /// The messages by entry of `schemas:`; `None` unless every file compiled.
     pub(crate) messages: Option<Vec<SchemaMessages>>,
+    /// The schemas that the file does not name but that declare one of its types.
+    pub(crate) unlisted: Vec<UnlistedSchema>,
     /// The compiled files; `None` unless every file compiled and their Rust names do not clash, or if there are none.
     pub(crate) schemas: Option<Schemas>,
     /// What the schemas seem to declare if one of them is wrong; otherwise empty.

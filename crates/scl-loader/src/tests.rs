@@ -3,7 +3,7 @@
 use crate::testing::{folder, load_from};
 use crate::{Loaded, LookedIn, Request, load, load_bytes};
 use expect_test::{Expect, expect};
-use scl_topology::diagnostic::{Diagnostic, Severity, render};
+use scl_topology::diagnostic::{Severity, render};
 use std::fs;
 use std::process::Command;
 
@@ -11,6 +11,8 @@ use std::process::Command;
 mod imports;
 #[cfg(feature = "protobuf")]
 mod schemas;
+#[cfg(feature = "protobuf")]
+mod ways_out;
 
 const GOOD: &str = "\
 components:

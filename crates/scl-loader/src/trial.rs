@@ -32,7 +32,7 @@ pub(crate) fn try_advice(
             }
             false => {
                 let compiled = schemas::compile(request, &model, &mut sources, &mut problems);
-                Cow::Owned(Facts { messages: compiled.messages, ..facts.clone() })
+                Cow::Owned(Facts { messages: compiled.messages, unlisted: compiled.unlisted, ..facts.clone() })
             }
         };
         check(&model, &facts, &sources, &mut problems);

@@ -118,7 +118,7 @@ fn topology_inside(folder: &Path) -> Option<String> {
 }
 
 /// The names of a folder, sorted, so that a message does not depend on the order on disk.
-fn file_names(folder: &Path) -> Vec<String> {
+pub(crate) fn file_names(folder: &Path) -> Vec<String> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
     let names = entries.take(MOST_ENTRIES).filter_map(|entry| entry.ok()?.file_name().into_string().ok());

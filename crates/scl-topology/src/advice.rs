@@ -11,6 +11,7 @@ use crate::diagnostic::{Diagnostic, Edit, Severity};
 use crate::source::SourceFile;
 use compare::{Change, passes};
 
+pub(crate) use compare::reach;
 pub use edit::apply;
 pub use extent::Extent;
 

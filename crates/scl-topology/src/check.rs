@@ -5,6 +5,7 @@ mod backpressure;
 mod circles;
 mod codec_agreement;
 mod codec_name;
+mod commented_out;
 mod connection_end;
 mod control;
 mod deadlock;
@@ -17,15 +18,18 @@ mod exchange_type;
 mod feedback;
 mod finish;
 mod fitting_gate;
+mod foreign_package;
 mod gate_kind;
 mod inference;
 mod island;
 mod keyword;
+mod merge;
 mod message_type;
 mod misread;
 mod name_spelling;
 mod name_style;
 mod named;
+mod namespace;
 mod needless_mark;
 mod no_effect;
 mod option;
@@ -40,21 +44,27 @@ mod repeated;
 mod reserved_name;
 mod rust_path;
 mod schema_codec;
+mod schema_names;
+mod schema_package;
 mod schema_type;
 mod self_connection;
 mod shared_socket;
 mod short_timeout;
 mod similar_name;
+mod split_gate;
 mod suspect;
 mod system_name;
 #[cfg(test)]
 pub(crate) mod testing;
 #[cfg(test)]
 mod together;
+mod twin_gate;
 mod unconnected;
 mod unknown_component;
 mod unknown_gate;
+mod unknown_type;
 mod waits;
+mod wildcard;
 
 use crate::diagnostic::{Diagnostics, Rule};
 use crate::model::Model;
@@ -63,6 +73,7 @@ use crate::source::Sources;
 use crate::topology::Topology;
 use draft::Draft;
 use rename::Renames;
+use std::collections::BTreeMap;
 
 pub use all_rules::{ALL, find};
 pub use unknown_component::UNKNOWN as UNKNOWN_COMPONENT;
@@ -91,6 +102,7 @@ pub(crate) const RULES: &[&Rule] = &[
     &schema_type::RULE,
     &codec_name::RULE,
     &schema_codec::RULE,
+    &foreign_package::RULE,
     &option::MISFIT,
     &option::VALUE,
     &backpressure::RULE,
@@ -142,6 +154,9 @@ pub struct Facts {
     /// What the schemas declare, in the order of the file's `schemas`. `None` if the file names none or they could not
     /// be compiled: then types are not looked up.
     pub messages: Option<Vec<SchemaMessages>>,
+    /// Schema files beside these that the file does not name and none of them imports, but which may declare one of its
+    /// types.
+    pub unlisted: Vec<UnlistedSchema>,
     /// The limits on the paths of sockets, which contain the names of components and gates.
     pub sockets: SocketPaths,
 }
@@ -154,6 +169,17 @@ pub struct SchemaMessages {
     pub names: Vec<String>,
     /// The packages of the file and of the files that only it imports, including packages without messages.
     pub packages: Vec<String>,
+    /// The full names of the enums, each with those of the messages that have a field of it.
+    pub enums: BTreeMap<String, Vec<String>>,
+}
+
+/// A schema file that a topology does not name.
+#[derive(Debug, Clone, Default)]
+pub struct UnlistedSchema {
+    /// As an entry of `schemas` would name it.
+    pub path: String,
+    /// The full names of its messages.
+    pub names: Vec<String>,
 }
 
 /// Runs all checks; does not stop at the first problem.
@@ -172,6 +198,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     gate_kind::check(&mut draft, problems);
     payload_type::check(&mut draft, problems);
     schema_type::check(&mut draft, facts, problems);
+    foreign_package::check(&draft, facts, problems);
     rust_path::check(&mut draft, facts, problems);
     option::check(&mut draft, problems);
     let codec = codec_name::check(&mut draft, problems);
@@ -180,7 +207,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     payload_type::check_number(&draft, problems);
     duplicate_connection::check(&mut draft, problems);
     pair_kinds::check(&mut draft, problems);
-    self_connection::check(&draft, problems);
+    self_connection::check(&mut draft, problems);
     peers::check(&draft, problems);
     backpressure::check(&draft, problems);
 
@@ -213,7 +240,7 @@ fn check_names(model: &Model, sources: &Sources, problems: &mut Diagnostics) {
     let renames = Renames::of(model, sources);
     name_spelling::check(model, &renames, problems);
     keyword::check(model, &renames, problems);
-    similar_name::check(model, problems);
-    reserved_name::check(model, problems);
+    similar_name::check(model, sources, &renames, problems);
+    reserved_name::check(model, &renames, problems);
     name_style::check(model, &renames, problems);
 }

@@ -1,7 +1,7 @@
 //! Characters that look like ASCII characters but are not: marks of word processors, letters of other scripts.
 
 /// What each character is called, and the mark it is taken for.
-const MARKS: [(char, &str, &str); 39] = [
+const MARKS: [(char, &str, &str); 49] = [
     ('：', "a fullwidth colon", ":"),
     ('，', "a fullwidth comma", ","),
     ('、', "an ideographic comma", ","),
@@ -31,8 +31,18 @@ const MARKS: [(char, &str, &str); 39] = [
     ('–', "an en dash", "-"),
     ('—', "an em dash", "-"),
     ('−', "a minus sign", "-"),
+    ('‒', "a figure dash", "-"),
+    ('―', "a horizontal bar", "-"),
+    ('─', "a line of a box", "-"),
+    ('➜', "an arrow", "->"),
+    ('⟶', "a long arrow", "->"),
+    ('➔', "an arrow", "->"),
+    ('‣', "a bullet", "-"),
     ('－', "a fullwidth hyphen", "-"),
     ('•', "a bullet", "-"),
+    ('●', "a bullet", "-"),
+    ('◦', "a bullet", "-"),
+    ('▪', "a bullet", "-"),
     ('→', "an arrow", "->"),
     ('⇒', "a double arrow", "->"),
     ('꞉', "a letter colon", ":"),

@@ -2,6 +2,7 @@
 
 mod help;
 mod limit;
+mod list_edit;
 mod render;
 mod rule;
 #[cfg(test)]
@@ -13,6 +14,7 @@ use std::borrow::Cow;
 pub use help::{Edit, Help, Proposal, removal};
 pub(crate) use limit::RULE as TOO_MANY;
 pub use limit::{MOST_SHOWN, limit};
+pub use list_edit::{appended, new_list};
 pub use render::{render, render_headless, render_styled};
 pub use rule::{Rule, Severity};
 
@@ -91,7 +93,7 @@ impl Diagnostic {
     }
 
     /// Marks all problems of the rule about this name as one mistake.
-    pub(crate) fn about(mut self, subject: impl Into<String>) -> Self {
+    pub fn about(mut self, subject: impl Into<String>) -> Self {
         self.subject = Some(subject.into());
         self
     }

@@ -2,6 +2,10 @@
 //!
 //! The words of the kinds of gate and of the codecs that other tools have stand in their own tables, as synonyms.
 
+mod values;
+
+use values::VALUES;
+
 /// What people write who know another tool.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Habit {
@@ -75,9 +79,10 @@ pub(crate) static COMPONENT: &[Habit] = &[
         "which program runs a component stands in the launch file, as its `command`",
     ),
     habit(
-        "env environment envfile variables parameters params config arg",
+        "env environment envfile variables parameters params config arg rosparameters rosparams settings",
         &[],
-        "settings of a program stand in the launch file, as its `environment` or in its `command`",
+        "a topology has no settings of programs: remove them here, and give them to the program in the launch file, by \
+         its `environment` or `command`",
     ),
     habit(
         "restart respawn restartpolicy restartdelay respawndelay",
@@ -105,6 +110,11 @@ pub(crate) static COMPONENT: &[Habit] = &[
         "how a program is started stands in the launch file, for example its `working_directory`",
     ),
     habit(
+        "namespace ns",
+        &[],
+        "there are no namespaces: each component has a name of its own, for example `left_camera`",
+    ),
+    habit(
         "count replicas instances scale number",
         &[],
         "each program that runs is a component of its own, with a name of its own",
@@ -125,15 +135,15 @@ pub(crate) static GATE: &[Habit] = &[
     ),
     habit("size maxsize", &["queue", "max_size"], ""),
     habit(
-        "onfull overflow overflowpolicy droppolicy policy whenoverflow congestioncontrol iffull onoverflow discard discardpolicy",
+        "onfull overflow overflowpolicy droppolicy policy whenoverflow congestioncontrol iffull onoverflow discard discardpolicy leaky onoverrun overrun",
         &["when_full"],
         "",
     ),
     habit(
         "reliability qos history delivery guarantee",
         &["when_full"],
-        "a receiver with `when_full: wait` loses no message, if its sender has `backpressure: true`; otherwise `queue` \
-         says how many messages may wait for it",
+        "`queue` says how many messages may wait for a receiver, and `when_full` what happens to the others: losing the \
+         oldest is the default, and `when_full: wait` loses none, if the sender has `backpressure: true`",
     ),
     habit(
         "reliable blocking block lossless flowcontrol",
@@ -167,7 +177,8 @@ pub(crate) static GATE: &[Habit] = &[
     habit(
         "optional required mandatory",
         &[],
-        "`optional` is a key of a component, whose peers then do not wait for it; a gate without a peer has `unconnected: ok`",
+        "`optional: true` stands at the component that may be missing, beside its `name`: peers do not wait for it; a \
+         gate without a peer has `unconnected: ok`",
     ),
     habit("allowunconnected mayunconnected unused open", &["unconnected: ok"], ""),
     habit("shared loadbalance loadbalancing roundrobin competing", &["share"], ""),
@@ -209,6 +220,22 @@ pub(crate) static GATE: &[Habit] = &[
     ),
 ];
 
+/// Parts of the names that other tools have for options, of which each word may be a part of a longer one:
+/// `max_nb_message`, `rx-buffers`.
+static PARTS: &[Habit] = &[
+    habit(
+        "queue queued buffer buffers buffered message messages msg msgs sample samples depth backlog mailbox fifo hwm capacity",
+        &["queue"],
+        "",
+    ),
+    habit("size", &["queue", "max_size"], ""),
+    habit("bytes", &["max_size"], ""),
+    habit("timeout deadline", &["timeout"], ""),
+    habit("inflight outstanding concurrent concurrency", &["in_flight"], ""),
+    habit("full overflow overrun policy drop discard", &["when_full"], ""),
+    habit("latched latch retain retained durability", &["latched"], ""),
+];
+
 const ACTION: &str = "an action is a `rep` gate for its goal, and a `pub` gate for its feedback";
 
 /// In the place of the kind of a gate, without a kind that is the same.
@@ -240,47 +267,6 @@ pub(crate) static CODECS: &[Habit] = &[
     ),
 ];
 
-/// The values that other tools have, by option.
-static VALUES: &[(&str, &[Habit])] = &[
-    (
-        "when_full",
-        &[
-            habit(
-                "block blocking reliable suspend backpressure keepall pause never await true exactlyonce atleastonce",
-                &["wait"],
-                "it is called `wait` here, and needs `backpressure: true` at the sender",
-            ),
-            habit(
-                "overwrite besteffort keeplast keeplatest latest ring discardold discardoldest drophead head drop oldest conflate atmostonce shift",
-                &["drop_oldest"],
-                "",
-            ),
-            habit(
-                "droptail tail reject ignore discardnew discardnewest newest keepfirst keepoldest",
-                &["drop_newest"],
-                "",
-            ),
-        ],
-    ),
-    (
-        "undecodable",
-        &[
-            habit("ignore drop discard dropnewest dropoldest continue log warn", &["skip"], ""),
-            habit("error raise throw abort stop crash exit panic", &["fail"], ""),
-        ],
-    ),
-    ("unconnected", &[habit("true yes allow allowed on 1 optional intended okay ignore", &["ok"], "")]),
-    (
-        "latched",
-        &[habit("transientlocal transient persistent retain last", &["true"], ""), habit("volatile", &["false"], "")],
-    ),
-    ("queue", &[habit(UNLIMITED, &[], "there is no unlimited queue")]),
-    ("max_size", &[habit(UNLIMITED, &[], "a size is always limited")]),
-    ("timeout", &[habit(UNLIMITED, &[], "a call always ends: there is no unlimited timeout")]),
-];
-
-const UNLIMITED: &str = "unlimited infinite infinity inf none unbounded forever never max all keepall 1 .inf ∞";
-
 impl Habit {
     fn has(&self, word: &str) -> bool {
         self.words.split(' ').any(|other| other == word)
@@ -289,6 +275,12 @@ impl Habit {
     /// Whether the words stand before the type of a gate.
     pub(crate) fn is_type(&self) -> bool {
         self.has("msgtype")
+    }
+
+    /// The kind of the gates that other tools list under these words.
+    pub(crate) fn port(&self) -> Option<&'static str> {
+        let kinds = [("inputs", "sub"), ("outputs", "pub")];
+        kinds.into_iter().find(|(word, _)| self.has(word)).map(|(_, kind)| kind)
     }
 
     /// Whether the words stand before the kind of a gate.
@@ -301,6 +293,19 @@ impl Habit {
 pub(crate) fn of_key(table: &'static [Habit], word: &str) -> Option<&'static Habit> {
     let word = compact(word);
     table.iter().find(|habit| habit.has(&word))
+}
+
+/// The habit that a part of a longer name of an option comes from, the last part first.
+pub(crate) fn of_part(key: &str) -> Option<&'static Habit> {
+    let hump = |pair: (char, char)| pair.0.is_lowercase() && pair.1.is_uppercase();
+    let mut words = String::new();
+    let mut before = ' ';
+    for letter in key.chars() {
+        words.extend(hump((before, letter)).then_some('_'));
+        words.push(letter);
+        before = letter;
+    }
+    words.rsplit(['_', '-', ' ', '.']).find_map(|word| of_key(PARTS, word))
 }
 
 /// The habit that a value of an option comes from.

@@ -49,6 +49,8 @@ pub struct ComponentModel {
     pub gates: Vec<GateModel>,
     /// Some gates could not be read, and a problem says so. A gate that seems to be unknown may be one of them.
     pub gates_unread: bool,
+    /// The whole entry, without the dash before it.
+    pub span: Span,
 }
 
 /// One entry of `gates`.
@@ -64,6 +66,8 @@ pub struct GateModel {
     pub payload: Option<Spanned<String>>,
     /// The options as written.
     pub options: Vec<OptionModel>,
+    /// Some options could not be read, and a problem says so. An option that seems to be missing may be one of them.
+    pub options_unread: bool,
     /// The whole entry, from the name to the last option.
     pub span: Span,
 }

@@ -30,6 +30,7 @@ pub use dialect::Dialect;
 pub use document::Document;
 pub use field::{Field, Fields};
 pub use fields::fields;
+pub(crate) use pitfall::habit::template::{FILL_IN, placeholder};
 pub(crate) use pitfall::look_alike::LETTER;
 pub(crate) use pitfall::{MISREAD, RULES as PITFALLS};
 pub(crate) use shape::RULES as SHAPES;
@@ -113,12 +114,29 @@ struct Reader<'s> {
     model: Model,
     /// Connections stand where they do not belong, and a problem says so.
     has_stray_connections: bool,
+    /// How many problems may still search the whole file, so that time stays linear.
+    searches_left: usize,
+    /// The component that is being read, or else the last one.
+    component: Option<Span>,
+    /// The last item of the list of connections.
+    last_connection: Option<Span>,
 }
+
+/// Maximum number of problems that search the whole file.
+const MOST_SEARCHES: usize = 20;
 
 impl<'s> Reader<'s> {
     fn new(source: &'s SourceFile) -> Self {
         let (problems, model) = (Diagnostics::new(), Model::default());
-        Reader { source, problems, model, has_stray_connections: false }
+        Reader {
+            source,
+            problems,
+            model,
+            has_stray_connections: false,
+            searches_left: MOST_SEARCHES,
+            component: None,
+            last_connection: None,
+        }
     }
 
     fn read_root(&mut self, document: &Document) {

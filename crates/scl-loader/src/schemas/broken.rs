@@ -2,6 +2,7 @@
 //! place.
 
 use super::disk::SchemaFile;
+use super::explain::{Explained, explain};
 use super::mistake::Mistake;
 use super::place::Texts;
 use miette::Diagnostic as _;
@@ -23,7 +24,8 @@ impl Texts<'_> {
         if mistakes.is_empty() {
             return vec![self.error(error, schema)];
         }
-        let new: Vec<Mistake> = mistakes.into_iter().filter(|mistake| !told.contains(mistake)).collect();
+        let is_new = |mistake: &Mistake| !mistake.follows && !told.contains(mistake);
+        let new: Vec<Mistake> = mistakes.into_iter().filter(is_new).collect();
         let problems = new.iter().map(|mistake| self.mistake(mistake, schema)).collect();
         told.extend(new);
         problems
@@ -42,7 +44,10 @@ impl Texts<'_> {
                 let at = found.as_ref().map_or((file.text.len(), 0), |label| (label.offset(), label.len()));
                 let label = found.as_ref().and_then(|label| label.label().map(in_backticks)).unwrap_or_default();
                 let span = self.span(file, at.0..at.0.saturating_add(at.1));
-                SCHEMA.at(message, span, label).label(schema.span, BECAUSE)
+                let Explained { help, places } =
+                    explain(&error.to_string(), &file.text, at.0, &file.path, self.folders);
+                let places = places.into_iter().map(|place| (self.span(file, place), "and here")).collect::<Vec<_>>();
+                SCHEMA.at(message, span, label).labels(places).label(schema.span, BECAUSE).helps(help)
             }
             _ => SCHEMA.at(message, schema.span, "named here"),
         };
@@ -59,7 +64,15 @@ impl Texts<'_> {
             }
             None => SCHEMA.at(&mistake.message, schema.span, "named here"),
         };
-        problem.helps(&mistake.help).notes(&mistake.note)
+        let problem = match &mistake.root {
+            Some(root) => self.folders.suggest_root(problem, root, self.sources),
+            None => problem,
+        };
+        let problem = problem.helps(&mistake.help).notes(&mistake.note);
+        match &mistake.subject {
+            Some(subject) => problem.about(subject),
+            None => problem,
+        }
     }
 }
 

@@ -15,6 +15,7 @@ pub(super) fn find(text: &str, file: &Path) -> Option<Mistake> {
             label: "only `proto2` and `proto3` are read".to_owned(),
             help: Some("write `syntax = \"proto3\";`, and `optional` before each field that has presence".to_owned()),
             note: Some("the bytes of messages stay the same unless the file sets features".to_owned()),
+            ..Mistake::default()
         });
     }
     feature(text, file)
@@ -44,6 +45,7 @@ fn feature(text: &str, file: &Path) -> Option<Mistake> {
             label: "a feature of an edition of protobuf".to_owned(),
             help: Some(help.to_owned()),
             note: Some("SCL reads `proto2` and `proto3`, and no editions yet".to_owned()),
+            ..Mistake::default()
         });
     }
     None

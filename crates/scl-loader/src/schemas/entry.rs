@@ -2,13 +2,14 @@
 
 use super::disk::why;
 use super::folders::{Folders, Found};
+use super::outline::{Outline, outline};
 use crate::read::{Unreadable, read_text};
-use crate::unreadable::similar_file;
+use crate::unreadable::{file_names, similar_file};
 use scl_topology::diagnostic::{Diagnostic, Diagnostics};
 use scl_topology::external::{SCHEMA, SCHEMA_ELSEWHERE, SCHEMA_TWICE};
 use scl_topology::model::Model;
-use scl_topology::source::{Span, Spanned};
-use std::collections::HashMap;
+use scl_topology::source::{Sources, Span, Spanned};
+use std::collections::{HashMap, HashSet};
 use std::path::{Component, Path, PathBuf};
 
 /// The files that earlier entries lead to.
@@ -73,13 +74,25 @@ pub(super) fn roots_exist(model: &Model, folders: &Folders, problems: &mut Diagn
     wrong.is_empty()
 }
 
-/// Reports an entry that is in none of the roots, or that has the same path in its root as another file.
-pub(super) fn misplaced(schema: &Spanned<String>, folders: &Folders) -> Option<Diagnostic> {
+/// Reports an entry that is in none of the roots, or that has the same path in its root as another file. `imports` are
+/// what all entries import.
+pub(super) fn misplaced<'i>(
+    schema: &Spanned<String>,
+    folders: &Folders,
+    sources: &Sources,
+    imports: impl FnOnce() -> &'i HashSet<String>,
+) -> Option<Diagnostic> {
     let entry = &schema.value;
     let Some(name) = folders.name_of_entry(entry) else {
         let message = format!("the schema `{entry}` is in none of the folders of `schema_roots`");
-        let beside = Path::new(entry).parent().unwrap_or(Path::new(""));
-        return Some(SCHEMA.at(message, schema.span, "").help(folders.with_root(beside)));
+        let path = Path::new(entry);
+        let imports = imports();
+        let is_imported = |root: &&Path| {
+            path.strip_prefix(root).ok().and_then(Path::to_str).is_some_and(|name| imports.contains(name))
+        };
+        let beside = path.parent().unwrap_or(Path::new(""));
+        let root = path.ancestors().skip(1).find(is_imported).unwrap_or(beside);
+        return Some(folders.suggest_root(SCHEMA.at(message, schema.span, ""), root, sources));
     };
     match folders.find(&name) {
         Found::Two(one, other) if folders.are_roots => {
@@ -96,17 +109,61 @@ pub(super) fn misplaced(schema: &Spanned<String>, folders: &Folders) -> Option<D
 pub(super) fn refuse(schema: &Spanned<String>, folders: &Folders, max_size: u64) -> Option<Diagnostic> {
     let name = &schema.value;
     let path = folders.path(Path::new(name));
-    let cause = read_text(&path, max_size).err()?;
-    if !matches!(cause, Unreadable::Missing) {
-        let why = why(Path::new(name), cause);
-        return Some(SCHEMA.at(format!("the schema file {why}"), schema.span, ""));
+    let beside = |other: String| Path::new(name).with_file_name(other).display().to_string();
+    let (headline, near) = match read_text(&path, max_size) {
+        Ok(text) if is_schema(&path) || outline(&text) != Outline::default() => return None,
+        Ok(_) => (format!("`{name}` is not a `.proto` file"), generated_from(&path)),
+        Err(Unreadable::Missing) => {
+            let near = generated_from(&path).or_else(|| similar_file(&path, &[]));
+            (format!("cannot find the schema file `{name}`"), near.filter(|near| is_schema(Path::new(near))))
+        }
+        Err(cause) => {
+            let found = SCHEMA.at(format!("the schema file {}", why(Path::new(name), cause)), schema.span, "");
+            let inside: Vec<String> =
+                schemas_in(&path).map(|file| format!("{}/{file}", name.trim_end_matches('/'))).collect();
+            return Some(match inside.as_slice() {
+                [] => found,
+                files => found.did_you_mean(name, files.get(..MOST_INSIDE).unwrap_or(files)),
+            });
+        }
+    };
+    let problem = SCHEMA.at(headline, schema.span, label_of(&path));
+    let problem = problem.did_you_mean(name, near.map(beside).as_slice());
+    Some(match is_schema(&path) {
+        true => problem.note("schemas are looked for beside the topology file"),
+        false => problem.note("`schemas` names the `.proto` files that declare the messages"),
+    })
+}
+
+/// Maximum number of files of a folder that a message names.
+const MOST_INSIDE: usize = 3;
+
+fn is_schema(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == "proto")
+}
+
+fn schemas_in(folder: &Path) -> impl Iterator<Item = String> {
+    file_names(folder).into_iter().filter(|name| is_schema(Path::new(name)))
+}
+
+/// What a file is that `protoc` generates, or in which another tool declares messages.
+fn label_of(path: &Path) -> &'static str {
+    match path.extension().and_then(|ending| ending.to_str()) {
+        Some("msg" | "srv" | "action") => "a definition of ROS",
+        Some("py" | "pyi" | "h" | "hpp" | "cc" | "cpp" | "c" | "rs" | "go" | "java" | "js" | "ts") => {
+            "code, not a schema"
+        }
+        _ => "",
     }
-    let near = similar_file(&path, &[]).map(|near| match Path::new(name).parent() {
-        Some(folder) => folder.join(near).display().to_string(),
-        None => near,
-    });
-    let problem = SCHEMA.at(format!("cannot find the schema file `{name}`"), schema.span, "");
-    Some(problem.did_you_mean(name, near.as_slice()).note("schemas are looked for beside the topology file"))
+}
+
+/// The `.proto` file beside a file that `protoc` makes of it: `tide.proto` for `tide_pb2.py` and `tide.pb.h`.
+fn generated_from(path: &Path) -> Option<String> {
+    let name = path.file_name()?.to_str()?.to_lowercase();
+    let stem = name.split('.').next().unwrap_or_default();
+    let stem = ["_pb2_grpc", "_pb2", "_pb"].iter().find_map(|end| stem.strip_suffix(end)).unwrap_or(stem);
+    let folder = path.parent().filter(|_| !is_schema(path))?;
+    schemas_in(folder).find(|other| other.to_lowercase().strip_suffix(".proto") == Some(stem))
 }
 
 #[cfg(test)]

@@ -1,8 +1,14 @@
 //! The folders in which schemas are looked for, and the files that a name can mean there.
 
 use crate::read::read_text;
+use crate::unreadable::file_names;
+use scl_topology::diagnostic::{Diagnostic, appended, new_list};
 use scl_topology::model::Model;
+use scl_topology::source::{Sources, Spanned};
 use std::path::{Component, Path, PathBuf};
+
+/// Maximum number of schema files that are looked at because a name may be declared in one of them.
+pub(super) const MOST_FILES: usize = 64;
 
 /// Where imports are looked for: in the folders of `schema_roots`, or else beside the topology file and beside the
 /// schemas that it names.
@@ -15,6 +21,8 @@ pub(super) struct Folders {
     pub(super) are_roots: bool,
     /// The entries of `schemas`, in their order: the name under which the compiler knows each, and its path.
     entries: Vec<(Option<String>, PathBuf)>,
+    schemas: Vec<Spanned<String>>,
+    roots: Vec<Spanned<String>>,
     max_size: u64,
 }
 
@@ -36,7 +44,14 @@ impl Folders {
         let are_roots = !model.schema_roots.is_empty();
         let wanted: Vec<PathBuf> =
             if are_roots { roots.collect() } else { std::iter::once(PathBuf::new()).chain(beside).collect() };
-        let mut folders = Self { topology: topology.to_path_buf(), are_roots, max_size, ..Self::default() };
+        let mut folders = Self {
+            topology: topology.to_path_buf(),
+            are_roots,
+            schemas: model.schemas.clone(),
+            roots: model.schema_roots.clone(),
+            max_size,
+            ..Self::default()
+        };
         for folder in wanted {
             if !folders.all.contains(&folder) {
                 folders.all.push(folder);
@@ -52,11 +67,50 @@ impl Folders {
         self.all.iter().map(|folder| as_root(folder)).collect()
     }
 
-    /// Returns the help that suggests adding a folder to `schema_roots`.
-    pub(super) fn with_root(&self, folder: &Path) -> String {
+    /// Suggests adding a folder to `schema_roots`.
+    pub(super) fn suggest_root(&self, problem: Diagnostic, folder: &Path, sources: &Sources) -> Diagnostic {
+        let root = as_root(folder);
         let known = self.all.iter().filter(|_| self.are_roots).map(|known| as_root(known));
-        let roots: Vec<String> = known.chain([as_root(folder)]).collect();
-        format!("name the folder in which imports begin: `schema_roots: [{}]`", roots.join(", "))
+        let roots: Vec<String> = known.chain([root.clone()]).collect();
+        let text = format!("name the folder in which imports begin: `schema_roots: [{}]`", roots.join(", "));
+        let edit = self.schemas.first().and_then(|schema| {
+            let source = sources.file(schema.span.file);
+            match self.are_roots {
+                true => appended(source, "schema_roots", &self.roots, &root),
+                false => new_list(source, "schemas", schema.span, "schema_roots", &root),
+            }
+        });
+        match edit {
+            Some((_, edit)) => {
+                problem.suggest(text, [edit]).otherwise("`schema_roots` lists the folders in which imports begin")
+            }
+            None => problem.help(text),
+        }
+    }
+
+    /// Whether an import names an entry of `schemas` that is in none of the roots.
+    pub(super) fn is_misplaced(&self, import: &str) -> bool {
+        self.entries.iter().any(|(known, path)| known.is_none() && path.ends_with(import))
+    }
+
+    /// The paths of the entries of `schemas`.
+    pub(super) fn entries(&self) -> impl Iterator<Item = &Path> {
+        self.entries.iter().map(|(_, path)| path.as_path())
+    }
+
+    /// The schema files in the folders where imports are looked for and beside the topology file: at most
+    /// [`MOST_FILES`].
+    pub(super) fn schema_files(&self) -> Vec<PathBuf> {
+        let folders =
+            [PathBuf::new()].into_iter().chain(self.all.iter().filter(|it| !it.as_os_str().is_empty()).cloned());
+        let folders = folders.map(|folder| self.topology.join(folder));
+        let files = folders.flat_map(|folder| file_names(&folder).into_iter().map(move |name| folder.join(name)));
+        files.filter(|path| path.extension().is_some_and(|ending| ending == "proto")).take(MOST_FILES).collect()
+    }
+
+    /// The text of a file, if it can be read.
+    pub(super) fn read(&self, path: &Path) -> Option<String> {
+        read_text(path, self.max_size).ok()
     }
 
     /// The name under which the compiler knows an entry of `schemas`; `None` if it is in none of the roots.
@@ -119,10 +173,7 @@ impl Folders {
 
     fn has_same_content(&self, one: &Path, other: &Path) -> bool {
         let is_same_file = || one.canonicalize().ok() == other.canonicalize().ok();
-        let has_same_text = || match (read_text(one, self.max_size), read_text(other, self.max_size)) {
-            (Ok(one), Ok(other)) => one == other,
-            _ => false,
-        };
+        let has_same_text = || self.read(one).is_some_and(|one| self.read(other) == Some(one));
         is_same_file() || has_same_text()
     }
 }

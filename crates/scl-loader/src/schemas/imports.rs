@@ -3,8 +3,10 @@
 use super::folders::{Folders, Found};
 use super::lexemes::{Lexemes, is_string};
 use super::mistake::Mistake;
+use super::outline::outline;
 use crate::unreadable::similar_file;
 use protox::file::{FileResolver, GoogleFileResolver};
+use std::collections::HashSet;
 use std::ops::Range;
 use std::path::{Component, Path, PathBuf};
 
@@ -44,6 +46,12 @@ pub(super) fn look_up(text: &str, path: &Path, folders: &Folders) -> Imported {
     imported
 }
 
+/// What the entries of `schemas` import.
+pub(super) fn of_entries(folders: &Folders) -> HashSet<String> {
+    let texts = folders.entries().filter_map(|path| folders.read(path));
+    texts.flat_map(|text| imports(&text).into_iter().map(|import| import.name.to_owned()).collect::<Vec<_>>()).collect()
+}
+
 /// Whether this is one of protobuf's own files, which are built into every implementation.
 pub(super) fn is_built_in(name: &str) -> bool {
     name.starts_with("google/protobuf/") && GoogleFileResolver::new().open_file(name).is_ok()
@@ -72,7 +80,8 @@ impl Importer<'_> {
     fn mistake(&self, import: &Import<'_>, message: String, help: Option<String>, note: &str) -> Mistake {
         let label = "imported here".to_owned();
         let file = self.file.display().to_string();
-        Mistake { file, at: import.at.clone(), message, label, help, note: Some(note.to_owned()) }
+        let at = import.at.clone();
+        Mistake { file, at, message, label, help, note: Some(note.to_owned()), ..Mistake::default() }
     }
 
     /// Reports a path that protobuf does not allow: `import "../a.proto";`.
@@ -88,20 +97,22 @@ impl Importer<'_> {
     fn missing(&self, import: &Import<'_>) -> Mistake {
         let message = format!("cannot find `{}`, which `{}` imports", import.name, self.shown());
         let above = self.above().find(|folder| self.folders.path(&folder.join(import.name)).is_file());
-        let help = above.map(|folder| {
+        if let Some(folder) = above {
             let in_roots = || self.folders.import_name(&self.folders.path(&folder.join(import.name)));
             let name = if self.folders.are_roots { in_roots() } else { None };
-            name.map_or_else(|| self.folders.with_root(&folder), write_import)
-        });
-        let help = help.or_else(|| {
+            let root = name.is_none().then_some(folder);
+            return Mistake { root, ..self.mistake(import, message, name.map(write_import), self.where_imports_are()) };
+        }
+        let help = || {
             let near = self.folders.candidates(import.name).find_map(|path| similar_file(&path, &[]))?;
             let near = Path::new(import.name).with_file_name(near);
             // The file with the similar name may be the importing file itself.
             let is_itself =
                 self.folders.candidates(near.to_str()?).any(|path| self.folders.relative(&path) == self.file);
             (!is_itself).then(|| format!("a file with a similar name exists: `{}`", near.display()))
-        });
-        self.mistake(import, message, help, self.where_imports_are())
+        };
+        let follows = self.folders.is_misplaced(import.name);
+        Mistake { follows, ..self.mistake(import, message, help(), self.where_imports_are()) }
     }
 
     fn ambiguous(&self, import: &Import<'_>, found: [PathBuf; 2]) -> Mistake {
@@ -113,13 +124,29 @@ impl Importer<'_> {
         let is_beside = |path: &Path| self.folders.relative(path).parent() == self.file.parent();
         let in_order = if is_beside(second) { [second, first] } else { [first, second] };
         let longer = in_order.into_iter().filter_map(|path| self.folders.import_name(path)).find(|path| path != name);
-        let help = match longer {
-            Some(longer) => {
+        let help = match (self.first_difference(&found), longer) {
+            (Some(line), _) => {
+                format!("both declare the same messages, and differ in line {line}: make them equal, or keep only one")
+            }
+            (None, Some(longer)) => {
                 format!("rename one of the files, or write a path that only one has: `import \"{longer}\";`")
             }
-            None => "rename one of the files, or remove its folder from `schema_roots`".to_owned(),
+            (None, None) => "rename one of the files, or remove its folder from `schema_roots`".to_owned(),
         };
-        self.mistake(import, message, Some(help), self.where_imports_are())
+        let subject = Some(name.to_owned());
+        Mistake { subject, ..self.mistake(import, message, Some(help), self.where_imports_are()) }
+    }
+
+    /// The first line that differs in two files that declare messages of the same names: they are copies.
+    fn first_difference(&self, files: &[PathBuf; 2]) -> Option<usize> {
+        let [one, other] = files.each_ref().map(|path| self.folders.read(path));
+        let (one, other) = (one?, other?);
+        let names = |text: &str| outline(text).full_names().collect::<HashSet<_>>();
+        if names(&one).is_disjoint(&names(&other)) {
+            return None;
+        }
+        let same = one.lines().zip(other.lines()).take_while(|(one, other)| one == other);
+        Some(same.count() + 1)
     }
 
     /// An import of a file that is also an entry of `schemas`, under another name.
@@ -127,16 +154,10 @@ impl Importer<'_> {
         let name = import.name;
         let message = format!("`{name}`, which `{}` imports, is the schema `{entry}` under another name", self.shown());
         let root = entry.strip_suffix(name).and_then(|root| root.strip_suffix('/'));
-        let help = match root {
-            Some(root) if !self.folders.are_roots => self.folders.with_root(Path::new(root)),
-            _ => write_import(entry.to_owned()),
-        };
-        self.mistake(
-            import,
-            message,
-            Some(help),
-            "protobuf knows a file by its name: its messages would be declared twice",
-        )
+        let root = root.filter(|_| !self.folders.are_roots).map(PathBuf::from);
+        let help = if root.is_some() { None } else { Some(write_import(entry.to_owned())) };
+        let note = "protobuf knows a file by its name: its messages would be declared twice";
+        Mistake { root, ..self.mistake(import, message, help, note) }
     }
 
     /// The folder of the file and those above it, as the topology file would name them.

@@ -61,6 +61,14 @@ pub(super) fn outline(text: &str) -> Outline {
 }
 
 impl Outline {
+    /// The full names of the messages and enums.
+    pub(super) fn full_names(&self) -> impl Iterator<Item = String> {
+        self.types.iter().map(|path| match self.package.as_str() {
+            "" => path.join("."),
+            package => format!("{package}.{}", path.join(".")),
+        })
+    }
+
     fn declare(&mut self, open: &[Option<String>], name: &str) {
         if open.len() >= DEEPEST || self.types.len() >= MOST {
             return;

@@ -1,27 +1,28 @@
 //! Topologies whose schemas import others.
 
 use super::*;
+use scl_topology::diagnostic::Diagnostic;
 
 /// Names and texts.
 type Files<'t> = Vec<(&'t str, &'t str)>;
 
 /// A schema with one message, which is another if `field` is.
-fn base(field: &str) -> String {
+pub(super) fn base(field: &str) -> String {
     format!("syntax = \"proto3\";\npackage base;\nmessage Header {{ double {field} = 1; }}\n")
 }
 
 /// A schema of the package `name` with a message `Main` that contains the header of `import`.
-fn importer(name: &str, import: &str) -> String {
+pub(super) fn importer(name: &str, import: &str) -> String {
     format!("syntax = \"proto3\";\npackage {name};\nimport \"{import}\";\nmessage Main {{ base.Header header = 1; }}\n")
 }
 
 /// A topology with these lines about schemas, whose gates carry `base.Header`.
-fn with_schemas(lines: &str) -> String {
+pub(super) fn with_schemas(lines: &str) -> String {
     typed("[]", "base.Header").replace("schemas: []", lines)
 }
 
 /// The errors and their ways out, without excerpts.
-fn told(files: &[(&str, &str)], name: &str) -> String {
+pub(super) fn told(files: &[(&str, &str)], name: &str) -> String {
     let loaded = load_from(&folder(files), name);
     assert_eq!(loaded.topology.is_none(), !errors(&loaded).is_empty());
     let problems = loaded.diagnostics.iter().filter(|problem| problem.severity != Severity::Lint);
@@ -66,21 +67,14 @@ fn an_import_that_two_files_answer_is_refused() {
             1 | schemas: [nav/fix.proto, arm/joint.proto]
               |           ------------- compiled because of this line
               |
-              = help: rename one of the files, or write a path that only one has: `import "nav/common.proto";`
-              = note: imports are looked for beside the topology file and beside each of its `schemas`
-            error: [SCL0406] the import `common.proto` in `arm/joint.proto` can mean two files: `nav/common.proto` and `arm/common.proto`
-             --> arm/joint.proto:3:1
+             ::: arm/joint.proto:3:1
               |
             3 | import "common.proto";
-              | ^^^^^^^^^^^^^^^^^^^^^^ imported here
+              | ---------------------- and here
               |
-             ::: t.yaml:1:26
-              |
-            1 | schemas: [nav/fix.proto, arm/joint.proto]
-              |                          --------------- compiled because of this line
-              |
-              = help: rename one of the files, or write a path that only one has: `import "arm/common.proto";`
+              = help: both declare the same messages, and differ in line 3: make them equal, or keep only one
               = note: imports are looked for beside the topology file and beside each of its `schemas`
+              = note: 2 places have it
         "#]],
     );
     let reversed = with_schemas("schemas: [arm/joint.proto, nav/fix.proto]");
@@ -92,7 +86,7 @@ fn an_import_that_two_files_answer_is_refused() {
         [("t.yaml", &*beside), ("nav/fix.proto", &*nav), ("nav/common.proto", &*here), ("common.proto", &*there)];
     expect![[r#"
         the import `common.proto` in `nav/fix.proto` can mean two files: `common.proto` and `nav/common.proto`
-        rename one of the files, or write a path that only one has: `import "nav/common.proto";`"#]]
+        both declare the same messages, and differ in line 3: make them equal, or keep only one"#]]
     .assert_eq(&told(&files, "t.yaml"));
     // An entry is a path and means one file, but the import means two.
     let entry = with_schemas("schemas: [common.proto, nav/fix.proto]");
@@ -290,11 +284,11 @@ fn mistakes_with_roots_have_ways_out() {
     expect![[r#"
         no folder: cannot find the folder `b`
         outside: the schema `fix.proto` is in none of the folders of `schema_roots`
-        name the folder in which imports begin: `schema_roots: [a, .]`
+        `schema_roots` lists the folders in which imports begin
         hidden: the schema `b/fix.proto` has the same path in its root as another file
         rename one of the files, or remove its folder from `schema_roots`
         two roots: the import `common/header.proto` in `a/nav/fix.proto` can mean two files: `a/common/header.proto` and `b/common/header.proto`
-        rename one of the files, or remove its folder from `schema_roots`
+        both declare the same messages, and differ in line 3: make them equal, or keep only one
         beside: cannot find `header.proto`, which `a/nav/fix.proto` imports
         write `import "nav/header.proto";`
         another root: cannot find `common/header.proto`, which `a/nav/fix.proto` imports

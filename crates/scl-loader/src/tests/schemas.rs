@@ -39,7 +39,7 @@ fn a_missing_schema_names_its_neighbour() {
               |           ^^^^^^^^^^
               |
               = help: did you mean `rover.proto`?
-              = note: schemas are looked for beside the topology file
+              = note: `schemas` names the `.proto` files that declare the messages
         "#]],
     );
 }

@@ -87,6 +87,11 @@ pub(super) fn passes(before: &Judged, change: &Change<'_>, after: &Judged, copy:
     is_solved && balance.values().all(|added| *added <= 0)
 }
 
+/// The end of the part of a text in which a problem like the one that a change has solved may be the same one, moved.
+pub(crate) fn reach(changed: &Range<usize>, copy: &str) -> usize {
+    with_next_line(block(changed, copy).end, copy)
+}
+
 /// The bytes of a copy from the first change to the end of the last.
 fn changed(edits: &[&Edit], is_crlf: bool, copy: &str) -> Range<usize> {
     let mut shift = 0_isize;

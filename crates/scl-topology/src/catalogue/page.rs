@@ -92,7 +92,8 @@ fn told(code: &str, text: &str) -> String {
     let model = parse(&sources, file, &mut problems);
     let messages = SchemaMessages { names: MESSAGES.map(str::to_owned).to_vec(), ..SchemaMessages::default() };
     let messages = (!model.schemas.is_empty()).then(|| vec![messages]);
-    let facts = Facts { default_system: "topology".to_owned(), messages, sockets: SocketPaths::example() };
+    let facts =
+        Facts { default_system: "topology".to_owned(), messages, sockets: SocketPaths::example(), ..Facts::default() };
     check(&model, &facts, &sources, &mut problems);
     let found = problems.into_sorted();
     let texts = found.iter().filter(|problem| problem.code() == code).map(|problem| render(problem, &sources));

@@ -2,6 +2,7 @@
 
 use super::draft::Draft;
 use super::end::{End, MOST_PLACES};
+use super::wildcard;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::source::{Span, Spanned};
 use scl_text::list::{listed, shortened};
@@ -44,7 +45,16 @@ pub(super) fn check(draft: &mut Draft<'_>, ends: &[End], problems: &mut Diagnost
     let mut told: HashMap<String, Respelt> = HashMap::new();
     let mut order: Vec<String> = Vec::new();
     for &end in ends {
-        let text = &draft.links[end[0]].model.ends[end[1]];
+        let texts = &draft.links[end[0]].model.ends;
+        let text = &texts[end[1]];
+        if text.value.contains('*') {
+            // Two ends with wildcards are one mistake.
+            if end[1] == 0 || !texts[0].value.contains('*') {
+                let found = RULE.at(HEADLINE, text.span, "no wildcards");
+                problems.push(wildcard::written_out(draft, found, end));
+            }
+            continue;
+        }
         match respelt(draft, &text.value) {
             Some((label, gate)) => {
                 let path = draft.path(gate);
@@ -93,12 +103,16 @@ fn is_letter(letter: char) -> bool {
 /// The gate that an end means, if it contains the names of a component and of its gate in this order and nothing else
 /// but marks, or names before or after them. Returns a label that names the slip, too.
 fn respelt(draft: &Draft<'_>, text: &str) -> Option<(String, usize)> {
-    if text.len() > LONGEST || text.contains('*') {
+    if text.len() > LONGEST {
         return None;
     }
     let words: Vec<&str> = text.split(|letter| !is_letter(letter)).filter(|word| !word.is_empty()).collect();
     let pairs = words.windows(2).map(|pair| (pair[0], pair[1]));
     let mut found: Vec<usize> = pairs.filter_map(|(component, gate)| draft.gate(component, gate)).collect();
+    // The word before the name of a repeated component may say which one is meant.
+    if words.len() > 2 && found.iter().any(|gate| draft.declarations(draft.component_name(*gate)).nth(1).is_some()) {
+        return None;
+    }
     if let [only] = words.as_slice() {
         found = split_anywhere(draft, only);
     }
@@ -135,7 +149,7 @@ fn slip(text: &str, words: &[&str]) -> String {
 fn misshapen(draft: &mut Draft<'_>, end: End, text: &Spanned<String>) -> Diagnostic {
     let found = |label: &str| RULE.at(HEADLINE, text.span, label);
     if !draft.may_search() {
-        return found(oddity(&text.value).0);
+        return found(oddity(&text.value));
     }
     let owners = draft.gates_named(&text.value).iter().copied().filter(|gate| !draft.gates[*gate].duplicate);
     let owners: Vec<usize> = owners.take(SEARCHED).collect();
@@ -150,8 +164,8 @@ fn misshapen(draft: &mut Draft<'_>, end: End, text: &Spanned<String>) -> Diagnos
         let note = format!("gates of `{}`: {}", text.value, shortened(&names));
         return choose(draft, found("which gate?"), end, text, &gates).note(note);
     }
-    let (label, help) = oddity(&text.value);
-    found(label).help(help).about(label)
+    let label = oddity(&text.value);
+    found(label).help(FORM).about(label)
 }
 
 /// Proposes those of some gates that fit the other end, and of these the unconnected ones, if there are any.
@@ -176,18 +190,16 @@ fn choose(draft: &mut Draft<'_>, found: Diagnostic, end: End, text: &Spanned<Str
     found
 }
 
-/// Returns the label and the help for an end whose mistake nothing else explains.
-fn oddity(text: &str) -> (&'static str, &'static str) {
-    let label = match text {
-        _ if text.contains('*') => return ("no wildcards", "each gate has a connection of its own"),
+/// Returns the label for an end whose mistake nothing else explains.
+fn oddity(text: &str) -> &'static str {
+    match text {
         _ if text.ends_with('.') => "no gate after the dot",
         _ if text.starts_with('.') => "no component before the dot",
         _ if text.contains('/') => "a slash, no dot",
         _ if text.matches('.').count() > 1 => "more than one dot",
         _ if !text.contains('.') => "no dot",
         _ => "not two names",
-    };
-    (label, FORM)
+    }
 }
 
 #[cfg(test)]
@@ -225,16 +237,16 @@ mod tests {
         };
         let told: String = ends.iter().map(|end| format!("{end:8} {}\n", advice(end))).collect();
         expect![[r#"
-            a.b.c    SCL0503 a connection end is written `component.gate` [an end is the name of a component, a dot and the name of one of its gates]; SCL0501 unknown component `x` []
-            ui/ask   SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
-            ui::ask  SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
-            ui->ask  SCL0503 a connection end is written `component.gate` [an end is the name of a component, a dot and the name of one of its gates]; SCL0501 unknown component `x` []
-            ui . ask SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
-            ui.      SCL0503 a connection end is written `component.gate` [an end is the name of a component, a dot and the name of one of its gates]; SCL0501 unknown component `x` []
-            .ask     SCL0503 a connection end is written `component.gate` [an end is the name of a component, a dot and the name of one of its gates]; SCL0501 unknown component `x` []
-            ui.*     SCL0503 a connection end is written `component.gate` [each gate has a connection of its own]; SCL0501 unknown component `x` []
-            ui       SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` []
-            nothing  SCL0503 a connection end is written `component.gate` [an end is the name of a component, a dot and the name of one of its gates]; SCL0501 unknown component `x` []
+            a.b.c    SCL0503 a connection end is written `component.gate` [an end is the name of a component, a dot and the name of one of its gates]; SCL0501 unknown component `x` [declare the component `x` with the gate `z`, or remove the connection]
+            ui/ask   SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` [declare the component `x` with the gate `z`, or remove the connection]
+            ui::ask  SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` [declare the component `x` with the gate `z`, or remove the connection]
+            ui->ask  SCL0503 a connection end is written `component.gate` [an end is the name of a component, a dot and the name of one of its gates]; SCL0501 unknown component `x` [declare the component `x` with the gate `z`, or remove the connection]
+            ui . ask SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` [declare the component `x` with the gate `z`, or remove the connection]
+            ui.      SCL0503 a connection end is written `component.gate` [an end is the name of a component, a dot and the name of one of its gates]; SCL0501 unknown component `x` [declare the component `x` with the gate `z`, or remove the connection]
+            .ask     SCL0503 a connection end is written `component.gate` [an end is the name of a component, a dot and the name of one of its gates]; SCL0501 unknown component `x` [declare the component `x` with the gate `z`, or remove the connection]
+            ui.*     SCL0503 a connection end is written `component.gate` [write a connection for each gate, without `*`]; SCL0501 unknown component `x` [declare the component `x` with the gate `z`, or remove the connection]
+            ui       SCL0503 a connection end is written `component.gate` [write `ui.ask`]; SCL0501 unknown component `x` [declare the component `x` with the gate `z`, or remove the connection]
+            nothing  SCL0503 a connection end is written `component.gate` [an end is the name of a component, a dot and the name of one of its gates]; SCL0501 unknown component `x` [declare the component `x` with the gate `z`, or remove the connection]
         "#]].assert_eq(&told);
     }
 }

@@ -10,10 +10,10 @@ pub(super) use report::drop_messages;
 use super::circles::{Step, place};
 use super::draft::Draft;
 use super::feedback::PUSHES;
-use super::waits::{self, Call, Wait};
+use super::waits::{self, Call, Wait, Waiting};
 use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::topology::GateKind;
-use report::{HEADLINE, is_request, kind, report, waiting};
+use report::{HEADLINE, is_request, kind, reason, report};
 use std::collections::HashSet;
 
 /// SCL0707.
@@ -52,15 +52,15 @@ pub(super) fn check(draft: &Draft<'_>, allowed_lines: impl Fn(&Rule) -> HashSet<
     let components = draft.components.len();
     let mut found = search::find(components, &requests(&judged), |_| true);
     found.extend(search::find(components, &endless(&judged), |step| !is_request(draft, step)));
-    let receivers = waits::receivers_that_wait(draft);
-    problems.extend(found.iter().map(|deadlock| report(&RULE, draft, deadlock, &receivers)));
+    let waiting = Waiting::of(draft);
+    problems.extend(found.iter().map(|deadlock| report(&RULE, draft, deadlock, &waiting)));
     if judged.len() < waits.len() {
         // Also report what a comment allows: it is suppressed later, and a comment that suppresses nothing is reported.
         let knots = [requests(&waits), endless(&waits)].map(|waits| search::knots(components, &waits));
         let is_deadlocked = |step: &&Step| knots.iter().any(|knots| knots[step.from] == knots[step.to]);
         let steps = waits.iter().flat_map(|wait| &wait.steps).filter(is_deadlocked);
         problems.extend(steps.filter_map(|step| {
-            allowed.rule(draft, step).map(|rule| rule.at(HEADLINE, place(draft, step), waiting(draft, step)))
+            allowed.rule(draft, step).map(|rule| rule.at(HEADLINE, place(draft, step), reason(draft, step)))
         }));
     }
 }

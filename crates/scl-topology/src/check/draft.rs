@@ -6,7 +6,7 @@ use crate::model::{ComponentModel, ConnectionModel, GateModel, Model};
 use crate::source::{Sources, Span, Spanned};
 use crate::topology::{Codec, DeclaredOptions, GateKind, Payload, TypeName};
 use crate::work;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Maximum number of unknown names that are compared with all others.
 const MOST_SEARCHES: usize = 200;
@@ -102,6 +102,12 @@ impl<'m> Draft<'m> {
             self.gates.push(DraftGate::new(index, gate, first != at));
         }
         self.components.push(DraftComponent { model, gates: (first_gate..self.gates.len()).collect() });
+    }
+
+    /// The messages of the schemas that gates carry.
+    pub(super) fn messages_used(&self) -> HashSet<&str> {
+        let types = self.gates.iter().filter_map(|gate| gate.payload.as_ref()).flat_map(Payload::types);
+        types.filter(|name| name.in_schemas()).map(TypeName::dotted).collect()
     }
 
     /// Returns true if a message about an unknown name may search for similar names and list the known ones. Both read
@@ -279,6 +285,7 @@ pub(super) fn differ(a: &TypeName, b: &TypeName) -> bool {
     a.dotted() != b.dotted() && (a.in_schemas() || b.in_schemas() || last(a) != last(b))
 }
 
-fn last(name: &TypeName) -> Option<&str> {
+/// The last part of a type's name.
+pub(super) fn last(name: &TypeName) -> Option<&str> {
     name.dotted().rsplit('.').next()
 }

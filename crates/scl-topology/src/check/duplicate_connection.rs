@@ -3,6 +3,7 @@
 
 use super::draft::Draft;
 use crate::diagnostic::{Diagnostics, Edit, Rule, Severity};
+use crate::topology::GateKind;
 use std::collections::HashMap;
 
 /// SCL0510.
@@ -43,37 +44,62 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
         let found = RULE
             .at("this connection is already declared", span, label)
             .label(draft.links[earlier].model.span, "first declared here");
-        let meant = meant(draft, at, [a, b]);
-        let mut found = meant.iter().fold(found, |found, &(end, gate)| {
-            let (place, path) = (draft.links[at].model.ends[end].span, draft.path(gate));
-            let edit = Edit::new(place, draft.sources.quoted_as(place, &path));
-            found.suggest(format!("write `{path}`, which is not connected yet"), [edit])
+        let ends = draft.links[at].ends.map(|end| end.unwrap_or(a));
+        let meant = if draft.may_search() { meant(draft, ends) } else { Vec::new() };
+        let mut found = meant.iter().fold(found, |found, pair| {
+            let paths = pair.map(|gate| draft.path(gate));
+            let places = draft.links[at].model.ends.iter().zip(pair.iter().zip(ends)).zip(&paths);
+            let changed = places.filter(|((_, (new, old)), _)| *new != old);
+            let edits = changed.map(|((end, _), path)| Edit::new(end.span, draft.sources.quoted_as(end.span, path)));
+            found.suggest(format!("write `[{}]`", paths.join(", ")), edits)
         });
         found = found.propose_removal("remove one of the two", draft.sources.file(span.file), span);
         if !meant.is_empty() {
             found.doubt();
         }
-        problems.push(found);
-        meant.into_iter().for_each(|(_, gate)| draft.gates[gate].named = true);
+        // Two gates of one name, one of which sends and the other receives, have both connections.
+        let is_contradictory = |gate: usize| {
+            draft.gates[gate].kind.is_none() && GateKind::of(&draft.gates[gate].model.kind.value).is_some()
+        };
+        if same_order || ![a, b].into_iter().any(is_contradictory) {
+            problems.push(found);
+        }
+        meant.into_iter().flatten().for_each(|gate| draft.gates[gate].named = true);
         draft.links[at].flow = None;
         draft.links[at].ends = [None; 2];
     }
 }
 
-/// Unconnected gates with the name of one of the ends that fit the other end, with the number of the end: a copied line
-/// of which the component was not changed.
-fn meant(draft: &Draft<'_>, link: usize, ends: [usize; 2]) -> Vec<(usize, usize)> {
-    let candidates = [0, 1].into_iter().flat_map(|end| {
-        let (gate, other) = (ends[end], ends[1 - end]);
-        let name = draft.gates[gate].model.name.value.as_str();
-        let same = draft.gates_named(name).iter().copied().take(SEARCHED);
-        let is_open = move |at: &usize| {
-            let of = draft.component_name(*at);
-            !draft.gates[*at].named && of != draft.component_name(other) && draft.may_connect(other, *at)
-        };
-        same.filter(is_open).map(move |gate| (usize::from(draft.links[link].ends[0] != Some(ends[end])), gate))
-    });
-    candidates.take(MOST).collect()
+/// The pairs that a copied line may mean: unconnected gates that fit each other, of several those with the same number,
+/// else one unconnected gate with one end as it is.
+fn meant(draft: &Draft<'_>, ends: [usize; 2]) -> Vec<[usize; 2]> {
+    let name = |gate: usize| draft.gates[gate].model.name.value.as_str();
+    let open = |gate: usize| {
+        let namesakes = draft.gates_named(name(gate)).iter().copied();
+        let own = draft.gates_of(draft.component_name(gate));
+        let siblings = own.filter(move |at| words(name(*at)).eq(words(name(gate))) && *at != gate);
+        let all = namesakes.take(SEARCHED).chain(siblings.take(SEARCHED));
+        all.filter(|at| !draft.gates[*at].named && !draft.gates[*at].duplicate).collect::<Vec<usize>>()
+    };
+    let fits = |[a, b]: &[usize; 2]| draft.component_name(*a) != draft.component_name(*b) && draft.may_connect(*a, *b);
+    let number = |gate: usize| draft.path(gate).chars().filter(char::is_ascii_digit).collect::<String>();
+    let [first, second] = ends.map(open);
+    let pairs = first.iter().flat_map(|a| second.iter().map(move |b| [*a, *b]));
+    let mut pairs: Vec<[usize; 2]> = pairs.filter(fits).take(SEARCHED).collect();
+    if pairs.len() > 1 {
+        pairs.retain(|[a, b]| number(*a) == number(*b));
+        pairs.truncate(MOST);
+    }
+    if !pairs.is_empty() {
+        return pairs;
+    }
+    let singles = first.into_iter().map(|a| [a, ends[1]]).chain(second.into_iter().map(|b| [ends[0], b]));
+    singles.filter(fits).take(MOST).collect()
+}
+
+/// A name without its digits.
+fn words(name: &str) -> impl Iterator<Item = char> {
+    name.chars().filter(|letter| !letter.is_ascii_digit())
 }
 
 #[cfg(test)]

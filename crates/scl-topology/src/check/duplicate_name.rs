@@ -4,6 +4,7 @@
 use super::draft::Draft;
 use super::end::{End, Fault, MOST_PLACES};
 use super::named::{Name, with_first};
+use super::{merge, namespace, twin_gate};
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 
 /// SCL0301.
@@ -44,25 +45,29 @@ const MOST_SEARCHES: usize = 16;
 /// Maximum number of unknown names, and of the places of each, that such a search looks at.
 const SEARCHED: usize = 32;
 
-/// Reports repeated names. If connections use an unknown name that fits the second declaration, it is proposed, and is
+/// Reports repeated names. If connections use an unknown name that fits the second declaration, it is suggested, and is
 /// not a fault of the connections.
 pub(super) fn check<'m>(draft: &Draft<'m>, faults: &mut Vec<(Fault<'m>, Vec<End>)>, problems: &mut Diagnostics) {
     let mut searches = MOST_SEARCHES;
-    let components = &draft.model.components;
-    for (first, second) in repeated(components.iter().map(|component| &component.name)) {
+    let model = draft.model;
+    for (first, second) in repeated(model.components.iter().map(|component| &component.name)) {
         let headline = format!("component `{}` is declared twice", second.value);
-        let found = report(&COMPONENT, headline, first, second);
-        let mut all = components.iter().filter(|_| searches > 0);
-        let declared = all.find(|component| std::ptr::eq(&component.name, second));
-        let fits = |fault: &Fault<'m>, ends: &[End]| match fault {
-            Fault::Component(_) => ends.iter().take(SEARCHED).all(|&[link, end]| {
-                let gate = draft.links[link].model.ends[end].value.split_once('.').map(|(_, gate)| gate);
-                declared
-                    .is_some_and(|component| component.gates.iter().any(|own| Some(own.name.value.as_str()) == gate))
-            }),
-            _ => false,
-        };
-        let found = rename(draft, found, second, take(faults, &mut searches, fits));
+        let mut found = report(&COMPONENT, headline, first, second);
+        let of = |name: &Name| model.components.iter().find(|component| std::ptr::eq(&component.name, name));
+        if let (true, Some(first), Some(declared)) = (searches > 0, of(first), of(second)) {
+            let fits = |fault: &Fault<'m>, ends: &[End]| match fault {
+                Fault::Component(_) => ends.iter().take(SEARCHED).all(|&[link, end]| {
+                    let gate = draft.links[link].model.ends[end].value.split_once('.').map(|(_, gate)| gate);
+                    declared.gates.iter().any(|own| Some(own.name.value.as_str()) == gate)
+                }),
+                _ => false,
+            };
+            found = rename(draft, found, second, take(faults, &mut searches, fits));
+            found = match namespace::prefixed(draft, &second.value, faults) {
+                Some((help, edits)) => found.suggest(help, edits),
+                None => merge::suggest(found, model, draft.sources, [first, declared]),
+            };
+        }
         problems
             .push(found.otherwise("a component is declared once, with all its gates; another one has another name"));
     }
@@ -71,20 +76,22 @@ pub(super) fn check<'m>(draft: &Draft<'m>, faults: &mut Vec<(Fault<'m>, Vec<End>
         for (first, second) in repeated(gates.iter().map(|gate| &gate.name)) {
             let owner = &component.model.name.value;
             let headline = format!("component `{owner}` declares gate `{}` twice", second.value);
-            let found = report(&GATE, headline, first, second);
-            let at = gates
-                .iter()
-                .filter(|_| searches > 0)
-                .position(|gate| std::ptr::eq(&gate.name, second))
-                .map(|at| component.gates[at]);
-            let fits = |fault: &Fault<'m>, ends: &[End]| match fault {
-                Fault::Gate(other, _) => {
-                    owner == other && at.is_some_and(|at| ends.iter().take(SEARCHED).all(|end| draft.fits(*end, at)))
-                }
-                _ => false,
-            };
-            let found = rename(draft, found, second, take(faults, &mut searches, fits));
-            problems.push(found.otherwise("gate names are unique within a component, whatever their kind"));
+            let mut found = report(&GATE, headline, first, second);
+            let of = |name: &Name| gates.iter().position(|gate| std::ptr::eq(&gate.name, name));
+            if let (true, Some(one), Some(two)) = (searches > 0, of(first), of(second)) {
+                let [one, two] = [one, two].map(|at| component.gates[at]);
+                let fits = |fault: &Fault<'m>, ends: &[End]| match fault {
+                    Fault::Gate(other, _) => {
+                        owner == other && ends.iter().take(SEARCHED).all(|end| draft.fits(*end, two))
+                    }
+                    _ => false,
+                };
+                found = rename(draft, found, second, take(faults, &mut searches, fits));
+                found = twin_gate::with_ways(draft, found, [one, two]);
+            }
+            problems.push(found.otherwise(
+                "gate names are unique within a component: give one of them another name, also in its connections",
+            ));
         }
     }
 }
@@ -101,13 +108,13 @@ fn take<'m>(
     fitting.next().is_none().then(|| faults.remove(only))
 }
 
-/// Proposes the name that connections use for the second declaration.
+/// Suggests the name that connections use for the second declaration.
 fn rename(draft: &Draft<'_>, found: Diagnostic, second: &Name, fault: Option<(Fault<'_>, Vec<End>)>) -> Diagnostic {
     let Some((Fault::Component(name) | Fault::Gate(_, name), ends)) = fault else { return found };
     let help = format!("rename the second one to `{name}`, which the connections name");
     let edit = Edit::new(second.span, draft.sources.quoted_as(second.span, name));
     let places = ends.iter().take(MOST_PLACES).map(|&[link, end]| draft.links[link].model.ends[end].span);
-    found.propose(help, [edit]).labels(places.map(|place| (place, "not declared")))
+    found.suggest(help, [edit]).labels(places.map(|place| (place, "not declared")))
 }
 
 /// Returns each repeated name, preceded by its first occurrence.
@@ -140,7 +147,7 @@ mod tests {
                 4 |   - name: sensor
                   |           ^^^^^^ second declaration
                   |
-                  = help: a component is declared once, with all its gates; another one has another name
+                  = help: if they are one component, remove the second one; otherwise give it another name
             "#]],
         );
     }
@@ -150,16 +157,16 @@ mod tests {
         rule_example(
             &GATE,
             expect![[r#"
-            error: [SCL0302] component `controller` declares gate `sensor` twice
-             --> topology.yaml:5:9
-              |
-            4 |       - sensor: sub
-              |         ------ first declaration
-            5 |       - sensor: pub
-              |         ^^^^^^ second declaration
-              |
-              = help: gate names are unique within a component, whatever their kind
-        "#]],
+                error: [SCL0302] component `controller` declares gate `sensor` twice
+                 --> topology.yaml:5:9
+                  |
+                4 |       - sensor: sub
+                  |         ------ first declaration
+                5 |       - sensor: pub
+                  |         ^^^^^^ second declaration
+                  |
+                  = help: give the `sub` gate a name of its own, for example `sensor_in`
+            "#]],
         );
     }
 }

@@ -3,7 +3,7 @@
 
 use super::draft::Draft;
 use super::end::{End, Fault};
-use super::{connection_end, duplicate_name, suspect, unknown_component, unknown_gate};
+use super::{commented_out, connection_end, duplicate_name, suspect, unknown_component, unknown_gate};
 use crate::diagnostic::Diagnostics;
 use std::collections::HashMap;
 
@@ -26,11 +26,16 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
         }
     }
     duplicate_name::check(draft, &mut faults, problems);
+    let is_unknown = |(fault, _): &(Fault<'_>, Vec<End>)| matches!(fault, Fault::Component(_));
+    let commented_out = if faults.iter().any(is_unknown) { commented_out::names(draft) } else { HashMap::new() };
     for (fault, ends) in faults {
         match fault {
             Fault::Shape => connection_end::check(draft, &ends, problems),
             Fault::Swapped(component, gate) => unknown_component::swapped(draft, [component, gate], &ends, problems),
-            Fault::Component(component) => unknown_component::check(draft, component, &ends, problems),
+            Fault::Component(component) => {
+                let comment = commented_out.get(component).copied();
+                unknown_component::check(draft, component, comment, &ends, problems);
+            }
             Fault::Gate(component, gate) => unknown_gate::check(draft, [component, gate], &ends, problems),
         }
     }
@@ -63,7 +68,7 @@ fn name_all(draft: &mut Draft<'_>) {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::testing::{advice, codes};
+    use crate::check::testing::{advice, problems};
 
     /// Two components with a gate each, and another that is connected.
     fn file(connections: &str) -> String {
@@ -112,10 +117,10 @@ mod tests {
         let renamed = file("gps.fix, pilot.fix; gps.raw, pilot.raw; gps.raw, log.raw").replace("gps_unit", "gsp");
         assert_eq!(
             advice(&renamed),
-            "SCL0501 unknown component `gps` [rename `gsp` to `gps`, as the connections call it]"
+            "SCL0501 unknown component `gps` [rename `gsp` to `gps`, as the connections call it | or write `gsp` in the connections]"
         );
         let renamed = file("gps_unit.fix, pilot.fix; gps_unit.rwa, pilot.raw; gps_unit.rwa, log.raw");
-        let expected = "SCL0502 component `gps_unit` has no gate `rwa` [rename the gate `raw` to `rwa`, as the connections call it]";
+        let expected = "SCL0502 component `gps_unit` has no gate `rwa` [rename the gate `raw` to `rwa`, as the connections call it | or write `raw` in the connections]";
         assert_eq!(advice(&renamed), expected);
     }
 
@@ -136,9 +141,27 @@ mod tests {
 
     #[test]
     fn an_unknown_end_leaves_no_gate_unconnected() {
-        for pair in ["gps_unit.*, pilot.fix", "x.y, pilot.fix", "gps_unit.y, pilot.fix", "'?', pilot.fix"] {
-            let found = codes(&file(pair));
-            assert!(found.iter().all(|code| code.starts_with("SCL05") || *code == "SCL0702"), "{pair}: {found:?}");
+        for pair in [
+            "gps_unit.*, pilot.fix",
+            "x.y, pilot.fix",
+            "gps_unit.y, pilot.fix",
+            "'?', pilot.fix",
+            "*.fix, pilot.fix",
+            "gps_unit.fix, x.y",
+            "gps_unit.fix",
+            "gps_unit.fix pilot.fix",
+            "gps_unit.fix, [pilot.fix]",
+            "gps_unit.fix, pilot",
+            "gps_unit: fix, pilot: fix",
+            "gps_unit.fix, 1.5",
+        ] {
+            // `raw` is unconnected in all of them.
+            let (found, _) = problems(&file(pair), None);
+            let told: Vec<&str> = found.iter().map(|found| found.message.as_str()).collect();
+            let is_wrong = |told: &&str| {
+                told.contains("fix` is not") || told.contains("to `gps_unit.fix") || told.contains("`pilot` is not")
+            };
+            assert!(!told.iter().any(is_wrong), "{pair}: {told:?}");
         }
     }
 }

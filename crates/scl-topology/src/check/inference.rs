@@ -100,7 +100,13 @@ fn taken_over(draft: &Draft<'_>, gate: usize, origin: usize) -> Option<Diagnosti
     let headline = format!("gate `{}` has no type of its own; it takes `{text}` from `{from}`", draft.path(gate));
     let (name, kind) = (&model.name.value, &model.kind.value);
     let found = TAKEN_OVER.at(headline, model.span, format!("inferred: `{text}`")).label(written.span, "from here");
-    Some(found.help(format!("write `{name}: {{{kind}: {text}}}` to pin the contract")))
+    let edit = draft.with_type(gate, text);
+    let written = edit.as_ref().and_then(|edit| draft.entry_with(gate, std::slice::from_ref(edit)));
+    let help = format!("write `{}` to pin the contract", written.unwrap_or(format!("{name}: {{{kind}: {text}}}")));
+    Some(match edit {
+        Some(edit) => found.suggest(help, [edit]),
+        None => found.help(help),
+    })
 }
 
 fn without_type(draft: &Draft<'_>, link: usize, source: usize) -> Diagnostic {

@@ -1,11 +1,12 @@
 //! SCL0601: a sender and a receiver of different types. The connections of one gate are reported together, at the gate
 //! if it alone differs from all its peers.
 
-use super::draft::{Draft, differ};
+use super::draft::{Draft, differ, last};
+use super::split_gate::{self, Part};
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::topology::{GateKind, Payload, TypeName};
-use scl_text::list::listed;
-use std::collections::BTreeMap;
+use scl_text::list::{all_of, listed};
+use std::collections::{BTreeMap, HashSet};
 
 /// SCL0601.
 pub(crate) const RULE: Rule = Rule {
@@ -27,6 +28,9 @@ pub(crate) const RULE: Rule = Rule {
    - [autopilot.attitude, blackbox.attitude]
 ",
 };
+
+/// Maximum number of types for which one gate is split.
+const MOST_TYPES: usize = 4;
 
 /// A connection whose ends differ: its index, and the gate at the other end of the gate it is grouped by.
 type Peer = (usize, usize);
@@ -82,17 +86,63 @@ fn connection_differs(draft: &Draft<'_>, hub: usize, peers: &[Peer]) -> Diagnost
     let found = with_peers(draft, found, peers);
     let [sent_by, taken_by] =
         if is_source(draft, hub) { [vec![source], ends_of(peers)] } else { [ends_of(peers), vec![sink]] };
-    let found = with_type_at(draft, found, &taken_by, sent);
-    let found = with_type_at(draft, found, &sent_by, expected);
+    let untyped = [source, sink].into_iter().find(|&gate| draft.gates[gate].payload_from.is_some());
+    let found = match untyped {
+        Some(gate) => one_gate_for_each_type(draft, found, gate),
+        None => found,
+    };
+    let found = with_type_at(draft, found, &taken_by, source);
+    let found = with_type_at(draft, found, &sent_by, sink);
     found.otherwise("both ends have one type, or a component between them converts")
+}
+
+/// Suggests a gate for each type, in place of one without a type that has peers of several types.
+fn one_gate_for_each_type(draft: &Draft<'_>, found: Diagnostic, gate: usize) -> Diagnostic {
+    let mut types: Vec<(&str, Vec<Peer>)> = Vec::new();
+    for (link, source, sink) in draft.flows().filter(|&(_, source, sink)| source == gate || sink == gate) {
+        let peer = if source == gate { sink } else { source };
+        let Some(name) = message(draft, peer).map(TypeName::dotted) else { return found };
+        match types.iter_mut().find(|(other, _)| *other == name) {
+            Some((_, peers)) => peers.push((link, peer)),
+            None => types.push((name, vec![(link, peer)])),
+        }
+        if types.len() > MOST_TYPES {
+            return found;
+        }
+    }
+    let gate_names: HashSet<&str> = types.iter().map(|(_, peers)| gate_name(draft, peers[0])).collect();
+    let are_different = gate_names.len() == types.len();
+    let part = |(_, peers): &(&str, Vec<Peer>)| {
+        let (owner, name) = (draft.component_name(peers[0].1), gate_name(draft, peers[0]));
+        let name = if are_different { name.to_owned() } else { format!("{owner}_{name}") };
+        Part { name, links: peers.iter().map(|(link, _)| *link).collect() }
+    };
+    let parts: Vec<Part> = types.iter().map(part).collect();
+    let names = all_of(&parts.iter().map(|part| part.name.as_str()).collect::<Vec<_>>());
+    let help = format!("give `{}` one gate for each type: {names}", draft.component_name(gate));
+    match parts.len() {
+        0 | 1 => found,
+        _ => split_gate::suggest(draft, found, gate, &parts, help),
+    }
+}
+
+fn gate_name<'m>(draft: &Draft<'m>, (_, peer): Peer) -> &'m str {
+    &draft.gates[peer].model.name.value
 }
 
 fn ends_of(peers: &[Peer]) -> Vec<usize> {
     peers.iter().map(|&(_, peer)| peer).collect()
 }
 
-/// Suggests another type for some gates, unless one of them takes its type from elsewhere.
-fn with_type_at(draft: &Draft<'_>, found: Diagnostic, gates: &[usize], to: &str) -> Diagnostic {
+/// Suggests the type of gate `of` for some gates, unless one of them takes its type from elsewhere, or has a message of
+/// the schemas for which the other type seems to be another name.
+fn with_type_at(draft: &Draft<'_>, found: Diagnostic, gates: &[usize], of: usize) -> Diagnostic {
+    let Some(new) = message(draft, of) else { return found };
+    let to = new.dotted();
+    let is_name_of = |old: &TypeName| old.in_schemas() && !new.in_schemas() && last(old) == last(new);
+    if gates.iter().any(|&gate| message(draft, gate).is_some_and(is_name_of)) {
+        return found;
+    }
     let edits: Option<Vec<Edit>> = gates.iter().map(|&gate| retyped(draft, gate, to)).collect();
     match edits.filter(|edits| !edits.is_empty()) {
         Some(edits) => {
@@ -157,7 +207,7 @@ fn type_of<'a>(draft: &'a Draft<'_>, gate: usize) -> &'a str {
 #[cfg(test)]
 mod tests {
     use super::RULE;
-    use crate::check::testing::{example, rule_example};
+    use crate::check::testing::{advice_with, example, rule_example};
     use expect_test::expect;
 
     #[test]
@@ -272,5 +322,24 @@ connections:
                    = help: write `Fix` at `log.fix`, `pilot.fix`
             "#]],
         );
+    }
+
+    #[test]
+    fn a_type_of_no_schema_is_not_spread() {
+        let yaml = "
+schemas: [met.proto]
+components:
+  - name: mast
+    gates:
+      - rain: {pub: weather.Rain}
+  - name: qc
+    gates:
+      - rain: {sub: met.Rain}
+connections:
+  - [mast.rain, qc.rain]
+";
+        let told = advice_with(&RULE, yaml.trim_start(), &["met.Rain"]);
+        let expected = "the two ends of this connection use different message types [write `met.Rain` at `mast.rain`]";
+        assert_eq!(told, expected);
     }
 }

@@ -6,6 +6,7 @@ use super::named::{Noun, is_allowed, may_start, names};
 use super::rename::Renames;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::model::Model;
+use crate::parse::{FILL_IN, placeholder};
 use crate::source::Spanned;
 
 pub(crate) use crate::parse::LETTER;
@@ -67,10 +68,16 @@ fn wrong_character<'m>(renames: &Renames<'m>, noun: Noun, name: &'m Spanned<Stri
     let headline = format!("a {} name cannot contain {what}", noun.word());
     let found = CHARACTERS.at(headline, name.span, "allowed: a-z A-Z 0-9 _ -");
     let mended = mended(&name.value);
-    let found = match mended.is_empty() {
+    let mut found = match mended.is_empty() {
+        _ if placeholder(&name.value).is_some() => return found.help(format!("this is a placeholder: {FILL_IN}")),
         true => found,
         false => found.propose(format!("write `{mended}`"), renames.edits(noun, name, &mended)),
     };
+    // A path or a pattern is rather something else than a misspelt name.
+    let is_spelling = name.value.chars().all(|letter| is_allowed(letter) || matches!(letter, ' ' | '.'));
+    if !is_spelling {
+        found.doubt();
+    }
     match noun {
         Noun::System => found,
         _ if what.starts_with("two") => found.note("`--` separates the two ends in the name of a socket"),

@@ -20,7 +20,7 @@ pub(crate) const VALUE: Rule = Rule {
     example: " components:
    - name: sensor
      gates:
--      - measurements: {pub: Measurement, queue: 0}
+-      - measurements: {sub: Measurement, queue: 0}
 +      - measurements: {sub: Measurement, queue: 1}
 ",
 };
@@ -35,7 +35,7 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
             let mut options = kept.clone();
             match row.set(&mut options, &option.value.value) {
                 // An option that the kind does not have has no effect, so nothing follows from it.
-                Ok(()) if gate.kind.is_some_and(|kind| !row.fits(kind)) => misfits.push((at, option)),
+                _ if gate.kind.is_some_and(|kind| !row.fits(kind)) => misfits.push((at, option)),
                 Ok(()) => kept = options,
                 Err(range) => problems.push(report(draft, at, row, option, &range)),
             }
@@ -79,8 +79,7 @@ fn report(draft: &Draft<'_>, gate: usize, row: &GateOption, option: &OptionModel
     if let (Some(default), Some(edit)) = (row.default(), draft.without_option(gate, key)) {
         found = found.suggest(format!("without it, the default is {default}"), [edit]);
     }
-    // If this kind of gate does not have the option, say so: no value would be right.
-    found.notes(misfit(draft.gates[gate].kind, key))
+    found
 }
 
 /// SCL0408.
@@ -106,18 +105,34 @@ fn misfit_at(draft: &Draft<'_>, gate: usize, option: &OptionModel, peers: &[usiz
     let key = option.key.value.as_str();
     let kind = draft.gates[gate].kind?;
     let rule = misfit(Some(kind), key)?;
-    let headline = format!("option `{key}` is not available on a `{}` gate", kind.word());
+    let headline = match draft.sources.snippet(option.key.span) {
+        written if written.trim_matches(['"', '\'']) != key => {
+            format!("`{written}` is called `{key}` here, and is not available on a `{}` gate", kind.word())
+        }
+        _ => format!("option `{key}` is not available on a `{}` gate", kind.word()),
+    };
     let mut found = MISFIT.at(headline, option.key.span, "");
     let removed = draft.without_option(gate, key);
     let other = kind.opposite();
-    let lacks = |&peer: &usize| draft.gates[peer].kind == Some(other) && draft.gates[peer].option(key).is_none();
-    let is_moved = fits(other, key) && (1..=MOST_MOVED).contains(&peers.len()) && peers.iter().all(lacks);
+    let others = peers.iter().filter(|&&peer| fits(other, key) && draft.gates[peer].kind == Some(other));
+    let (having, lacking): (Vec<usize>, Vec<usize>) =
+        others.partition(|&&peer| draft.gates[peer].option(key).is_some());
+    let listed = |gates: &[usize]| listed(gates.iter().map(|&gate| draft.path(gate)));
+    let have = match having.len() {
+        1 => format!("{} has its own", listed(&having)),
+        _ => format!("{} each have their own", listed(&having)),
+    };
+    let is_moved = (1..=MOST_MOVED).contains(&lacking.len());
     if let (true, Some(removed)) = (is_moved, &removed) {
-        let there = peers.iter().map(|&peer| draft.with_option(peer, key, &option.value.value));
-        let names = listed(peers.iter().map(|&peer| draft.path(peer)));
-        found = found.suggest(format!("write it at {names}"), there.chain([removed.clone()]));
+        let value = &option.value.value;
+        let there = lacking.iter().map(|&peer| draft.with_option(peer, key, value));
+        let but = if having.is_empty() { String::new() } else { format!("; {have}") };
+        let text = format!("write `{key}: {value}` at {}{but}", listed(&lacking));
+        found = found.suggest(text, there.chain([removed.clone()]));
     }
+    let is_needless = lacking.is_empty() && !having.is_empty();
     found = match removed {
+        Some(removed) if is_needless => found.suggest(format!("remove it: {have}"), [removed]),
         Some(removed) => found.suggest("remove it", [removed]),
         None => found,
     };
@@ -155,11 +170,11 @@ mod tests {
                 error: [SCL0409] `queue` must be at least 1
                  --> topology.yaml:4:49
                   |
-                4 |       - measurements: {pub: Measurement, queue: 0}
+                4 |       - measurements: {sub: Measurement, queue: 0}
                   |                                                 ^
                   |
+                  = help: there is no unlimited `queue`; the largest is `queue: 1000000`
                   = help: without it, the default is 100
-                  = note: each receiver says how many messages may wait for it; `queue` is for `sub` and `pull`
             "#]],
         );
     }
@@ -199,10 +214,10 @@ mod tests {
             req: A -> B, max_size: 1024MiB: 
             sub: T, max_size: 1025MiB: SCL0409 `max_size` must be at most 1GiB [the largest is `max_size: 1GiB` | without it, the default is 64MiB]
             sub: T, max_size: 99999999999999999999GiB: SCL0409 `max_size` must be at most 1GiB [the largest is `max_size: 1GiB` | without it, the default is 64MiB]
-            req: A -> B, timeout: 0s: SCL0409 `timeout` must be more than 0 [there is no unlimited `timeout`; the largest is `timeout: 86400s` | without it, the default is 1s]
+            req: A -> B, timeout: 0s: SCL0409 `timeout` must be more than 0 [there is no unlimited `timeout`; the largest is `timeout: 24h` | without it, the default is 1s]
             req: A -> B, timeout: 1us: 
-            req: A -> B, timeout: -1s: SCL0409 `timeout` must be more than 0 [there is no unlimited `timeout`; the largest is `timeout: 86400s` | without it, the default is 1s]
-            req: A -> B, timeout: 86401s: SCL0409 `timeout` must be at most 86400s [the largest is `timeout: 86400s` | without it, the default is 1s]
+            req: A -> B, timeout: -1s: SCL0409 `timeout` must be more than 0 [there is no unlimited `timeout`; the largest is `timeout: 24h` | without it, the default is 1s]
+            req: A -> B, timeout: 86401s: SCL0409 `timeout` must be at most 24h [the largest is `timeout: 24h` | without it, the default is 1s]
         "#]].assert_eq(&told);
     }
 
@@ -262,5 +277,26 @@ mod tests {
             SCL0408 option `share` is not available on a `rep` gate [remove it]
             SCL0408 option `share` is not available on a `pull` gate [remove it | it belongs to the `push` end of a connection]
         "#]].assert_eq(&told);
+    }
+
+    #[test]
+    fn an_option_moves_to_the_ends_that_lack_it() {
+        let advice = |sent: &str, one: &str, two: &str| {
+            let gates = [("a", "pub", sent), ("b", "sub", one), ("c", "sub", two)].map(|(name, kind, option)| {
+                format!("  - name: {name}\n    gates:\n      - x: {{{kind}: T{option}}}\n")
+            });
+            advice(&format!("components:\n{}connections:\n  - [a.x, b.x]\n  - [a.x, c.x]\n", gates.concat()))
+        };
+        let told = [
+            advice(", queue: 9", "", ""),
+            advice(", queue: 9", ", queue: 1", ""),
+            advice(", queue_size: 9", ", queue: 1", ", queue: 2"),
+            advice(", queue: many", "", ""),
+        ];
+        expect![[r#"
+            SCL0408 option `queue` is not available on a `pub` gate [write `queue: 9` at `b.x`, `c.x` | remove it]
+            SCL0408 option `queue` is not available on a `pub` gate [write `queue: 9` at `c.x`; `b.x` has its own | remove it]
+            SCL0408 `queue_size` is called `queue` here, and is not available on a `pub` gate [remove it: `b.x`, `c.x` each have their own | it belongs to the `sub` end of a connection]
+            SCL0408 option `queue` is not available on a `pub` gate [remove it]"#]].assert_eq(&told.join("\n"));
     }
 }

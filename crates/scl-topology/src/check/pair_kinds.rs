@@ -5,7 +5,6 @@ use super::draft::Draft;
 use super::fitting_gate::FittingGates;
 use super::unconnected::type_text;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
-use crate::grammar;
 use crate::topology::GateKind;
 
 /// SCL0505.
@@ -62,21 +61,27 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
         }
         if kind_a.opposite() == kind_b {
             draft.links[link].flow = Some(if kind_a.is_source() { (a, b) } else { (b, a) });
-        } else if kind_a == kind_b {
-            problems.push(same_direction(draft, &senders, link, [a, b], kind_a));
-        } else if !draft.gates[a].is_misfit && !draft.gates[b].is_misfit {
-            // The kind of a gate with too few or too many types may be wrong, which is reported already.
-            problems.push(different_patterns(draft, &senders, link, [a, b], [kind_a, kind_b]));
+            continue;
         }
+        // The kind of a gate with too few or too many types may be wrong, which is reported already.
+        if kind_a != kind_b && (draft.gates[a].is_misfit || draft.gates[b].is_misfit) {
+            continue;
+        }
+        let partners = [0, 1].map(|end| partners(draft, &senders, [link, end]));
+        problems.push(match kind_a == kind_b {
+            true => same_direction(draft, link, [a, b], kind_a, &partners),
+            false => different_patterns(draft, link, [a, b], [kind_a, kind_b], &partners),
+        });
+        partners.into_iter().flatten().for_each(|gate| draft.gates[gate].named = true);
     }
 }
 
 fn same_direction(
     draft: &Draft<'_>,
-    senders: &FittingGates<'_>,
     link: usize,
     [a, b]: [usize; 2],
     kind: GateKind,
+    partners: &[Vec<usize>; 2],
 ) -> Diagnostic {
     let (both, one, nobody) = match kind {
         GateKind::Pub => ("publish", "sends", "nobody receives"),
@@ -86,35 +91,35 @@ fn same_direction(
         GateKind::Push => ("push", "sends", "nobody receives"),
         GateKind::Pull => ("pull", "receives", "nobody sends"),
     };
-    let other = kind.opposite().word();
     let headline = format!("both ends of this connection {both}");
     let found = SAME_DIRECTION
         .at(headline, draft.links[link].model.span, nobody)
         .label(draft.gates[a].model.kind.span, one)
         .label(draft.gates[b].model.kind.span, format!("{one} too"))
-        .help(format!("a `{}` gate connects to a `{other}` gate", kind.word()));
-    let partners = [partners(draft, senders, [link, 0]), partners(draft, senders, [link, 1])];
+        .help(format!("a `{}` gate connects to a `{}` gate", kind.word(), kind.opposite().word()));
     let found = match partners.iter().all(Vec::is_empty) {
-        true => found.note(nobody_is(draft, [a, b], other)),
+        true => found.note(nobody_is(draft, [a, b], kind.opposite())),
         false => found,
     };
     with_ways(draft, found, link, partners)
 }
 
-fn nobody_is(draft: &Draft<'_>, [a, b]: [usize; 2], kind: &str) -> String {
-    let (a, b) = (draft.component_name(a), draft.component_name(b));
-    match a == b {
-        true => format!("no gate of `{a}` is a `{kind}`"),
-        false => format!("no gate of `{a}` or `{b}` is a `{kind}`"),
+fn nobody_is(draft: &Draft<'_>, [a, b]: [usize; 2], kind: GateKind) -> String {
+    let owners = [a, b].map(|gate| draft.component_name(gate));
+    let has_one = |owner: &&str| draft.gates_of(owner).any(|gate| draft.gates[gate].kind == Some(kind));
+    let that = if owners.iter().any(has_one) { " that fits" } else { "" };
+    match owners {
+        [a, b] if a == b => format!("no gate of `{a}` is a `{}`{that}", kind.word()),
+        [a, b] => format!("no gate of `{a}` or `{b}` is a `{}`{that}", kind.word()),
     }
 }
 
 fn different_patterns(
     draft: &Draft<'_>,
-    senders: &FittingGates<'_>,
     link: usize,
     [a, b]: [usize; 2],
     kinds: [GateKind; 2],
+    partners: &[Vec<usize>; 2],
 ) -> Diagnostic {
     let [a_word, b_word] = kinds.map(GateKind::word);
     let headline = format!("a `{a_word}` gate cannot be connected to a `{b_word}` gate");
@@ -123,17 +128,17 @@ fn different_patterns(
         .label(draft.gates[a].model.span, doing(kinds[0]))
         .label(draft.gates[b].model.span, doing(kinds[1]))
         .note("pairs that fit: pub - sub, req - rep, push - pull");
-    with_ways(draft, found, link, [partners(draft, senders, [link, 0]), partners(draft, senders, [link, 1])])
+    with_ways(draft, found, link, partners)
 }
 
 /// Suggests other gates for one of the ends, first those of the component that the end names, and other kinds for the
 /// two gates.
-fn with_ways(draft: &Draft<'_>, mut found: Diagnostic, link: usize, partners: [Vec<usize>; 2]) -> Diagnostic {
+fn with_ways(draft: &Draft<'_>, mut found: Diagnostic, link: usize, partners: &[Vec<usize>; 2]) -> Diagnostic {
     let [Some(a), Some(b)] = draft.links[link].ends else { return found };
-    for (end, partners) in partners.into_iter().enumerate() {
+    for (end, partners) in partners.iter().enumerate() {
         let span = draft.links[link].model.ends[end].span;
         let stays = draft.path([b, a][end]);
-        for partner in partners {
+        for &partner in partners {
             let path = draft.path(partner);
             let edit = Edit::new(span, draft.sources.quoted_as(span, &path));
             found = found.suggest(format!("connect `{stays}` to {}", draft.path_and_kind(partner)), [edit]);
@@ -147,23 +152,12 @@ fn with_ways(draft: &Draft<'_>, mut found: Diagnostic, link: usize, partners: [V
     found
 }
 
-/// The changes that give a gate the kind that fits its partner: with the partner's types if their number differs, and
-/// without the options that the new kind does not have.
+/// The changes that give a gate the kind that fits its partner, with the partner's types if their number differs.
 fn other_kind(draft: &Draft<'_>, gate: usize, partner: usize) -> Option<(GateKind, Vec<Edit>)> {
     let kind = draft.gates[partner].kind?.opposite();
-    let (model, old) = (draft.gates[gate].model, draft.gates[gate].kind?);
     let asks = |kind: GateKind| matches!(kind, GateKind::Req | GateKind::Rep);
-    let mut edits = vec![Edit::new(model.kind.span, kind.word())];
-    if let Some(payload) = model.payload.as_ref().filter(|_| asks(kind) != asks(old)) {
-        edits.push(Edit::new(payload.span, type_text(draft, partner)));
-    }
-    for option in &model.options {
-        let key = option.key.value.as_str();
-        if grammar::option(key).is_some_and(|option| option.fits(old) && !option.fits(kind)) {
-            edits.push(draft.without_option(gate, key)?);
-        }
-    }
-    Some((kind, edits))
+    let types = (asks(kind) != asks(draft.gates[gate].kind?)).then(|| type_text(draft, partner));
+    Some((kind, draft.with_kind(gate, kind, types.as_deref())?))
 }
 
 fn doing(kind: GateKind) -> &'static str {

@@ -87,6 +87,8 @@ fn is_bytes(text: &str) -> bool {
     let words: Vec<&str> = text.split(|letter: char| !word(letter)).filter(|word| !word.is_empty()).collect();
     let words: Vec<&str> =
         words.into_iter().filter(|word| !matches!(*word, "const" | "mut" | "Vec" | "std" | "vector")).collect();
+    // The length of an array does not matter.
+    let words: Vec<&str> = words.into_iter().filter(|word| word.parse::<u64>().is_err()).collect();
     match words.as_slice() {
         ["void"] => text.contains('*'),
         words => BYTES_TYPES.contains(&words.join(" ").as_str()),

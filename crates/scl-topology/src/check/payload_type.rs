@@ -6,6 +6,7 @@ use super::payload_fault::{self, Fault};
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::source::{Span, Spanned};
 use crate::topology::{GateKind, Payload, TypeName};
+use scl_text::list::listed;
 use std::collections::HashMap;
 
 /// SCL0403.
@@ -98,12 +99,30 @@ pub(super) fn check_number(draft: &Draft<'_>, problems: &mut Diagnostics) {
             partners.entry(two).or_insert(one);
         }
     }
+    let replies = replies(draft);
     for (at, gate) in draft.gates.iter().enumerate().filter(|(_, gate)| gate.is_misfit) {
         let (Some(written), Some(kind)) = (gate.model.payload.as_ref(), gate.kind) else { continue };
         let parts: Vec<&str> = written.value.split("->").map(str::trim).collect();
         let partner = partners.get(&at).map(|partner| &draft.gates[*partner]);
-        problems.push(misfit(draft, gate, kind, written, &parts, partner));
+        problems.push(misfit(draft, gate, kind, written, &parts, (partner, &replies)));
     }
+}
+
+/// Maximum number of replies that are offered.
+const MOST_REPLIES: usize = 3;
+
+/// The replies of the file, in its order, as far as they are offered for a gate that has none.
+fn replies<'d>(draft: &'d Draft<'_>) -> Vec<&'d str> {
+    let mut replies: Vec<&str> = Vec::new();
+    for gate in &draft.gates {
+        if let Some(Payload::Exchange { reply, .. }) = &gate.payload
+            && replies.len() < MOST_REPLIES
+            && !replies.contains(&reply.dotted())
+        {
+            replies.push(reply.dotted());
+        }
+    }
+    replies
 }
 
 fn misfit(
@@ -112,7 +131,7 @@ fn misfit(
     kind: GateKind,
     written: &Spanned<String>,
     parts: &[&str],
-    partner: Option<&DraftGate<'_>>,
+    (partner, replies): (Option<&DraftGate<'_>>, &[&str]),
 ) -> Diagnostic {
     let word = kind.word();
     let given = format!("{} types are given", parts.len());
@@ -131,9 +150,17 @@ fn misfit(
                     let both = both.to_string();
                     found.propose(format!("write `{both}`, as at the other end"), [types(&both)])
                 }
-                _ => found,
+                _ => {
+                    let ways: Vec<String> = replies.iter().map(|reply| format!("{only} -> {reply}")).collect();
+                    let ways = ways.iter().map(|way| (way.as_str(), types(way)));
+                    let mut found = found.choose(("write ", ", if that is the reply"), ways);
+                    found.doubt();
+                    found
+                }
             };
-            let both = format!("request and reply are joined by `->`: `{only} -> ` and the type of the reply");
+            let both = format!(
+                "request and reply are joined by `->`: `{only} -> ` and the type of the reply, perhaps an empty message"
+            );
             let one_way = |found: Diagnostic, other: GateKind| {
                 let does = if other.is_source() { "sends" } else { "receives" };
                 let help = format!("write `{}` if it only {does} `{only}`", other.word());
@@ -149,11 +176,11 @@ fn misfit(
         (GateKind::Req | GateKind::Rep, _) => {
             let headline = format!("a `{word}` gate has two types, a request and its reply");
             let found = WRONG_NUMBER_OF_TYPES.at(headline, written.span, given);
-            let pairs = [(parts[0], parts[1]), (parts[0], parts[parts.len() - 1])];
-            let ways = pairs.map(|(request, reply)| format!("{request} -> {reply}"));
-            let mut found = found.choose(("write ", ""), ways.iter().map(|way| (way.as_str(), types(way))));
-            found.doubt();
-            found
+            let (between, last) = (&parts[1..parts.len() - 1], parts[parts.len() - 1]);
+            let way = format!("{} -> {last}", parts[0]);
+            let needs =
+                if between.len() == 1 { "needs a `pub` gate of its own" } else { "need `pub` gates of their own" };
+            found.suggest(format!("write `{way}`; {} {needs}", listed(between)), [types(&way)])
         }
         _ => {
             let (does, meant) = match kind {
@@ -222,7 +249,7 @@ mod tests {
                 4 |       - commands: {req: Command}
                   |                         ^^^^^^^ only one type is given
                   |
-                  = help: request and reply are joined by `->`: `Command -> ` and the type of the reply
+                  = help: request and reply are joined by `->`: `Command -> ` and the type of the reply, perhaps an empty message
                   = help: write `sub` if it only receives `Command`
                   = help: write `pub` if it only sends `Command`
             "#]],
@@ -259,9 +286,16 @@ mod tests {
             pub: _           SCL0403 `_` cannot be a message type [a type is a dotted name; its parts are words of letters, digits and `_`]
             pub: A -> B      SCL0404 a `pub` gate sends one type and gets no answer [write `A` alone, if there is no answer]
             sub: A -> B      SCL0404 a `sub` gate receives one type and gives no answer [write `A` alone, if there is no answer | write `rep`, if there is one]
-            rep: A           SCL0404 a `rep` gate needs two types, what it is asked and what it answers [request and reply are joined by `->`: `A -> ` and the type of the reply | write `pub` if it only sends `A` | write `sub` if it only receives `A`]
-            req: A -> B -> C SCL0404 a `req` gate has two types, a request and its reply [write `A -> B` or `A -> C`]
+            rep: A           SCL0404 a `rep` gate needs two types, what it is asked and what it answers [request and reply are joined by `->`: `A -> ` and the type of the reply, perhaps an empty message | write `pub` if it only sends `A` | write `sub` if it only receives `A`]
+            req: A -> B -> C SCL0404 a `req` gate has two types, a request and its reply [write `A -> C`; `B` needs a `pub` gate of its own]
             req: 'A ->'      SCL0403 a message type is missing [a type is a dotted name; its parts are words of letters, digits and `_`]
         "#]].assert_eq(&told);
+    }
+
+    #[test]
+    fn replies_of_other_gates_are_offered() {
+        let gates = "    gates:\n      - x: {rep: A}\n      - y: {rep: B -> Done}\n      - z: {rep: C -> State}\n";
+        let told = advice(&format!("components:\n  - name: a\n{gates}connections: []\n"));
+        assert!(told.contains("[write `A -> Done` or `A -> State`, if that is the reply | "), "{told}");
     }
 }

@@ -4,9 +4,11 @@
 
 use super::control;
 use super::draft::Draft;
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use super::split_gate::{self, Part};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::topology::GateKind;
 use scl_text::list::listed;
+use std::collections::HashSet;
 
 /// SCL0511.
 pub(crate) const SEVERAL_PUBLISHERS: Rule = Rule {
@@ -120,7 +122,7 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
             _ if links.len() < 2 => {}
             GateKind::Sub => problems.push(several_publishers(draft, gate, &links)),
             GateKind::Req => problems.push(several_repliers(draft, gate, &links)),
-            GateKind::Push if !draft.gates[gate].options.share => problems.push(several_pullers(draft, gate, &links)),
+            GateKind::Push if !may_share(draft, gate) => problems.push(several_pullers(draft, gate, &links)),
             _ => {}
         }
         let count = links.len() as u32;
@@ -130,13 +132,24 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     }
 }
 
+/// Whether pullers share the work of a gate, as far as its options could be read.
+fn may_share(draft: &Draft<'_>, gate: usize) -> bool {
+    draft.gates[gate].options.share || draft.gates[gate].model.options_unread
+}
+
 fn several_publishers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) -> Diagnostic {
     let path = draft.path(gate);
     let headline = format!("gate `{path}` subscribes to several publishers");
     let (first_owner, second_owner) = (draft.component_name(links[0].1), draft.component_name(links[1].1));
-    let extra = format!("{second_owner}_{}", draft.gates[gate].model.name.value);
-    with_peers(&SEVERAL_PUBLISHERS, headline, draft, gate, links, |which, path| format!("{which} publisher: `{path}`"))
-        .help(format!("declare a second gate: `- {extra}: sub`"))
+    let name = &draft.gates[gate].model.name.value;
+    let extra = format!("{second_owner}_{name}");
+    let help = format!("declare a second gate: `- {extra}: sub`");
+    let parts = [(name.clone(), &links[..1]), (extra, &links[1..])];
+    let parts = parts.map(|(name, links)| Part { name, links: links.iter().map(|&(link, _)| link).collect() });
+    let found = with_peers(&SEVERAL_PUBLISHERS, headline, draft, gate, links, |which, path| {
+        format!("{which} publisher: `{path}`")
+    });
+    split_gate::suggest(draft, found, gate, &parts, help)
         .help(format!(
             "if `{first_owner}` and `{second_owner}` are two implementations of one component, declare one component and \
              start either program"
@@ -150,27 +163,43 @@ fn several_repliers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) ->
         more => more.to_string(),
     };
     let headline = format!("gate `{}` asks {count} repliers", draft.path(gate));
-    let name = &draft.gates[gate].model.name.value;
-    let names = links.iter().map(|&(_, replier)| format!("{}_{name}", draft.component_name(replier)));
-    with_peers(&SEVERAL_REPLIERS, headline, draft, gate, links, |which, path| format!("{which} replier: `{path}`"))
-        .help(format!("declare one `req` gate for each replier: {}", listed(names)))
+    let owners: HashSet<&str> = links.iter().map(|&(_, replier)| draft.component_name(replier)).collect();
+    let part = |&(link, replier): &(usize, usize)| {
+        // Two gates of one component differ in their own names.
+        let of = if owners.len() == links.len() { gate } else { replier };
+        let name = format!("{}_{}", draft.component_name(replier), draft.gates[of].model.name.value);
+        Part { name, links: vec![link] }
+    };
+    let parts: Vec<Part> = links.iter().map(part).collect();
+    let help = format!("declare one `req` gate for each replier: {}", listed(parts.iter().map(|part| &part.name)));
+    let found =
+        with_peers(&SEVERAL_REPLIERS, headline, draft, gate, links, |which, path| format!("{which} replier: `{path}`"));
+    split_gate::suggest(draft, found, gate, &parts, help)
         .note(format!("with {count} repliers it is not defined who answers (ZeroMQ would alternate between them)"))
         .note("many requesters of one replier are allowed")
 }
 
 fn several_pullers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) -> Diagnostic {
-    let count = match links.len() {
-        2 => "two components".to_owned(),
-        more => format!("{more} gates"),
+    let (count, each) = match links.len() {
+        2 => ("two components".to_owned(), "both need"),
+        more => (format!("{more} gates"), "each of them needs"),
     };
     let path = draft.path(gate);
     let headline = format!("gate `{path}` pushes to {count}, so each of them gets only a part of the messages");
-    let name = &draft.gates[gate].model.name.value;
-    let message = super::unconnected::type_text(draft, gate);
-    with_peers(&SEVERAL_PULLERS, headline, draft, gate, links, |which, _| format!("{which} receiver"))
-        .help("if both need every message, make the gates `pub` and `sub`")
-        .help(format!("if the work is to be shared, say so: `{name}: {{push: {message}, share: true}}`"))
-        .note("many pushers into one `pull` gate are allowed")
+    let share = draft.with_option(gate, "share", "true");
+    let written = draft.entry_with(gate, std::slice::from_ref(&share));
+    let shared = written.unwrap_or_else(|| format!("share: true` at `{path}"));
+    let pullers = links.iter().map(|&(_, puller)| draft.with_kind(puller, GateKind::Sub, None));
+    let published: Option<Vec<Vec<Edit>>> =
+        std::iter::once(draft.with_kind(gate, GateKind::Pub, None)).chain(pullers).collect();
+    let found = with_peers(&SEVERAL_PULLERS, headline, draft, gate, links, |which, _| format!("{which} receiver"))
+        .suggest(format!("if they share the work, write `{shared}`"), [share]);
+    let help = format!("if {each} every message, make the gates `pub` and `sub`");
+    match published {
+        Some(edits) => found.suggest(help, edits.concat()),
+        None => found.help(help),
+    }
+    .note("many pushers into one `pull` gate are allowed")
 }
 
 /// An error at the second peer, with a label on each of the others.
@@ -265,8 +294,8 @@ mod tests {
                 13 |   - [camera.frames, recorder.frames]
                    |      ^^^^^^^^^^^^^ second receiver
                    |
+                   = help: if they share the work, write `frames: {push: , share: true}`
                    = help: if both need every message, make the gates `pub` and `sub`
-                   = help: if the work is to be shared, say so: `frames: {push: , share: true}`
                    = note: many pushers into one `pull` gate are allowed
             "#]],
         );

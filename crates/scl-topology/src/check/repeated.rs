@@ -119,6 +119,7 @@ connections:
                    |                ---------- and here
                    |
                    = help: rename `contoller` to `controller`, as the connections call it
+                   = help: or write `contoller` in the connections
                    = note: declared components: `contoller`, `sensor`
                    = note: 2 connections name it
             "#]],

@@ -2,6 +2,7 @@
 //! that leaves no room for the others in a socket path.
 
 use super::named::{LONGEST_NAME, Noun, names};
+use super::rename::Renames;
 use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::model::Model;
 
@@ -36,12 +37,16 @@ pub(crate) const TOO_LONG: Rule = Rule {
 /// The longest name of a system: at least 41 bytes of a socket path remain for the names of gates.
 const LONGEST_SYSTEM: usize = 40;
 
-pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
+pub(super) fn check<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
     for (noun, name) in names(model) {
         if is_reserved(noun, &name.value) {
             let found = RESERVED
                 .at(format!("`{}` is reserved for the framework", name.value), name.span, "")
-                .help("choose another name")
+                .suggest(
+                    format!("choose another name, for example `{}`", other_name(&name.value)),
+                    renames.edits(noun, name, &other_name(&name.value)),
+                )
+                .otherwise("choose another name")
                 .note("reserved: `scl`, `topology`, and names that start with `scl_` or `__`");
             problems.push(found);
         }
@@ -66,6 +71,16 @@ fn is_reserved(noun: Noun, name: &str) -> bool {
     }
 }
 
+/// A name without the reserved part, or with another word.
+fn other_name(name: &str) -> String {
+    let bare = name.trim_start_matches('_');
+    let bare = bare.strip_prefix("scl_").unwrap_or(bare).trim_start_matches('_');
+    match bare {
+        "" | "scl" | "topology" => format!("my_{bare}").trim_end_matches('_').to_owned(),
+        _ => bare.to_owned(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::{RESERVED, TOO_LONG};
@@ -77,15 +92,15 @@ mod tests {
         rule_example(
             &RESERVED,
             expect![[r#"
-            error: [SCL0311] `scl` is reserved for the framework
-             --> topology.yaml:2:11
-              |
-            2 |   - name: scl
-              |           ^^^
-              |
-              = help: choose another name
-              = note: reserved: `scl`, `topology`, and names that start with `scl_` or `__`
-        "#]],
+                error: [SCL0311] `scl` is reserved for the framework
+                 --> topology.yaml:2:11
+                  |
+                2 |   - name: scl
+                  |           ^^^
+                  |
+                  = help: choose another name, for example `my_scl`
+                  = note: reserved: `scl`, `topology`, and names that start with `scl_` or `__`
+            "#]],
         );
     }
 

@@ -3,18 +3,12 @@
 //! A type whose first part is a package of the schemas is one of theirs. Any other is a Rust path, which rustc looks up
 //! where the macro is called, unless it is nearly the name of a message or a single word in lower case.
 
+use super::Facts;
 use super::draft::Draft;
-use super::rust_path::{is_rust, is_scalar};
-use super::{Facts, SchemaMessages};
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
-use crate::suggest::{same_parts, similar};
-use crate::topology::TypeName;
-use scl_text::list::listed;
-use scl_text::suggest::bare;
-use std::collections::{BTreeSet, HashMap};
-
-/// Maximum number of names that a message suggests.
-const MOST: usize = 3;
+use super::rust_path::is_rust;
+use super::schema_names::{Known, Unknown};
+use super::unknown_type::Report;
+use crate::diagnostic::{Diagnostics, Rule, Severity};
 
 /// SCL0405.
 pub(crate) const RULE: Rule = Rule {
@@ -36,12 +30,13 @@ pub(crate) const RULE: Rule = Rule {
 
 pub(super) fn check(draft: &mut Draft<'_>, facts: &Facts, problems: &mut Diagnostics) {
     let Some(schemas) = &facts.messages else { return };
-    let known = Known::of(schemas);
-    for at in 0..draft.gates.len() {
-        let Some(mut payload) = draft.gates[at].payload.take() else { continue };
-        let mut unknown = false;
-        for name in payload.types_mut() {
-            if known.all.contains(name.dotted()) {
+    let known = Known::of(schemas, draft.model.schemas.iter().map(|schema| schema.value.as_str()));
+    let mut unknown: Vec<Unknown<'_>> = Vec::new();
+    for gate in 0..draft.gates.len() {
+        let Some(mut payload) = draft.gates[gate].payload.take() else { continue };
+        let before = unknown.len();
+        for (part, name) in payload.types_mut().into_iter().enumerate() {
+            if known.all.contains_key(name.dotted()) {
                 name.in_schemas = true;
                 continue;
             }
@@ -49,134 +44,13 @@ pub(super) fn check(draft: &mut Draft<'_>, facts: &Facts, problems: &mut Diagnos
             let is_lower_word =
                 || !name.dotted().contains('.') && name.dotted().starts_with(|first: char| first.is_lowercase());
             if known.has_root(name.dotted()) || !meant.is_empty() || is_lower_word() && !is_rust(name.dotted()) {
-                problems.push(report(draft, schemas, &known, name, &meant));
-                unknown = true;
+                unknown.push(Unknown { gate, part, name: name.clone(), meant });
             }
         }
-        draft.gates[at].payload = if unknown { None } else { Some(payload) };
+        draft.gates[gate].payload = if unknown.len() > before { None } else { Some(payload) };
     }
-}
-
-/// The messages of all schemas.
-struct Known<'s> {
-    all: BTreeSet<&'s str>,
-    /// The first part of every name: a package, or a message without one.
-    roots: BTreeSet<&'s str>,
-    /// The names by their last part.
-    by_last: HashMap<&'s str, Vec<&'s str>>,
-    /// The names by themselves and by their last part, both [`bare`].
-    by_bare: HashMap<String, Vec<&'s str>>,
-}
-
-impl<'s> Known<'s> {
-    fn of(schemas: &'s [SchemaMessages]) -> Self {
-        let all: BTreeSet<&str> = schemas.iter().flat_map(|schema| schema.names.iter()).map(String::as_str).collect();
-        let packages = schemas.iter().flat_map(|schema| schema.packages.iter()).map(String::as_str);
-        let packages = packages.filter(|package| !package.is_empty());
-        let roots = all.iter().copied().chain(packages).map(root).chain(["google"]).collect();
-        let mut by_last: HashMap<&str, Vec<&str>> = HashMap::new();
-        let mut by_bare: HashMap<String, Vec<&str>> = HashMap::new();
-        for name in &all {
-            let last = name.rsplit('.').next().unwrap_or_default();
-            by_last.entry(last).or_default().push(name);
-            by_bare.entry(bare(last)).or_default().push(name);
-            if last != *name {
-                by_bare.entry(bare(name)).or_default().push(name);
-            }
-        }
-        Self { all, roots, by_last, by_bare }
-    }
-
-    /// Returns true if the type can only be one of the schemas, because its first part belongs to them.
-    fn has_root(&self, dotted: &str) -> bool {
-        self.roots.contains(root(dotted))
-    }
-
-    /// The messages that an unknown type may mean. For a type outside of the schemas' packages, only those whose
-    /// package is misspelt or missing: any other is a Rust path.
-    ///
-    /// Calls `may_search` before a search that takes long in a file with very many types.
-    fn nearest(&self, dotted: &str, mut may_search: impl FnMut() -> bool) -> Vec<&'s str> {
-        let all = || self.all.iter().copied();
-        if self.has_root(dotted) {
-            return match may_search() {
-                true => some(same_parts(dotted, all())).unwrap_or_else(|| similar(dotted, all())),
-                false => Vec::new(),
-            };
-        }
-        let Some((first, rest)) = dotted.split_once('.') else { return self.without_package(dotted, may_search) };
-        // `rover_msgs.Event`, `rover_pb2.Event`: the package with the name of a tool's module.
-        let extended = first.split('_').filter_map(|word| self.all.get(format!("{word}.{rest}").as_str()).copied());
-        if let Some(found) = some(extended.collect()) {
-            return found;
-        }
-        let swapped: Vec<&str> = dotted.rsplit('.').collect();
-        if let Some(&name) = self.all.get(swapped.join(".").as_str()) {
-            return vec![name];
-        }
-        let roots = similar(first, self.roots.iter().copied());
-        let misspelt = roots.iter().filter_map(|root| self.all.get(format!("{root}.{rest}").as_str()).copied());
-        if let Some(found) = some(misspelt.collect()) {
-            return found;
-        }
-        if roots.is_empty() || !may_search() {
-            return Vec::new();
-        }
-        let fits = |name: &&str| {
-            name.split_once('.')
-                .is_some_and(|(root, other)| roots.contains(&root) && !similar(rest, [other]).is_empty())
-        };
-        all().filter(fits).take(MOST).collect()
-    }
-
-    /// `Measurement`, `measurement`, `uavMeasurement` and `uav_measurement` mean `uav.Measurement`, and `Mesurement`
-    /// that or a message that has no package.
-    fn without_package(&self, name: &str, mut may_search: impl FnMut() -> bool) -> Vec<&'s str> {
-        let found = |names: Option<&Vec<&'s str>>| names.map(|names| names.iter().copied().take(MOST).collect());
-        let bare_name = bare(name);
-        if let Some(names) = found(self.by_last.get(name)).or_else(|| found(self.by_bare.get(&bare_name))) {
-            return names;
-        }
-        if !may_search() {
-            return Vec::new();
-        }
-        let ends = similar(name, self.by_last.keys().copied());
-        ends.iter().flat_map(|end| &self.by_last[end]).copied().take(MOST).collect()
-    }
-}
-
-fn some(names: Vec<&str>) -> Option<Vec<&str>> {
-    (!names.is_empty()).then_some(names)
-}
-
-fn root(dotted: &str) -> &str {
-    dotted.split('.').next().unwrap_or_default()
-}
-
-fn report(
-    draft: &Draft<'_>,
-    schemas: &[SchemaMessages],
-    known: &Known<'_>,
-    name: &TypeName,
-    meant: &[&str],
-) -> Diagnostic {
-    let headline = format!("unknown message type `{}`", name.dotted());
-    let declared = if let [only] = meant { Some(*only) } else { None }.and_then(|only| {
-        let declares = |schema: &SchemaMessages| schema.names.iter().any(|other| other == only);
-        let place = schemas.iter().position(declares).and_then(|at| draft.model.schemas.get(at))?;
-        Some((place.span, format!("declares `{only}`")))
-    });
-    let is_path = !known.has_root(name.dotted()) && !is_scalar(name.dotted());
-    let path = is_path.then(|| format!("a Rust type of your own has a path: `crate.{}`", name.dotted()));
-    let found = RULE
-        .at(headline, name.span(), "not in the schemas")
-        .about(name.dotted())
-        .labels(declared)
-        .did_you_mean(name.dotted(), meant)
-        .helps(path);
-    match known.all.is_empty() {
-        true => found.note("the `schemas` declare no message types"),
-        false => found.note(format!("message types in `schemas`: {}", listed(&known.all))),
+    if !unknown.is_empty() {
+        problems.extend(Report::new(&RULE, draft, &known).of(unknown));
     }
 }
 
@@ -265,7 +139,7 @@ components:
             ("Measurement", "did you mean `uav.Measurement`?"),
             ("Measurement.uav", "did you mean `uav.Measurement`?"),
             ("Tmie", "did you mean `Time`?"),
-            ("google.protobuf.Timestamp", ""),
+            ("google.protobuf.Timestamp", "a gate carries a message, which may have a field of this type"),
         ];
         for (message, expected) in cases {
             assert_eq!(told(message), expected, "{message}");

@@ -1,10 +1,13 @@
 //! SCL0308 and SCL0309: names that differ in the file and would be one in Rust. SCL0310: names that only letter case
 //! and `_` tell apart.
 
-use super::named::{Name, is_well_formed, with_first};
+use super::merge;
+use super::named::{Name, Noun, is_well_formed, with_first};
+use super::rename::Renames;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::model::Model;
 use crate::rust_name::{component_type, gate_field};
+use crate::source::Sources;
 use std::collections::HashMap;
 
 /// SCL0308.
@@ -40,29 +43,47 @@ pub(crate) const SAME_FIELD: Rule = Rule {
 ",
 };
 
-pub(super) fn check(model: &Model, problems: &mut Diagnostics) {
+/// Maximum number of problems of one kind for which a change is searched.
+const MOST_SEARCHES: usize = 16;
+
+pub(super) fn check<'m>(model: &'m Model, sources: &Sources, renames: &Renames<'m>, problems: &mut Diagnostics) {
     let names = model.components.iter().map(|component| &component.name);
-    for (first, second, rust) in collisions(names, component_type) {
+    for (number, (first, second, rust)) in collisions(names, component_type).enumerate() {
         let (a, b) = (&first.value, &second.value);
         let headline = format!("components `{a}` and `{b}` would both become the Rust type `{rust}`");
-        let help = "rename one of them; use `_` in all names";
-        problems.push(collision(&SAME_TYPE, headline, [first, second], &rust).help(help));
+        let mut found = collision(&SAME_TYPE, headline, [first, second], &rust);
+        if number < MOST_SEARCHES {
+            let of = |name: &Name| model.components.iter().find(|component| std::ptr::eq(&component.name, name));
+            if let (Some(first), Some(second)) = (of(first), of(second)) {
+                found = merge::suggest(found, model, sources, [first, second]);
+            }
+        }
+        problems.push(with_other_name(found, renames, Noun::Component, second));
     }
-    check_peers(model, problems);
-    check_letter_case(model, problems);
+    check_peers(model, renames, problems);
+    check_letter_case(model, renames, problems);
     for component in &model.components {
         let names = component.gates.iter().map(|gate| &gate.name);
         for (first, second, rust) in collisions(names, gate_field) {
             let (a, b, owner) = (&first.value, &second.value, &component.name.value);
             let headline = format!("gates `{a}` and `{b}` of `{owner}` would both become the Rust field `{rust}`");
-            problems.push(collision(&SAME_FIELD, headline, [first, second], &rust).help("rename one of them"));
+            let found = collision(&SAME_FIELD, headline, [first, second], &rust);
+            problems.push(with_other_name(found, renames, Noun::Gate, second));
         }
     }
 }
 
+/// Suggests a number at the end of a name.
+fn with_other_name<'m>(found: Diagnostic, renames: &Renames<'m>, noun: Noun, name: &'m Name) -> Diagnostic {
+    let other = format!("{}_2", gate_field(&name.value).trim_end_matches('_'));
+    let or = if found.helps.is_empty() { "" } else { "or " };
+    let help = format!("{or}rename one of them, for example `{}` to `{other}`", name.value);
+    found.suggest(help, renames.edits(noun, name, &other)).otherwise("rename one of them")
+}
+
 /// Reports components named like a counterpart for tests, which the macro generates beside each component:
 /// `ControllerPeer` for `Controller`.
-fn check_peers(model: &Model, problems: &mut Diagnostics) {
+fn check_peers<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
     let names = model.components.iter().map(|component| &component.name).filter(|name| is_well_formed(&name.value));
     let by_type: HashMap<String, &Name> = names.rev().map(|name| (component_type(&name.value), name)).collect();
     for component in &model.components {
@@ -73,10 +94,15 @@ fn check_peers(model: &Model, problems: &mut Diagnostics) {
             "component `{}` would become the Rust type `{rust}`, which is generated for tests of `{}`",
             name.value, owner.value
         );
+        let other = format!("peer_of_{}", gate_field(&owner.value));
         let found = SAME_TYPE
             .at(headline, name.span, format!("becomes `{rust}`"))
             .label(owner.span, format!("gets `{rust}` beside it"))
-            .help("choose a name that does not end with `peer`");
+            .suggest(
+                format!("choose a name that does not end with `peer`, for example `{other}`"),
+                renames.edits(Noun::Component, name, &other),
+            )
+            .otherwise("choose a name that does not end with `peer`");
         problems.push(found);
     }
 }
@@ -112,36 +138,37 @@ pub(crate) const LETTER_CASE: Rule = Rule {
 ",
 };
 
-fn check_letter_case(model: &Model, problems: &mut Diagnostics) {
+fn check_letter_case<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
     let components = model.components.iter().map(|component| &component.name);
-    check_names("components", components, component_type, problems);
+    check_names(Noun::Component, components, component_type, renames, problems);
     for component in &model.components {
-        check_names("gates", component.gates.iter().map(|gate| &gate.name), gate_field, problems);
+        check_names(Noun::Gate, component.gates.iter().map(|gate| &gate.name), gate_field, renames, problems);
     }
 }
 
 fn check_names<'m>(
-    plural: &str,
+    noun: Noun,
     names: impl Iterator<Item = &'m Name>,
     rust: fn(&str) -> String,
+    renames: &Renames<'m>,
     problems: &mut Diagnostics,
 ) {
     let names = names.filter(|name| is_well_formed(&name.value));
     // Two names that become the same Rust name are already an error.
     let alike = with_first(names, folded).filter(|(first, name)| rust(&first.value) != rust(&name.value));
-    problems.extend(alike.map(|(first, name)| differ_in_case(plural, first, name)));
+    problems.extend(alike.map(|(first, name)| with_other_name(differ_in_case(noun, first, name), renames, noun, name)));
 }
 
 fn folded(name: &str) -> String {
     name.chars().filter(|&letter| letter != '_' && letter != '-').map(|letter| letter.to_ascii_lowercase()).collect()
 }
 
-fn differ_in_case(plural: &str, first: &Name, second: &Name) -> Diagnostic {
-    let headline = format!("{plural} `{}` and `{}` differ only in letter case and `_`", first.value, second.value);
+fn differ_in_case(noun: Noun, first: &Name, second: &Name) -> Diagnostic {
+    let headline =
+        format!("{}s `{}` and `{}` differ only in letter case and `_`", noun.word(), first.value, second.value);
     LETTER_CASE
         .at(headline, second.span, "")
         .label(first.span, "")
-        .help("rename one of them")
         .note("their socket files would be the same on a file system that ignores case (macOS, Windows)")
 }
 
@@ -156,17 +183,17 @@ mod tests {
         rule_example(
             &SAME_TYPE,
             expect![[r#"
-            error: [SCL0308] components `user-interface` and `user_interface` would both become the Rust type `UserInterface`
-             --> topology.yaml:4:11
-              |
-            2 |   - name: user-interface
-              |           -------------- becomes `UserInterface`
-            3 |     gates: []
-            4 |   - name: user_interface
-              |           ^^^^^^^^^^^^^^ also becomes `UserInterface`
-              |
-              = help: rename one of them; use `_` in all names
-        "#]],
+                error: [SCL0308] components `user-interface` and `user_interface` would both become the Rust type `UserInterface`
+                 --> topology.yaml:4:11
+                  |
+                2 |   - name: user-interface
+                  |           -------------- becomes `UserInterface`
+                3 |     gates: []
+                4 |   - name: user_interface
+                  |           ^^^^^^^^^^^^^^ also becomes `UserInterface`
+                  |
+                  = help: rename one of them, for example `user_interface` to `user_interface_2`
+            "#]],
         );
     }
 
@@ -192,7 +219,7 @@ components:
                 4 |   - name: controller
                   |           ---------- gets `ControllerPeer` beside it
                   |
-                  = help: choose a name that does not end with `peer`
+                  = help: choose a name that does not end with `peer`, for example `peer_of_controller`
             "#]],
         );
     }
@@ -210,16 +237,16 @@ components:
             "SCL0309",
             yaml.trim_start(),
             expect![[r#"
-            error: [SCL0309] gates `set-point` and `setPoint` of `actuator` would both become the Rust field `set_point`
-             --> topology.yaml:5:9
-              |
-            4 |       - set-point: sub
-              |         --------- becomes `set_point`
-            5 |       - setPoint: sub
-              |         ^^^^^^^^ also becomes `set_point`
-              |
-              = help: rename one of them
-        "#]],
+                error: [SCL0309] gates `set-point` and `setPoint` of `actuator` would both become the Rust field `set_point`
+                 --> topology.yaml:5:9
+                  |
+                4 |       - set-point: sub
+                  |         --------- becomes `set_point`
+                5 |       - setPoint: sub
+                  |         ^^^^^^^^ also becomes `set_point`
+                  |
+                  = help: rename one of them, for example `setPoint` to `set_point_2`
+            "#]],
         );
     }
 
@@ -228,18 +255,18 @@ components:
         rule_example(
             &LETTER_CASE,
             expect![[r#"
-            warning: [SCL0310] components `gps` and `GPS_` differ only in letter case and `_`
-             --> topology.yaml:4:11
-              |
-            2 |   - name: gps
-              |           ---
-            3 |     gates: []
-            4 |   - name: GPS_
-              |           ^^^^
-              |
-              = help: rename one of them
-              = note: their socket files would be the same on a file system that ignores case (macOS, Windows)
-        "#]],
+                warning: [SCL0310] components `gps` and `GPS_` differ only in letter case and `_`
+                 --> topology.yaml:4:11
+                  |
+                2 |   - name: gps
+                  |           ---
+                3 |     gates: []
+                4 |   - name: GPS_
+                  |           ^^^^
+                  |
+                  = help: rename one of them, for example `GPS_` to `gps_2`
+                  = note: their socket files would be the same on a file system that ignores case (macOS, Windows)
+            "#]],
         );
     }
 }

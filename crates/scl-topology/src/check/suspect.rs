@@ -29,9 +29,15 @@ pub(super) fn mark(draft: &mut Draft<'_>) {
             }
         }
     }
-    for end in draft.model.broken_ends.iter().filter(|end| draft.find(&end.value).is_none()) {
-        words.extend(words_of(&end.value));
+    let mut broken: Vec<GateKind> = Vec::new();
+    for end in &draft.model.broken_ends {
+        match draft.find(&end.value) {
+            Some(gate) => broken.extend(draft.gates[gate].kind.filter(|kind| !broken.contains(kind))),
+            None => words.extend(words_of(&end.value)),
+        }
     }
+    // What an end without another one was to be connected to is unknown.
+    kinds.extend(broken.iter().map(|kind| kind.opposite()).filter(|kind| !broken.contains(kind)));
     for at in 0..draft.gates.len() {
         let gate = &draft.gates[at];
         let is_named = |name: &str| words.contains(name);

@@ -69,6 +69,16 @@ pub(super) fn advice(yaml: &str) -> String {
     told.collect::<Vec<_>>().join("; ")
 }
 
+/// As [`advice`], for errors and warnings of one rule, in a file whose schemas declare these messages.
+pub(super) fn advice_with(rule: &Rule, yaml: &str, messages: &[&str]) -> String {
+    let (found, _) = problems(yaml, Some(messages));
+    let told = found.iter().filter(|found| found.code() == rule.code).map(|found| {
+        let helps: Vec<_> = found.shown_helps().map(|help| help.text()).collect();
+        format!("{} [{}]", found.message, helps.join(" | "))
+    });
+    told.collect::<Vec<_>>().join("; ")
+}
+
 /// All problems of a text, and its sources.
 pub(crate) fn problems(yaml: &str, messages: Option<&[&str]>) -> (Vec<Diagnostic>, Sources) {
     let (_, found, sources) = run(yaml, messages);
@@ -88,10 +98,12 @@ fn run(yaml: &str, messages: Option<&[&str]>) -> (Option<Topology>, Vec<Diagnost
     let file = sources.add("topology.yaml", yaml);
     let declared = |names: &[&str]| SchemaMessages {
         names: names.iter().map(|&name| name.to_owned()).collect(),
+        enums: [("uav.Mode".to_owned(), vec!["uav.Status".to_owned()])].into(),
         ..SchemaMessages::default()
     };
     let messages = messages.map(|names| vec![declared(names)]);
-    let facts = Facts { default_system: "topology".to_owned(), messages, sockets: SocketPaths::example() };
+    let facts =
+        Facts { default_system: "topology".to_owned(), messages, sockets: SocketPaths::example(), ..Facts::default() };
     let judge = |sources: &Sources| {
         let mut problems = Diagnostics::new();
         let model = parse(sources, file, &mut problems);

@@ -1,8 +1,9 @@
 //! Several mistakes at once: all are reported, and nothing that only follows from them.
 
-use super::testing::{codes, problems};
+use super::testing::{advice, codes, problems};
 use crate::diagnostic::Severity;
 use crate::source::Span;
+use expect_test::expect;
 
 /// Two components with the gates given, and connections.
 fn file(a: &str, b: &str, connections: &str) -> String {
@@ -15,7 +16,7 @@ fn file(a: &str, b: &str, connections: &str) -> String {
 
 #[test]
 fn every_mistake_is_told_and_nothing_else() {
-    let cases: [(&str, String, &[&str]); 14] = [
+    let cases: [(&str, String, &[&str]); 15] = [
         (
             "three mistakes in three places",
             file("x: publish; w: {pub: T, codec: jsn}", "w: sub", "[a.w, b.z]"),
@@ -30,6 +31,11 @@ fn every_mistake_is_told_and_nothing_else() {
         ("a doubled connection is no peer", file("x: req", "x: rep", "[a.x, b.x]; [b.x, a.x]"), &["SCL0510"]),
         ("a wrong pair has no types", file("x: {pub: T}", "x: {req: T -> U}", "[a.x, b.x]"), &["SCL0506"]),
         ("a broken type is not compared", file("x: {pub: Vec<u8>}", "x: {sub: U}", "[a.x, b.x]"), &["SCL0403"]),
+        (
+            "an unread type is not taken over",
+            file("x: {pub: T}; y: {pub: U}", "z: {sub: [T, U]}", "[a.x, b.z]; [a.y, b.z]"),
+            &["SCL0215"],
+        ),
         (
             "a broken codec is not compared",
             file("x: {pub: U, codec: jsn}", "x: {sub: U, codec: cbor}", "[a.x, b.x]"),
@@ -46,6 +52,69 @@ fn every_mistake_is_told_and_nothing_else() {
     for (what, yaml, expected) in cases {
         assert_eq!(codes(&yaml), expected, "{what}\n{yaml}");
     }
+}
+
+#[test]
+fn what_belongs_together_is_changed_together() {
+    let cases = [
+        file("x: pub; w: pub", "x: sub; w: sub", "[a.*, b.*]"),
+        file("x: {pub: T}; w: {pub: U}", "x: {sub: T}; w: {sub: U}", "['*.x', b.x]; [a.w, b.w]"),
+        file("x_1: pub; x_2: pub", "all: sub", "[a.x_*, b.all]"),
+        file("x: pub", "x: sub", "[c*.x, b.x]"),
+        file(
+            "x: {push: T, backpressure: true}",
+            "x: {pull: T, when_full: wait}; w: {pull: T, when_full: wait}",
+            "[a.x, b.x]; [a.x, b.w]",
+        ),
+        file("x: {push: T, share: 2}", "x: {pull: T}; w: {pull: T}", "[a.x, b.x]; [a.x, b.w]"),
+        file("x: {req: Q -> R, timeout: 1s}", "x: {rep: Q -> R}; w: {rep: Q -> R}", "[a.x, b.x]; [a.x, b.w]"),
+        file("x: {sub: , queue: 5}", "t: {pub: T}; u: {pub: U}; v: {pub: U}", "[a.x, b.t]; [a.x, b.u]; [a.x, b.v]"),
+        file("x: {pub: T}; x: {pub: T}", "x: {sub: T}", "[a.x, b.x]"),
+        file("x: {sub: T, queue: 1}; x: {sub: T, queue: 2}", "x: {pub: T}", "[a.x, b.x]"),
+        file("x: {pub: T}; x: {sub: T}", "x: {pub: T}; x: {sub: T}", "[a.x, b.x]; [b.x, a.x]"),
+        file("x: {pub: T}; x: {pub: U}", "x: {sub: T}", "[a.x, b.x]"),
+        file("x_1: pub; x_2: pub", "x_1: sub; x_2: sub", "[a.x_1, b.x_1]; [a.x_1, b.x_1]"),
+        file("x: pub; w: pub", "x: sub; w: sub", "[a.x, b.x]; [a.w, b.w]; [a.x, b.x]"),
+        file("ask: req; x: rep", "x: rep", "[a.ask, a.ask]"),
+        file("ask: req; x: rep", "x: req", "[a.ask, a.x]; [a.x, b.x]"),
+        file("x: pub; w: sub", "w: sub", "[a.x, a.w]; [a.x, b.w]"),
+        file(
+            "ask: {req: Q -> R, timeout: 1s}; state: {rep: Q -> S}",
+            "do: {rep: Q -> R}; state: {req: Q -> S}",
+            "[a.ask, b.do]; [b.state, a.state]",
+        ),
+        file("x: pub", "x: req; w: sub", "[a.x, b.x]"),
+        file("x: pub", "x: sub; x_in: sub", "[a.x, b.x]; [a.x, b.x_in]")
+            .replace("name: b", "name: b_node")
+            .replace("b.x", "node.x"),
+        file("x: pub", "x: sub", "[a.x, b.x]; [ghost.y, b.x]")
+            .replace("components:", "components:\n#  - name: ghost\n#    gates: [y: pub]"),
+    ];
+    let told: String = cases.iter().map(|yaml| format!("{}\n", advice(yaml))).collect();
+    expect![[r#"
+        SCL0503 a connection end is written `component.gate` [write a connection for each gate: `[a.x, b.x]`, `[a.w, b.w]`]
+        SCL0503 a connection end is written `component.gate` [write a connection for each gate: `[a.x, b.x]`]
+        SCL0503 a connection end is written `component.gate` [write a connection for each gate: `[a.x_1, b.all]`, `[a.x_2, b.all]`]
+        SCL0503 a connection end is written `component.gate` [write a connection for each gate, without `*`]
+        SCL0513 gate `a.x` pushes to two components, so each of them gets only a part of the messages [if they share the work, write `x: {push: T, backpressure: true, share: true}` | if both need every message, make the gates `pub` and `sub`]
+        SCL0215 `share` must be `true` or `false` [write `share: true`]
+        SCL0512 gate `a.x` asks two repliers [declare one `req` gate for each replier: `b_x`, `b_w`]
+        SCL0601 2 connections of `a.x` use different message types at their two ends [give `a` one gate for each type: `t` and `u` | write `T` at `b.u`, `b.v`]
+        SCL0302 component `a` declares gate `x` twice [remove one of the two]
+        SCL0302 component `a` declares gate `x` twice [remove the first one, which has `queue: 1` | remove the second one, which has `queue: 2` | or give one of them another name]
+        SCL0302 component `a` declares gate `x` twice [give the `sub` gate a name of its own, for example `x_in`, also in its connections]; SCL0302 component `b` declares gate `x` twice [give the `sub` gate a name of its own, for example `x_in`, also in its connections]
+        SCL0302 component `a` declares gate `x` twice [gate names are unique within a component: give one of them another name, also in its connections]
+        SCL0510 this connection is already declared [write `[a.x_2, b.x_2]` | remove one of the two]
+        SCL0510 this connection is already declared [remove one of the two]
+        SCL0507 gate `a.ask` is connected to itself [write `[a.ask, b.x]`]
+        SCL0508 component `a` sends requests to itself [call a function inside the component, and remove this connection and the gate `a.ask`]
+
+        SCL0707 components wait for each other: `a` -> `b` -> `a` [let `a` publish what `b.state` asks for, if that is the same for each request: `pub` and `sub` instead of `rep` and `req` | or let `b` publish what `a.ask` asks for, if that is the same for each request: `pub` and `sub` instead of `rep` and `req` | or, if a component never waits at its connection while another one waits for it, write
+        `# scl: allow(SCL0707) reason` above that connection]
+        SCL0506 a `pub` gate cannot be connected to a `req` gate [make `a.x` a `rep` gate | make `b.x` a `sub` gate]
+        SCL0501 unknown component `node` [did you mean `b_node`? | or rename the component `b_node` to `node`]
+        SCL0501 unknown component `ghost` [make comments of its connections, too | or declare the component `ghost` with the gate `y` (pub), or remove the connection]
+    "#]].assert_eq(&told);
 }
 
 #[test]

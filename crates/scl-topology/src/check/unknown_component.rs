@@ -1,5 +1,6 @@
 //! SCL0501: an end of a component that does not exist. SCL0504: its two names are swapped.
 
+use super::commented_out;
 use super::draft::Draft;
 use super::end::{End, with_places};
 use super::named::is_well_formed;
@@ -7,7 +8,8 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::rust_name::{component_type, gate_field};
 use crate::source::Span;
 use crate::suggest::{MOST, nearest, similar};
-use scl_text::list::listed;
+use crate::topology::GateKind;
+use scl_text::list::{listed, shortened};
 
 /// SCL0501.
 pub const UNKNOWN: Rule = Rule {
@@ -62,13 +64,29 @@ struct Meant<'m> {
     is_open: bool,
 }
 
-pub(super) fn check<'m>(draft: &mut Draft<'m>, component: &'m str, ends: &[End], problems: &mut Diagnostics) {
+/// Reports ends of an unknown component, which stands in a comment if `comment` is its name there.
+pub(super) fn check<'m>(
+    draft: &mut Draft<'m>,
+    component: &'m str,
+    comment: Option<Span>,
+    ends: &[End],
+    problems: &mut Diagnostics,
+) {
     if draft.model.components_unread {
         return;
     }
     let headline = format!("unknown component `{component}`");
     let of_end = |&[link, end]: &End| draft.part(draft.links[link].model.ends[end].span, component, false);
     let places: Vec<Span> = ends.iter().map(of_end).collect();
+    if let Some(comment) = comment {
+        let found =
+            UNKNOWN.at(headline, places[0], "no component has this name").label(comment, "this component is a comment");
+        let found = match commented_out::with_connections(draft, ends) {
+            Some(edits) => found.suggest("make comments of its connections, too", edits),
+            None => found,
+        };
+        return problems.push(with_places(found.help(format!("or {}", declare(draft, component, ends))), &places));
+    }
     let meant = if draft.may_search() { meant(draft, component, ends) } else { Meant::default() };
     mark(draft, &meant, ends);
     if meant.names.iter().any(|name| !is_well_formed(name)) {
@@ -79,8 +97,23 @@ pub(super) fn check<'m>(draft: &mut Draft<'m>, component: &'m str, ends: &[End],
     let label = if meant.is_similar { "a similar name is declared here" } else { "has such gates" };
     let similar = declarations.map(|at| (draft.components[at].model.name.span, label));
     let found = UNKNOWN.at(headline, places[0], "no component has this name").labels(similar);
-    let found = with_ways(draft, found, component, &meant, ends, &places);
+    let found = with_ways(draft, found, component, &meant, ends, &places).otherwise(declare(draft, component, ends));
     problems.push(with_places(found.note(declared(draft)), &places));
+}
+
+/// Says which gates the component would have.
+fn declare(draft: &Draft<'_>, component: &str, ends: &[End]) -> String {
+    let gate = |end: &End| {
+        let kind = draft.links[end[0]].ends[1 - end[1]].and_then(|other| draft.gates[other].kind);
+        let name = gate_name(draft, *end);
+        kind.map_or_else(|| format!("`{name}`"), |kind| format!("`{name}` ({})", kind.opposite().word()))
+    };
+    let mut gates: Vec<String> = ends.iter().take(SEARCHED).map(gate).collect();
+    gates.sort_unstable();
+    gates.dedup();
+    let noun = if gates.len() == 1 { "the gate" } else { "the gates" };
+    let what = if ends.len() == 1 { "the connection" } else { "its connections" };
+    format!("declare the component `{component}` with {noun} {}, or remove {what}", shortened(&gates))
 }
 
 /// Marks the gates that are meant as connected.
@@ -118,7 +151,8 @@ fn with_ways(
     match renamed {
         // `SensorUnit` is only what Rust calls `sensor_unit`.
         Some(edit) if ends.len() > 1 && meant.is_similar && gate_field(component) == component => {
-            found.propose(format!("rename `{only}` to `{component}`, as the connections call it"), [edit])
+            let found = found.suggest(format!("rename `{only}` to `{component}`, as the connections call it"), [edit]);
+            found.suggest(format!("or write `{only}` in the connections"), changed(only))
         }
         renamed => {
             let mut found = found.choose_all(("did you mean ", "?"), [(only, changed(only))]);
@@ -185,9 +219,24 @@ fn meant<'m>(draft: &Draft<'m>, component: &str, ends: &[End]) -> Meant<'m> {
         ends.iter()
             .all(|&[link, end]| draft.links[link].ends[1 - end].is_none_or(|other| draft.component_name(other) != name))
     };
-    holders.retain(|name| has_all(name) && fits(name) && is_open(name) && is_other(name));
+    holders.retain(|name| has_all(name) && fits(name) && is_other(name));
+    let takes_more = |name: &str| {
+        let kinds = ends.iter().filter_map(|end| draft.gates[gate_of(draft, name, *end)?].kind);
+        kinds.into_iter().all(|kind| matches!(kind, GateKind::Pub | GateKind::Rep | GateKind::Pull))
+    };
+    match holders.iter().any(|name| is_open(name)) {
+        true => holders.retain(|name| is_open(name)),
+        // Any number of connections may name the same publisher.
+        false => holders.retain(|name| takes_more(name)),
+    }
+    let shares_word = |name: &str| words(name).any(|word| words(component).any(|other| word == other));
+    keep_if_any(&mut holders, shares_word);
     holders.truncate(MOST);
     Meant { names: holders, is_similar: false, is_open: true }
+}
+
+fn words(name: &str) -> impl Iterator<Item = &str> {
+    name.split(['_', '-']).filter(|word| !word.is_empty())
 }
 
 fn gate_name<'m>(draft: &Draft<'m>, [link, end]: End) -> &'m str {
@@ -280,14 +329,15 @@ connections:
             "SCL0501",
             yaml.trim_start(),
             expect![[r#"
-            error: [SCL0501] unknown component `aircomm`
-             --> topology.yaml:9:6
-              |
-            9 |   - [aircomm.report, pilot.orders]
-              |      ^^^^^^^ no component has this name
-              |
-              = note: declared components: `aircomm_swarm`, `pilot`
-        "#]],
+                error: [SCL0501] unknown component `aircomm`
+                 --> topology.yaml:9:6
+                  |
+                9 |   - [aircomm.report, pilot.orders]
+                  |      ^^^^^^^ no component has this name
+                  |
+                  = help: declare the component `aircomm` with the gate `report` (pub), or remove the connection
+                  = note: declared components: `aircomm_swarm`, `pilot`
+            "#]],
         );
     }
 }

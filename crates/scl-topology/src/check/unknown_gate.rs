@@ -7,6 +7,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::rust_name::gate_field;
 use crate::source::Span;
 use crate::suggest::{MOST, nearest};
+use crate::topology::GateKind;
 use scl_text::list::shortened;
 
 /// SCL0502.
@@ -67,6 +68,7 @@ pub(super) fn check<'m>(
         Some(left) => unconnected(draft, found, gate, left, &places),
         None => found,
     };
+    let found = found.otherwise(declare(draft, [component, gate], ends[0]));
     problems.push(with_places(found.note(known(draft, component)), &places));
     for gate in near.into_iter().chain(moved).chain(left) {
         draft.gates[gate].named = true;
@@ -126,14 +128,16 @@ fn several_ways(draft: &Draft<'_>, found: Diagnostic, near: &[usize], places: &[
     found.choose_all(("did you mean ", "?"), names.map(|name| (name, changed(places, name))))
 }
 
-/// Proposes to change the ends or, if no connection names the declared gate, its declaration.
+/// Proposes to change the ends and, if no connection names the declared gate, its declaration: that first if several
+/// connections name the unknown one.
 fn one_way(draft: &Draft<'_>, found: Diagnostic, gate: &str, only: usize, places: &[Span]) -> Diagnostic {
     let name = &draft.gates[only].model.name.value;
     let has_uses = draft.gates[only].uses > 0;
     let rename = renamed(draft, gate, only).filter(|_| !has_uses);
     if let (Some(edit), [_, _, ..]) = (&rename, places) {
         let help = format!("rename the gate `{name}` to `{gate}`, as the connections call it");
-        return found.propose(help, [edit.clone()]);
+        let found = found.suggest(help, [edit.clone()]);
+        return found.suggest(format!("or write `{name}` in the connections"), changed(places, name));
     }
     let mut found = found.choose_all(("did you mean ", "?"), [(name.as_str(), changed(places, name))]);
     // The declaration may be misspelt as well, unless a connection names it. Numbered gates differ on purpose.
@@ -182,6 +186,14 @@ fn unconnected(draft: &Draft<'_>, found: Diagnostic, gate: &str, left: usize, pl
     let help = format!("{} fits and is not connected yet", draft.name_and_kind(left));
     let found = found.suggest(help, changed(places, name));
     with_rename(found, name, gate, renamed(draft, gate, left))
+}
+
+fn declare(draft: &Draft<'_>, [component, gate]: [&str; 2], [link, end]: End) -> String {
+    let kind = draft.links[link].ends[1 - end].and_then(|other| draft.gates[other].kind).map(GateKind::opposite);
+    match kind {
+        Some(kind) => format!("declare it among the gates of `{component}`: `{gate}: {}`", kind.word()),
+        None => format!("declare it among the gates of `{component}`"),
+    }
 }
 
 fn known(draft: &Draft<'_>, component: &str) -> String {

@@ -72,13 +72,24 @@ pub(super) fn can_wait(draft: &Draft<'_>, source: usize, sink: usize) -> bool {
     sends && draft.gates[source].options.backpressure && draft.gates[sink].options.when_full == WhenFull::Wait
 }
 
-/// By gate: how many receivers make it wait.
-pub(super) fn receivers_that_wait(draft: &Draft<'_>) -> Vec<usize> {
-    let mut receivers = vec![0; draft.gates.len()];
-    for (_, source, _) in draft.flows().filter(|&(_, source, sink)| can_wait(draft, source, sink)) {
-        receivers[source] += 1;
+/// Which gates wait for which.
+pub(super) struct Waiting {
+    /// By gate: how many receivers make it wait.
+    pub(super) receivers: Vec<usize>,
+    /// By gate: the senders that it makes wait.
+    pub(super) senders: Vec<Vec<usize>>,
+}
+
+impl Waiting {
+    pub(super) fn of(draft: &Draft<'_>) -> Self {
+        let count = draft.gates.len();
+        let mut waiting = Self { receivers: vec![0; count], senders: vec![Vec::new(); count] };
+        for (_, source, sink) in draft.flows().filter(|&(_, source, sink)| can_wait(draft, source, sink)) {
+            waiting.receivers[source] += 1;
+            waiting.senders[sink].push(source);
+        }
+        waiting
     }
-    receivers
 }
 
 /// The step of a connection from its sending to its receiving component. A component that is declared twice counts as

@@ -158,7 +158,8 @@ impl Diagnostic {
         (before, after): (&'static str, &'static str),
         ways: impl IntoIterator<Item = (&'w str, Vec<Edit>)>,
     ) -> Self {
-        let ways: Vec<_> = ways.into_iter().collect();
+        let mut ways: Vec<_> = ways.into_iter().collect();
+        ways.iter_mut().for_each(|(_, edits)| edits.truncate(MOST_EDITS));
         if ways.is_empty() {
             return self;
         }
@@ -173,6 +174,14 @@ impl Diagnostic {
             Some(removed) => self.propose(text, [removed]),
             None => self.help(text),
         }
+    }
+
+    /// Adds words to the first help.
+    pub(crate) fn extend_help(mut self, more: &str) -> Self {
+        if let Some(Wording::Text(text)) = self.helps.first_mut().map(|help| &mut help.wording) {
+            text.push_str(more);
+        }
+        self
     }
 
     /// Makes the first help, which has words alone, a proposal of these changes.
@@ -203,7 +212,7 @@ impl Diagnostic {
     }
 
     /// Removes all helps.
-    pub(crate) fn clear_helps(&mut self) {
+    pub fn clear_helps(&mut self) {
         self.helps.clear();
     }
 

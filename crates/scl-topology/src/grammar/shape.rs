@@ -82,7 +82,7 @@ impl Shape {
     pub(crate) fn largest(self) -> Option<String> {
         match self {
             Shape::Number { most, .. } => Some(most.to_string()),
-            Shape::Duration { most } => Some(duration::text(most)),
+            Shape::Duration { most } => Some(longest(most)),
             Shape::Size { most } => Some(size::text(most)),
             _ => None,
         }
@@ -112,7 +112,7 @@ impl Shape {
             Shape::Number { least, most } if least == most => least.to_string(),
             Shape::Number { least, most } => format!("{least} to {most}"),
             Shape::Duration { most } => {
-                format!("1us to {} (units: {})", duration::text(most), listed(duration::UNITS.map(|(unit, _)| unit)))
+                format!("1us to {} (units: {})", longest(most), listed(duration::UNITS.map(|(unit, _)| unit)))
             }
             Shape::Size { most } => {
                 format!("1B to {} (units: {})", size::text(most), listed(size::UNITS.map(|(unit, _)| unit)))
@@ -168,9 +168,17 @@ const SHORTEST: Duration = Duration::from_micros(1);
 pub(super) fn duration(text: &str, most: Duration) -> Result<Duration, OutOfRange> {
     match duration::parse(text) {
         Ok(duration) if (SHORTEST..=most).contains(&duration) => Ok(duration),
-        Ok(duration) if duration > most => Err(above(format!("at most {}", duration::text(most)))),
-        Err(DurationError::TooLarge) => Err(above(format!("at most {}", duration::text(most)))),
+        Ok(duration) if duration > most => Err(above(format!("at most {}", longest(most)))),
+        Err(DurationError::TooLarge) => Err(above(format!("at most {}", longest(most)))),
         Ok(_) | Err(_) => Err(below("more than 0".to_owned())),
+    }
+}
+
+/// The longest duration in hours, if it is a whole number of them.
+fn longest(most: Duration) -> String {
+    match most.as_secs() {
+        seconds if seconds > 0 && seconds % 3600 == 0 => format!("{}h", seconds / 3600),
+        _ => duration::text(most),
     }
 }
 

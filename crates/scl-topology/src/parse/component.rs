@@ -6,7 +6,7 @@ use super::words::{COMPONENT_KEYS, is_kind};
 use super::{Reader, glued, pitfall, scalar, shape};
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::model::ComponentModel;
-use crate::source::Spanned;
+use crate::source::{Span, Spanned};
 use crate::yaml::{Node, NodeKind};
 
 impl Reader<'_> {
@@ -34,7 +34,7 @@ impl Reader<'_> {
             match &field.value.kind {
                 NodeKind::Mapping { entries } => {
                     let fields = self.fields(entries, "this component");
-                    self.read_component_fields(&fields, name);
+                    self.read_component_fields(&fields, name, field.key_span.to(field.value.span));
                 }
                 _ => self.model.components.push(unread_component(name)),
             }
@@ -76,6 +76,7 @@ impl Reader<'_> {
         if self.is_stray_gate(entries) {
             return self.read_stray_gate(item);
         }
+        self.component = Some(item.span);
         let fields = self.fields(entries, "this component");
         let name = match fields.get("name") {
             Some(field) => self.name_in(field, "component name"),
@@ -89,9 +90,22 @@ impl Reader<'_> {
             }
         };
         match name {
-            Some(name) => self.read_component_fields(&fields, name),
+            Some(name) => {
+                let span = entries.iter().map(|(key, value)| key.span.to(value.span)).reduce(Span::to);
+                self.read_component_fields(&fields, name, span.unwrap_or(item.span));
+            }
             None => self.model.components_unread = true,
         }
+    }
+
+    /// Reads an item of another list if it is a component, and reports it.
+    pub(super) fn read_stray_component(&mut self, list: &str, item: &Node, entries: &[(Node, Node)]) -> bool {
+        let Some(name) = shape::level::component_name(entries) else { return false };
+        let above = self.component;
+        self.report(shape::level::component_among(list, item.span, name, above, self.source));
+        self.read_component_entries(item, entries);
+        self.component = above;
+        true
     }
 
     /// A pair in the list of components: the line `connections:` is missing, or stands elsewhere.
@@ -137,8 +151,8 @@ impl Reader<'_> {
         }
     }
 
-    fn read_component_fields(&mut self, fields: &Fields<'_>, name: Spanned<String>) {
-        let mut component = unread_component(name);
+    fn read_component_fields(&mut self, fields: &Fields<'_>, name: Spanned<String>, span: Span) {
+        let mut component = ComponentModel { span, ..unread_component(name) };
         component.gates_unread = fields.damaged;
         for field in &fields.list {
             match field.key {
@@ -181,7 +195,7 @@ impl Reader<'_> {
         }
         let owner = &component.name.value;
         let problem = shape::level::in_component(field, owner, self.source)
-            .unwrap_or_else(|| shape::unknown_key::of_component(field, owner));
+            .unwrap_or_else(|| shape::unknown_key::of_component(field, owner, self.last_connection, self.source));
         self.report(problem);
     }
 
@@ -221,5 +235,6 @@ fn second_component(entries: &[(Node, Node)]) -> Option<usize> {
 }
 
 fn unread_component(name: Spanned<String>) -> ComponentModel {
-    ComponentModel { name, doc: None, optional: false, gates: Vec::new(), gates_unread: true }
+    let span = name.span;
+    ComponentModel { name, doc: None, optional: false, gates: Vec::new(), gates_unread: true, span }
 }

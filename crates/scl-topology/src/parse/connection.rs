@@ -12,7 +12,10 @@ impl Reader<'_> {
     pub(super) fn read_connections(&mut self, section: Field<'_>) {
         self.model.connections_key = Some(section.key_span);
         match &section.value.kind {
-            NodeKind::Sequence { items } => items.iter().for_each(|item| self.read_connection(item)),
+            NodeKind::Sequence { items } => match shape::pairs::of(items) {
+                Some(pairs) => self.read_split_pairs(pairs),
+                None => items.iter().for_each(|item| self.read_connection(item)),
+            },
             NodeKind::Unread => self.model.cut_off = true,
             // A file without connections gets its own warning.
             _ if section.value.is_null() => {}
@@ -25,10 +28,17 @@ impl Reader<'_> {
         }
     }
 
+    fn read_split_pairs(&mut self, pairs: Vec<[Spanned<String>; 2]>) {
+        self.problems.extend(shape::pairs::diagnose(&pairs, self.source));
+        let connection = |ends: [Spanned<String>; 2]| ConnectionModel { span: ends[0].span, ends };
+        self.model.connections.extend(pairs.into_iter().map(connection));
+    }
+
     pub(super) fn read_connection(&mut self, item: &Node) {
         match &item.kind {
             NodeKind::Unread => {}
             NodeKind::Sequence { items } => self.read_ends(item, items),
+            NodeKind::Mapping { entries } if self.read_stray_component("connections", item, entries) => {}
             NodeKind::Mapping { .. } => {
                 self.report(shape::ends::mapping(item, self.source));
                 self.recover_pair(item);

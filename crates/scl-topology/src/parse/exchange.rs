@@ -3,9 +3,17 @@
 /// Words that stand before or between two types.
 const WORDS: [&str; 10] = ["returns", "return", "to", "and", "stream", "rpc", "yields", "gives", "then", "into"];
 
-/// Something between two types that stands for `->`, and the text with `->` in its place: `A => B`, `A -&gt; B`,
-/// `(A) returns (B)`, `A, B`.
-pub(super) fn odd_arrow(payload: &str) -> Option<(String, String)> {
+/// Two types with something else than `->` between them.
+pub(super) struct Odd {
+    /// What stands there.
+    pub(super) mark: String,
+    /// The types with `->` between them, in the most likely order first.
+    pub(super) ways: Vec<String>,
+}
+
+/// Something between two types that stands for `->`: `A => B`, `A -&gt; B`, `(A) returns (B)`, `A, B`. In `B f(A)` and
+/// `B <- A` the reply comes first.
+pub(super) fn odd_arrow(payload: &str) -> Option<Odd> {
     let text = payload.replace("&gt;", ">").replace("&lt;", "<");
     let is_right = text.split("->").count() == 2 && text.split("->").all(|part| is_type(part.trim()));
     let is_generic = text.contains('<') && text.ends_with('>') && !text.contains("->");
@@ -26,7 +34,12 @@ pub(super) fn odd_arrow(payload: &str) -> Option<(String, String)> {
     let between = payload.get(end..payload.rfind(reply)?)?.trim_matches([' ', '(', ')', ',']);
     let mark = if between.is_empty() { payload.get(end..)?.trim().chars().next().map(String::from) } else { None };
     let mark = mark.filter(|mark| mark == ",").unwrap_or_else(|| between.to_owned());
-    Some((mark, format!("{request} -> {reply}")))
+    let is_call = !payload.starts_with('(') && mark.is_empty() && payload.ends_with(')');
+    let mut ways = vec![format!("{request} -> {reply}")];
+    if is_call || matches!(mark.as_str(), "<-" | "<=" | "<--" | "←" | "⇐") {
+        ways.insert(0, format!("{reply} -> {request}"));
+    }
+    Some(Odd { mark, ways })
 }
 
 /// `rover.Command/rover.Status`: two names with a dot each.
@@ -65,11 +78,15 @@ mod tests {
             "A | B",
         ];
         for text in texts {
-            let meant = odd_arrow(text).map(|(_, meant)| meant.replace("a.", ""));
+            let meant = odd_arrow(text).map(|odd| odd.ways.join(", ").replace("a.", ""));
             assert_eq!(meant.as_deref(), Some("A -> B"), "{text}");
         }
         for text in ["A -> B", "A", "a.A", "Map<K, V>", "a::A", "pkg/msg/A", "A -> B -> C", "A ->", ""] {
-            assert_eq!(odd_arrow(text), None, "{text}");
+            assert!(odd_arrow(text).is_none(), "{text}");
+        }
+        for text in ["a.B (a.A)", "a.B(a.A)", "a.B <- a.A"] {
+            let meant = odd_arrow(text).map(|odd| odd.ways.join(", ").replace("a.", ""));
+            assert_eq!(meant.as_deref(), Some("A -> B, B -> A"), "{text}");
         }
     }
 }

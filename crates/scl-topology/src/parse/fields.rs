@@ -41,6 +41,11 @@ pub fn fields<'n>(
             fields.damaged = true;
             continue;
         }
+        // The anchor of `<<: *name` is a problem of its own.
+        if key_node.text() == Some("<<") && matches!(value.kind, NodeKind::Unread) {
+            fields.damaged = true;
+            continue;
+        }
         let Some(key) = key(key_node, source, dialect, problems) else {
             fields.damaged = true;
             continue;

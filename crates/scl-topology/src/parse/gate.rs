@@ -1,5 +1,7 @@
 //! The gates of a component.
 
+mod cut;
+
 use super::exchange::odd_arrow;
 use super::field::{Field, Fields, spanned_key};
 use super::topology_dialect::TOPOLOGY;
@@ -7,10 +9,12 @@ use super::words::{is_kind, is_like_option, is_option};
 use super::{Reader, pitfall, scalar, shape};
 use crate::confusable;
 use crate::diagnostic::Diagnostic;
+use crate::grammar::GateKind;
 use crate::habits;
 use crate::model::{ComponentModel, GateModel};
-use crate::source::{Span, Spanned};
+use crate::source::{SourceFile, Span, Spanned};
 use crate::yaml::{Node, NodeKind};
+use cut::{cut_numbers, glued_keys, is_in, rest_of_doc, rest_of_type, second_type};
 
 impl Reader<'_> {
     pub(super) fn read_gates(&mut self, field: Field<'_>, component: &mut ComponentModel) {
@@ -43,6 +47,9 @@ impl Reader<'_> {
 
     pub(super) fn read_gate_item(&mut self, item: &Node, component: &mut ComponentModel) {
         let NodeKind::Mapping { entries } = &item.kind else { return self.read_bare_item(item, component) };
+        if self.read_stray_component("gates", item, entries) {
+            return;
+        }
         let fields = self.fields(entries, "this gate");
         component.gates_unread |= fields.damaged;
         if let Some([name, kind]) = shape::gate::long_form(&fields) {
@@ -84,7 +91,7 @@ impl Reader<'_> {
         let of_type = fields.list.iter().filter(|_| fields.get("kind").is_some()).find(is_type);
         gate.payload = of_type.and_then(|field| scalar(field.value));
         for option in fields.list.iter().filter(|field| is_option(field.key)) {
-            gate.options.extend(self.option(*option));
+            gate.options.extend(self.option(*option, GateKind::of(&gate.kind.value)));
         }
         gate
     }
@@ -200,8 +207,10 @@ impl Reader<'_> {
             return gate;
         }
         let Some(kind) = self.gate_kind(field, &fields) else { return gate };
+        // Without its type, nothing is known of a gate.
+        let Ok(payload) = self.payload(kind, &fields) else { return gate };
         gate.kind = spanned_key(kind);
-        gate.payload = self.payload(kind, &fields);
+        gate.payload = payload;
         if let Some(answer) = second_type(kind, gate.payload.as_ref(), &fields) {
             if let Some(payload) = &mut gate.payload {
                 payload.value = format!("{} -> {}", payload.value, answer.key);
@@ -215,9 +224,10 @@ impl Reader<'_> {
             let text = doc.value.span.to(last.key_span);
             self.report(shape::unknown_key::comma_in_doc(first.key_span, text, self.source, &path));
         }
+        let known = GateKind::of(kind.key);
         let cut = cut_numbers(&fields);
         for (option, rest) in &cut {
-            gate.options.extend(self.cut_number(*option, *rest));
+            gate.options.extend(self.cut_number(*option, *rest, known));
         }
         let is_cut = |field: &Field<'_>| {
             cut.iter().any(|(one, rest)| [one, rest].iter().any(|of| of.key_span == field.key_span))
@@ -225,11 +235,15 @@ impl Reader<'_> {
         let rest_of_type = rest_of_type(kind, &fields);
         let is_rest = |field: &Field<'_>| is_cut(field) || is_in(rest_of_doc, field) || is_in(rest_of_type, field);
         for option in fields.list.iter().filter(|field| field.key_span != kind.key_span && !is_rest(field)) {
-            if is_option(option.key) {
-                gate.options.extend(self.option(*option));
-            } else if !is_kind(option.key) {
+            let read = match is_option(option.key) {
+                true => self.option(*option, known),
+                false => self.misplaced(*option, known),
+            };
+            gate.options_unread |= read.is_none();
+            if read.is_none() && !is_option(option.key) && !is_kind(option.key) {
                 self.report(shape::unknown_key::of_gate(*option, kind, &path, self.source));
             }
+            gate.options.extend(read);
         }
         gate
     }
@@ -259,103 +273,51 @@ impl Reader<'_> {
     }
 
     /// The type; none where the kind stands without a value, as in `{pub: , queue: 1}`: an untyped gate with options.
-    fn payload(&mut self, kind: Field<'_>, fields: &Fields<'_>) -> Option<Spanned<String>> {
+    /// An error if it is not clear which is meant.
+    fn payload(&mut self, kind: Field<'_>, fields: &Fields<'_>) -> Result<Option<Spanned<String>>, Ambiguous> {
         if kind.value.is_null() {
-            return None;
+            return Ok(None);
+        }
+        let span = kind.value.span;
+        if let Some(written) = list_as_type(kind.value, self.source) {
+            return Ok(Some(Spanned { value: written.to_owned(), span }));
         }
         if !matches!(kind.value.kind, NodeKind::Scalar { .. } | NodeKind::Unread) {
-            let (problem, meant) = shape::gate::type_is_not_text(kind);
+            let source = (self.searches_left > 0).then_some(self.source);
+            self.searches_left = self.searches_left.saturating_sub(1);
+            let (problem, meant) = shape::gate::type_is_not_text(kind, source);
             self.report(problem);
-            return meant.map(|value| Spanned { value, span: kind.value.span });
+            return meant.map(|value| Some(Spanned { value, span })).ok_or(Ambiguous);
         }
-        let mut payload = self.name_in(kind, &format!("type of the `{}` gate", kind.key))?;
+        let Some(mut payload) = self.name_in(kind, &format!("type of the `{}` gate", kind.key)) else {
+            return Ok(None);
+        };
         if let Some(last) = rest_of_type(kind, fields).last() {
             payload.span = payload.span.to(last.key_span);
             payload.value = self.source.snippet(payload.span).to_owned();
         }
         if matches!(kind.key, "req" | "rep")
-            && let Some((arrow, meant)) = odd_arrow(&payload.value)
+            && let Some(odd) = odd_arrow(&payload.value)
         {
-            self.report(shape::gate::odd_arrow(kind, payload.span, &arrow, &meant));
+            self.report(shape::gate::odd_arrow(kind, payload.span, &odd));
+            let [meant] = <[String; 1]>::try_from(odd.ways).map_err(|_| Ambiguous)?;
             payload.value = meant;
         }
         // Quotes do not change a type; the span includes them.
-        (kind.value.is_plain() || !payload.value.trim().is_empty()).then_some(payload)
+        Ok((kind.value.is_plain() || !payload.value.trim().is_empty()).then_some(payload))
     }
 }
 
-/// `{rep: Request, Reply}`: the second type of an exchange, as a key behind the first.
-fn second_type<'n>(kind: Field<'_>, payload: Option<&Spanned<String>>, fields: &Fields<'n>) -> Option<Field<'n>> {
-    let payload = payload.filter(|payload| matches!(kind.key, "req" | "rep") && !payload.value.contains("->"))?;
-    let is_type = |key: &str| key.chars().next().is_some_and(char::is_uppercase) || key.contains('.');
-    let is_second =
-        |field: &&Field<'_>| field.value.is_null() && is_type(field.key) && field.key_span.start >= payload.span.end;
-    fields.list.iter().find(is_second).copied()
-}
+/// A problem says that a type may be one of several.
+struct Ambiguous;
 
-/// `{pub: (A, B)}`, `{pub: Map<A, B>}`: the keys that belong to the type, up to the bracket that ends it.
-fn rest_of_type<'f, 'n>(kind: Field<'_>, fields: &'f Fields<'n>) -> &'f [Field<'n>] {
-    let depth = |text: &str| {
-        let text = text.replace("->", "").replace("=>", "");
-        text.matches(['(', '<']).count() as isize - text.matches([')', '>']).count() as isize
-    };
-    let mut open = kind.value.text().filter(|_| kind.value.is_plain()).map_or(0, depth);
-    let Some(at) = fields.list.iter().position(|field| field.key_span == kind.key_span).filter(|_| open > 0) else {
-        return &[];
-    };
-    let rest = &fields.list[at + 1..];
-    let end = rest.iter().take_while(|field| field.value.is_null()).position(|field| {
-        open += depth(field.key);
-        open <= 0
-    });
-    end.map_or(&[], |end| &rest[..=end])
-}
-
-/// `{sub: Type, queue: 1,000}`: options with a number, and the key that is the rest of it, behind a comma.
-fn cut_numbers<'n>(fields: &Fields<'n>) -> Vec<(Field<'n>, Field<'n>)> {
-    let starts_with_digit = |text: &str| text.starts_with(|letter: char| letter.is_ascii_digit());
-    let is_number = |field: &Field<'_>| is_option(field.key) && field.value.text().is_some_and(starts_with_digit);
-    let is_rest = |field: &Field<'_>| field.value.is_null() && starts_with_digit(field.key);
-    let pairs = fields.list.windows(2).filter(|pair| is_number(&pair[0]) && is_rest(&pair[1]));
-    pairs.map(|pair| (pair[0], pair[1])).collect()
-}
-
-/// `{pub: Type, doc: One, two}`: the keys after the first comma of a text without quotes.
-fn rest_of_doc<'f, 'n>(fields: &'f Fields<'n>) -> &'f [Field<'n>] {
-    let is_doc = |field: &Field<'_>| field.key == "doc" && field.value.is_plain() && !field.value.is_null();
-    let Some(doc) = fields.list.iter().position(is_doc) else { return &[] };
-    let rest = &fields.list[doc + 1..];
-    let is_option = |field: &Field<'_>| is_kind(field.key) || is_option(field.key);
-    let is_text = |field: &Field<'_>| field.value.is_null() && field.key_node.is_plain() && !is_option(field);
-    &rest[..rest.iter().take_while(|field| is_text(field)).count()]
-}
-
-/// `{pub Type, queue 4}`: the keys that lack their colon, so that the value belongs to the key, each with the word up
-/// to its end and the key that is meant.
-fn glued_keys<'n>(fields: &Fields<'n>) -> Vec<(Field<'n>, &'n str, &'n str)> {
-    let known = |field: &Field<'n>| {
-        let word = first_word(field.key);
-        if !field.value.is_null() || word.len() == field.key.len() || !field.key_node.is_plain() {
-            return None;
-        }
-        match is_kind(word) || is_option(word) {
-            true => Some(word),
-            false if !field.key.contains('=') => None,
-            false => habits::of_key(habits::GATE, word)?.ways.first().copied().filter(|way| is_option(way)),
-        }
-    };
-    fields.list.iter().filter_map(|field| Some((*field, first_word(field.key), known(field)?))).collect()
-}
-
-/// Whether a field is one of several that follow each other.
-fn is_in(fields: &[Field<'_>], field: &Field<'_>) -> bool {
-    let at = field.key_span.start;
-    matches!(fields, [first, .., last] | [first @ last] if (first.key_span.start..=last.key_span.start).contains(&at))
-}
-
-/// The word up to a space or an equals sign.
-fn first_word(key: &str) -> &str {
-    key.split([' ', '=']).next().unwrap_or(key)
+/// `{pub: [u8; 256]}`: a list that is rather a type in the words of a programming language.
+fn list_as_type<'s>(value: &Node, source: &'s SourceFile) -> Option<&'s str> {
+    let [only] = value.items()? else { return None };
+    let written = source.snippet(value.span);
+    let is_name = |text: &str| text.contains('.') || text.starts_with(char::is_uppercase);
+    let is_other = only.text().is_some_and(|text| !is_name(text) && !text.contains(['/', '#', '\n']));
+    (is_other && only.is_plain() && written.starts_with('[') && !written.contains('\n')).then_some(written)
 }
 
 /// Whether each entry is an item of a list whose dash lacks its space: `-measurements: pub`.
@@ -367,7 +329,7 @@ fn is_glued_dash(entries: &[(Node, Node)]) -> bool {
 }
 
 fn bare_gate(name: Spanned<String>, kind: Spanned<String>, span: Span) -> GateModel {
-    GateModel { name, kind, payload: None, options: Vec::new(), span }
+    GateModel { name, kind, payload: None, options: Vec::new(), options_unread: false, span }
 }
 
 /// A gate of which only the name is known.

@@ -1,9 +1,12 @@
 //! What a value of the wrong form may mean: numbers, durations and sizes as other formats and other people write them.
 
+mod product;
+
 use crate::grammar::Shape;
 use crate::habits;
 use crate::suggest::similar;
 use crate::yaml::{Node, NodeKind};
+use product::product;
 use scl_text::{duration, size};
 use std::time::Duration;
 
@@ -46,18 +49,38 @@ pub(super) fn meant(key: &str, value: &Node, shape: Shape) -> Meant {
 }
 
 fn of_text(key: &str, text: &str, shape: Shape) -> Meant {
+    // `<16>` is a value in the notation of a device tree, or of a form that is to be filled in.
+    let text = text.strip_prefix('<').and_then(|text| text.strip_suffix('>')).unwrap_or(text);
+    match (shape, product(text)) {
+        (Shape::Number { .. } | Shape::Duration { .. }, Some(product)) => return of_text(key, &product, shape),
+        (Shape::Size { .. }, Some(product)) => return Meant { values: vec![bytes(&product, text)], is_certain: true },
+        _ => {}
+    }
     let (values, is_certain) = match shape {
         Shape::Number { .. } => numbers(text),
         Shape::Duration { .. } => durations(text),
         Shape::Size { .. } => sizes(text),
         Shape::Boolean => match habits::boolean(text) {
             Some(word) => (vec![word.to_owned()], true),
+            // The number of those that share.
+            None if key == "share" && text.parse().is_ok_and(|number: u32| number > 1) => {
+                (vec!["true".to_owned()], false)
+            }
             None => words(key, text, &["true", "false"]),
         },
         Shape::Word(known) => words(key, text, &known.iter().map(|known| known.word).collect::<Vec<_>>()),
         _ => (Vec::new(), false),
     };
     Meant { values, is_certain }
+}
+
+/// The result of a product as a size: without a unit, it is a number of bytes.
+fn bytes(product: &str, written: &str) -> String {
+    match product.parse::<u64>() {
+        Ok(bytes) if bytes % (1 << 20) == 0 || written.contains("1024") => size::text(bytes),
+        Ok(bytes) => format!("{bytes}B"),
+        Err(_) => size::suggestions(product).into_iter().next().unwrap_or_else(|| product.to_owned()),
+    }
 }
 
 /// The known word in another spelling, the one for a word of another tool, or similar ones.
@@ -126,16 +149,19 @@ fn decimal(number: &str) -> Option<String> {
     number.parse::<f64>().is_ok_and(f64::is_finite).then_some(number)
 }
 
-/// Durations: without a unit, with the units of other languages, of ISO 8601, of a clock.
+/// Durations: without a unit, with the units of other languages, of ISO 8601, of a PLC, of a clock.
 fn durations(text: &str) -> (Vec<String>, bool) {
     let lower = text.to_lowercase();
+    let lower = ["t#", "time#"].into_iter().find_map(|prefix| lower.strip_prefix(prefix)).unwrap_or(&lower);
+    let lower = call(lower).unwrap_or_else(|| lower.to_owned());
     if let Ok(number) = joined(&lower).parse::<u64>() {
         let units = if number >= MANY { ["ms", "s"] } else { ["s", "ms"] };
         let values = units.into_iter().filter(|_| number > 0).map(|unit| format!("{number}{unit}"));
         return (values.collect(), false);
     }
     if let Some(number) = decimal(&lower).filter(|number| !number.starts_with(['-', '+'])) {
-        return (vec![format!("{number}s")], false);
+        let is_zero = number.trim_matches(['0', '.']).is_empty();
+        return (if is_zero { Vec::new() } else { vec![format!("{number}s")] }, false);
     }
     let clock: Option<Vec<f64>> = lower.split(':').map(|part| part.parse().ok()).collect();
     if let Some(clock) = clock.filter(|clock| (2..=3).contains(&clock.len())) {
@@ -143,6 +169,13 @@ fn durations(text: &str) -> (Vec<String>, bool) {
         return (total(vec![seconds]).into_iter().collect(), clock.len() == 3);
     }
     (with_units(lower.strip_prefix("pt").unwrap_or(&lower)).into_iter().collect(), true)
+}
+
+/// `K_MSEC(500)`, `Duration::from_millis(500)`, `timedelta(seconds=5)`: the number with its unit.
+fn call(text: &str) -> Option<String> {
+    let (function, number) = text.strip_suffix(')')?.split_once('(')?;
+    let (unit, number) = number.rsplit_once('=').unwrap_or((function, number));
+    Some(format!("{}{}", number.trim(), unit.trim().rsplit([':', '.', '_']).next()?))
 }
 
 /// `2 sec`, `1m30s`.
@@ -204,15 +237,22 @@ mod tests {
         let texts = ["16", "0x10", "1_000", "1'000", "1 000", "1,000", "1.000", "5.0", "1e3", "2k", "two", "many", "-"];
         let numbers = told(numbers, &texts);
         assert_eq!(numbers, ["16", "16", "1000", "1000", "1000", "1000", "1000 1", "5", "1000", "2000", "2", "", ""]);
-        let texts =
-            ["2000", "5", "0", "0.1", "1,5s", "2 sec", "PT1.5S", "00:00:02", "1m30s", "500MS", "2d", "-1", "soon"];
+        let texts = [
+            "2000", "5", "0", "0.1", "1,5s", "2 sec", "PT1.5S", "00:00:02", "1m30s", "500MS", "2d", "-1", "soon", "0.0",
+        ];
         let durations = told(durations, &texts);
         assert_eq!(
             durations,
-            ["2000ms 2000s", "5s 5ms", "", "0.1s", "1.5s", "2s", "1.5s", "2s", "90s", "500ms", "", "", ""]
+            ["2000ms 2000s", "5s 5ms", "", "0.1s", "1.5s", "2s", "1.5s", "2s", "90s", "500ms", "", "", "", ""]
         );
         let texts = ["8MB", "8_000_000", "1,5 MiB", "1,000 KB", "0x100000", "large"];
         let sizes = told(sizes, &texts);
         assert_eq!(sizes, ["8MiB", "8000000B", "1536KiB", "1000KiB 1KiB", "1048576B 1MiB", ""]);
+    }
+
+    #[test]
+    fn durations_of_programs_are_understood() {
+        let texts = ["T#500ms", "TIME#1m30s", "K_MSEC(500)", "Duration::from_secs(2)", "timedelta(minutes=1)"];
+        assert_eq!(texts.map(|text| durations(text).0.concat()), ["500ms", "90s", "500ms", "2s", "1min"]);
     }
 }

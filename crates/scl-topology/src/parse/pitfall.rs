@@ -1,11 +1,13 @@
 //! `SCL01xx`: text that is not valid YAML, or means something else than it seems to.
 
 pub(super) mod bracket;
+mod bullet;
 mod conflict_marker;
 pub(super) mod cut_off;
 pub(super) mod dash;
 pub(super) mod depth;
 mod empty_file;
+mod flat;
 pub(super) mod habit;
 pub(super) mod indentation;
 mod invisible;
@@ -79,7 +81,8 @@ pub(super) struct CheckedText {
     /// Tabs, invisible characters or one of two conflicting versions were replaced by spaces, so a syntax error that
     /// the parser reports means nothing.
     pub(super) is_mended: bool,
-    /// The file holds two versions, left by a merge, of which `text` has the first one; or it is a template.
+    /// The file holds two versions, left by a merge, of which `text` has the first one; or it is a template; or its
+    /// lists have other marks than `-`, or no line is indented.
     pub(super) is_incomplete: bool,
 }
 
@@ -94,11 +97,13 @@ pub(super) fn check_text(source: &SourceFile, dialect: &Dialect, problems: &mut 
     unsupported::check_directives(source, &mut text, dialect, problems);
     let has_template =
         habit::template::check_pointer(source, problems) || habit::template::check(source, &scan, &mut text, problems);
+    let has_bullets = !has_conflict && bullet::check(source, &scan, dialect, problems);
     habit::template::check_arrows(source, &mut text, problems);
     habit::template::check_backslashes(source, &scan, &mut text, problems);
     let has_tabs = tab::check_indentation(source, &scan, &mut text, problems);
     tab::check_separators(source, &scan, &mut text, problems);
-    let is_incomplete = has_conflict || has_template;
+    let is_flat = (dialect.is_key)("gates") && flat::check(source, problems);
+    let is_incomplete = has_conflict || has_template || has_bullets || is_flat;
     CheckedText { text, is_mended: is_cleaned || has_tabs || is_incomplete, is_incomplete }
 }
 
@@ -118,3 +123,6 @@ pub(super) fn check_tree(tree: &Tree, source: &SourceFile, dialect: &Dialect, pr
         problems.extend(empty_file::find(tree, source, dialect));
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,6 +4,7 @@
 //! tried (a comma, a bracket, a column, a word less), and the change that leaves the fewest problems is taken to be the
 //! correction. Both the text that is read again and the number of changes are bounded.
 
+mod again;
 mod candidates;
 mod line;
 mod quoting;
@@ -46,6 +47,10 @@ enum Kind {
     Partner(usize, usize),
     /// Something stands where nothing may stand.
     Surplus(Range<usize>),
+    /// Options of a gate without the braces around them.
+    Braces(Range<usize>),
+    /// A word with a colon in the place of a value, and the value after it.
+    SecondColon(Range<usize>),
     /// Brackets behind a type, as in `A[]`; the type with them.
     ArrayType(Range<usize>),
     /// A key, its colon and the start of its value, without a space between them.
@@ -83,8 +88,10 @@ enum Kind {
 impl Edit {
     /// Whether a tool may apply the change: it adds a mark or moves a line, and removes no word.
     fn is_meant(&self) -> bool {
-        let is_removal =
-            matches!(self.kind, Kind::Surplus(_) | Kind::ArrayType(_) | Kind::Quote(_) | Kind::Nameless(_));
+        let is_removal = matches!(
+            self.kind,
+            Kind::Surplus(_) | Kind::SecondColon(_) | Kind::ArrayType(_) | Kind::Quote(_) | Kind::Nameless(_)
+        );
         !is_removal && self.cost < DOUBTFUL
     }
 }
@@ -110,11 +117,20 @@ pub(super) struct Repair {
 const MOST_RIVALS: usize = 16;
 
 /// The changes of a line that are tried.
-type Ways = fn(&Range<usize>, &str, &SourceFile, &Dialect) -> Vec<Edit>;
+type Ways<'w> = &'w dyn Fn(&Range<usize>, &str, &SourceFile, &Dialect) -> Vec<Edit>;
+
+/// The best change of a text.
+struct Best {
+    edit: Edit,
+    /// It leaves no problem.
+    is_sure: bool,
+    /// It is also the only such change, and one that a tool may apply.
+    is_meant: bool,
+}
 
 /// Returns the problem that the best change stands for, if any change makes the text readable.
 pub(super) fn find(error: &SyntaxError, text: &CheckedText, source: &SourceFile, dialect: &Dialect) -> Option<Repair> {
-    find_among(candidates::of_line, error, text, source, dialect)
+    find_among(&candidates::of_line, error, text, source, dialect)
 }
 
 /// As [`find`], but only tries to put texts in quotes, and returns the problem only if no other is left.
@@ -124,12 +140,12 @@ pub(super) fn find_text(
     source: &SourceFile,
     dialect: &Dialect,
 ) -> Option<Diagnostic> {
-    let ways: Ways = |line, text, _, dialect| quoting::likely(line, text, dialect);
+    let ways: Ways<'_> = &|line, text, _, dialect| quoting::likely(line, text, dialect);
     find_among(ways, error, text, source, dialect).filter(|repair| repair.is_sure).map(|repair| repair.problem)
 }
 
 fn find_among(
-    ways: Ways,
+    ways: Ways<'_>,
     error: &SyntaxError,
     text: &CheckedText,
     source: &SourceFile,
@@ -137,24 +153,41 @@ fn find_among(
 ) -> Option<Repair> {
     let text = &text.text;
     let window = window::around(error, text, source)?;
-    find_in(&window, true, ways, error, text, source, dialect).or_else(|| {
+    let whole = find_in(&window, ways, error, text, source, dialect);
+    let is_complete = whole.is_some();
+    let best = whole.or_else(|| {
         // A second mistake further down may make the whole window unreadable, so leave out the lines below.
-        let above = window.without_lines_below(error, text, source)?;
-        find_in(&above, false, ways, error, text, source, dialect).filter(|repair| repair.is_sure)
-    })
+        parts(&window, error, text, source, dialect)
+            .filter_map(|part| find_in(&part, ways, error, text, source, dialect))
+            .find(|best| best.is_sure)
+    })?;
+    let Best { edit, is_sure, is_meant } = best;
+    let later = again::later(&edit, ways, text, dialect);
+    let is_meant = is_meant && if later.edits.is_empty() { is_complete } else { later.is_meant };
+    Some(Repair { problem: tell::tell(&edit, &later.edits, text, source, dialect, is_meant), is_sure })
 }
 
-/// As [`find`], for a part of the text. Fixes can be sure only if the part `is_complete`: it holds all that belongs
-/// together.
-fn find_in(
+/// The parts of a window without the lines below the mistake, if the mistake is in them.
+fn parts(
     window: &Window,
-    is_complete: bool,
-    ways: Ways,
     error: &SyntaxError,
     text: &str,
     source: &SourceFile,
     dialect: &Dialect,
-) -> Option<Repair> {
+) -> impl Iterator<Item = Window> {
+    let parts = window.without_lines_below(error, text, source).into_iter();
+    parts.filter(move |part| problems_left(&part.with(None, text), dialect) != Some(0))
+}
+
+/// The best change of a part of the text.
+fn find_in(
+    window: &Window,
+    ways: Ways<'_>,
+    error: &SyntaxError,
+    text: &str,
+    source: &SourceFile,
+    dialect: &Dialect,
+) -> Option<Best> {
     let lines = window::suspects(error, text, source, window);
     let mut edits: Vec<(usize, Edit)> = Vec::new();
     for edit in lines.iter().flat_map(|line| ways(line, text, source, dialect)) {
@@ -167,7 +200,7 @@ fn find_in(
     let mut best: Option<(usize, usize)> = None;
     for (at, (_, edit)) in edits.iter().take(MOST_TRIES).enumerate() {
         let most = best.map_or(MOST_PROBLEMS, |(left, _)| left - 1);
-        if let Some(left) = problems_left(&window.with(edit, text), dialect).filter(|left| *left <= most) {
+        if let Some(left) = problems_left(&window.with(Some(edit), text), dialect).filter(|left| *left <= most) {
             best = Some((left, at));
             // The remaining edits are not cheaper and cannot leave fewer problems.
             if left == 0 {
@@ -178,11 +211,11 @@ fn find_in(
     let (left, at) = best?;
     let edit = &edits[at].1;
     let rivals = edits[at + 1..].iter().map(|(_, rival)| rival).take_while(|rival| rival.cost == edit.cost);
-    let mended = window.with(edit, text);
-    let mut rivals = rivals.take(MOST_RIVALS).map(|rival| window.with(rival, text)).filter(|other| *other != mended);
-    let is_meant =
-        is_complete && left == 0 && edit.is_meant() && !rivals.any(|other| problems_left(&other, dialect) == Some(0));
-    Some(Repair { problem: tell::tell(edit, text, source, dialect, is_meant), is_sure: left == 0 })
+    let mended = window.with(Some(edit), text);
+    let mut rivals =
+        rivals.take(MOST_RIVALS).map(|rival| window.with(Some(rival), text)).filter(|other| *other != mended);
+    let is_meant = left == 0 && edit.is_meant() && !rivals.any(|other| problems_left(&other, dialect) == Some(0));
+    Some(Best { edit: edit.clone(), is_sure: left == 0, is_meant })
 }
 
 /// Number of problems in a text; `None` if it cannot be read.

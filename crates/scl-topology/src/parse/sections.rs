@@ -12,6 +12,8 @@ use crate::yaml::{Node, NodeKind};
 impl Reader<'_> {
     pub(super) fn read_sections(&mut self, entries: &[(Node, Node)]) {
         let fields = self.fields(entries, "this file");
+        let connections = fields.get("connections").and_then(|section| section.value.items());
+        self.last_connection = connections.and_then(<[Node]>::last).map(|last| last.span);
         for field in &fields.list {
             match field.key {
                 "system" => self.model.system = self.name_in(*field, "system name"),
@@ -20,7 +22,7 @@ impl Reader<'_> {
                 "schema_roots" => {
                     self.model.schema_roots = self.read_files(*field, "folder of schemas", "a folder of schemas");
                 }
-                "scl" => self.problems.extend(shape::version::find(*field)),
+                "scl" => self.problems.extend(shape::version::find(*field, self.source)),
                 "components" | "connections" => self.read_lists(&fields, field.key),
                 key if key.starts_with(grammar::OWN_PREFIX) => self.check_extension(*field),
                 _ => self.report_unknown_section(*field),
@@ -71,6 +73,7 @@ impl Reader<'_> {
                 *found.rule != shape::missing::GATES || found.primary.as_ref().is_none_or(|label| label.span != name)
             });
         }
+        self.model.components_unread |= shape::unknown_key::included(field).is_some();
         self.report(
             shape::level::at_top(field, self.model.components.last(), self.source)
                 .unwrap_or_else(|| shape::unknown_key::section(field, self.source)),

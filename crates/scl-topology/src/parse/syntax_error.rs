@@ -23,8 +23,10 @@ pub(super) fn explain(tree: &Tree, text: &CheckedText, source: &SourceFile, dial
     if is_text_told(tree, error, source) {
         return None;
     }
-    let known =
-        habit::find(error, &text.text, source, dialect).or_else(|| repair::find_text(error, text, source, dialect));
+    let known = habit::template::at_error(error, &text.text, source)
+        .or_else(|| habit::find(error, &text.text, source, dialect))
+        .or_else(|| habit::prose::shallow_block(error, &text.text, source, dialect))
+        .or_else(|| repair::find_text(error, text, source, dialect));
     if known.is_some() {
         return known;
     }
@@ -38,6 +40,9 @@ pub(super) fn explain(tree: &Tree, text: &CheckedText, source: &SourceFile, dial
         _ => None,
     };
     let explained = explained
+        .or_else(|| needs_quotes::bad_escape(error, &text.text, source))
+        .or_else(|| habit::hidden::find(error, &text.text, source, dialect))
+        .or_else(|| habit::prose::find(error, &text.text, source, dialect))
         .or_else(|| missing_space::before(error, source, dialect))
         .or_else(|| quote::find(error, &text.text, source));
     if explained.is_some() {

@@ -2,7 +2,7 @@
 
 use super::parse;
 use crate::advice::{Extent, Judged, try_advice};
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity, render};
+use crate::diagnostic::{Diagnostic, Diagnostics, Help, Rule, Severity, render};
 use crate::model::Model;
 use crate::source::Sources;
 use expect_test::Expect;
@@ -29,6 +29,20 @@ pub(super) fn headlines(text: &str) -> String {
         format!("{} {} {}\n", problem.code(), place.trim_start_matches("topology.yaml:"), problem.message)
     };
     problems.iter().map(line).collect()
+}
+
+/// Headline and helps of each error of a text; a help that `--fix` applies begins with `!`.
+pub(super) fn advice(text: &str) -> String {
+    let (_, problems, _) = parse_text(text);
+    let line = |problem: &Diagnostic| {
+        let help = |help: &Help| match help.proposals.iter().any(|way| way.is_sure) {
+            true => format!("!{}", help.text()),
+            false => help.text().into_owned(),
+        };
+        let helps: Vec<String> = problem.shown_helps().map(help).collect();
+        format!("{} {} [{}]", problem.code(), problem.message, helps.join(" | "))
+    };
+    problems.iter().filter(|problem| problem.severity == Severity::Error).map(line).collect::<Vec<_>>().join("; ")
 }
 
 /// Checks that the bad example of a rule gives its code, no other error, and these words, with either line end and with

@@ -208,8 +208,6 @@ fn gates() {
 
             SCL0215 1:81 `queue` must be a whole number
             SCL0215 1:97 `when_full` must be `drop_oldest`, `drop_newest` or `wait`
-            SCL0215 1:112 `timeout` must be a number and a unit: `us`, `ms`, `s`, `min`, `m` or `h`
-            SCL0215 1:122 `share` must be `true` or `false`
             SCL0215 1:140 `unconnected` must be `ok`
 
             components: [{name: a, gates: {b: pub}}, {name: c, gates: d}]

@@ -192,11 +192,21 @@ impl<'t> Builder<'t> {
         if self.has_aliases {
             return self.repeat(id, span);
         }
+        if id.is_none() && self.is_wildcard(span) {
+            let text = self.text.get(span.start as usize..span.end as usize).unwrap_or_default().to_owned();
+            return self.attach(Node { span, kind: NodeKind::Scalar { text, style: Style::Plain } });
+        }
         match id.and_then(|id| self.anchors.get(&id)) {
             Some(&index) => self.tree.anchors[index].aliases.push(span),
             None => self.tree.anchors.push(Anchor { definition: None, aliases: vec![span] }),
         }
         self.attach(Node { span, kind: NodeKind::Unread });
+    }
+
+    /// Whether an alias without an anchor is rather `*.gate`: a path with a wildcard in a list in brackets.
+    fn is_wildcard(&self, span: Span) -> bool {
+        let is_path = self.text.get(span.start as usize..span.end as usize).is_some_and(|text| text.contains('.'));
+        is_path && self.stack.last().is_some_and(|open| open.flow && matches!(open.content, Content::Items(_)))
     }
 
     /// Puts a copy of an anchor's value in the place of an alias. Its places are those of the original.

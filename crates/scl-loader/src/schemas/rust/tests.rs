@@ -52,9 +52,26 @@ fn both_places_are_shown() {
 }
 
 #[test]
+fn what_nothing_uses_can_be_removed() {
+    let helps = |schema: &str| {
+        let schema = format!("syntax = \"proto3\";\npackage rover;\n{schema}\n");
+        let topology = "schemas: [rover.proto]\nconnections: []\ncomponents:\n  - name: sensor\n    gates:\n      \
+                        - fixes: {pub: rover.Fix, unconnected: ok}\n";
+        let loaded = load_from(&folder(&[("rover.proto", &schema), ("t.yaml", topology)]), "t.yaml");
+        let problem = loaded.diagnostics.iter().find(|problem| problem.code() == "SCL0417").unwrap();
+        problem.shown_helps().map(|help| help.text().into_owned()).collect::<String>()
+    };
+    let remove = "remove `rover.FIX`, which nothing uses, or rename it";
+    assert_eq!(helps("message Fix { int32 a = 1; } message FIX { int32 a = 1; }"), remove);
+    assert_eq!(helps("message FIX { int32 a = 1; } message Fix { int32 a = 1; }"), remove);
+    assert_eq!(helps("message FIX {} message Fix {} message A { FIX fix = 1; }"), "rename one of them");
+}
+
+#[test]
 fn types_that_become_one_are_refused() {
     let groups: [&[&str]; 7] = [
-        &["message GPSFix {} message GpsFix {}"],
+        // What is inside of them clashes as a consequence.
+        &["message GPSFix { optional int32 a = 1; } message GpsFix { optional int32 a = 1; message B {} }"],
         &["message Fix {} enum FIX { A = 0; }"],
         &["message Fix {}", "message FIX_ {}"],
         &["message A { oneof fix { int32 a = 1; } oneof FIX { int32 b = 2; } }"],

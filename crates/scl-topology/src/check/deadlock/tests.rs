@@ -45,7 +45,8 @@ fn components_wait_for_each_other() {
             12 |   - [power.mission, arbiter.mission]
                |     -------------------------------- `power` waits until `arbiter` answers, at most 1s
                |
-               = help: let `power` publish what `arbiter` asks for: `pub` and `sub` instead of `rep` and `req`
+               = help: let `arbiter` publish what `power.mission` asks for, if that is the same for each request: `pub` and `sub` instead of `rep` and `req`
+               = help: or let `power` publish what `arbiter.power` asks for, if that is the same for each request: `pub` and `sub` instead of `rep` and `req`
                = help: or, if a component never waits at its connection while another one waits for it, write
                        `# scl: allow(SCL0707) reason` above that connection
                = note: a request sent while answering one of the same circle is never answered, however long its timeout
@@ -67,7 +68,8 @@ fn full_queues() {
             12 |   - [b.b_out, a.a_in]
                |     ----------------- `b` waits while the queue of `a.a_in` is full
                |
-               = help: let `b.b_in` drop messages: `when_full: drop_oldest`, and remove `backpressure` from `a.a_out`
+               = help: let `a.a_in` drop messages: `when_full: drop_oldest`, and remove `backpressure` from `b.b_out`
+               = help: or let `b.b_in` drop messages: `when_full: drop_oldest`, and remove `backpressure` from `a.a_out`
                = help: or, if a component never waits at its connection while another one waits for it, write
                        `# scl: allow(SCL0707) reason` above that connection
                = note: once all of them wait, nothing moves any more
@@ -91,7 +93,7 @@ fn a_request_that_is_answered_with_a_push() {
                |
                = help: let `a.results` drop messages: `when_full: drop_oldest`, and remove `backpressure` from `b.work`
                = help: or say how long the request may wait before it fails: `timeout` at `a.ask`
-               = help: or let `b` publish what `a` asks for: `pub` and `sub` instead of `rep` and `req`
+               = help: or let `b` publish what `a.ask` asks for, if that is the same for each request: `pub` and `sub` instead of `rep` and `req`
                = help: or, if a component never waits at its connection while another one waits for it, write
                        `# scl: allow(SCL0707) reason` above that connection
                = note: once all of them wait, nothing moves until a request fails after 1s
@@ -117,7 +119,8 @@ fn work_that_is_shared() {
             18 |   - [c.c_out, a.results]
                |     -------------------- `c` waits while the queue of `a.results` is full
                |
-               = help: let `b.b_in` drop messages: `when_full: drop_oldest`
+               = help: let `a.results` drop messages: `when_full: drop_oldest`, and remove `backpressure` from `b.b_out`, `c.c_out`
+               = help: or let `c.c_in` drop messages: `when_full: drop_oldest`
                = help: or, if a component never waits at its connection while another one waits for it, write
                        `# scl: allow(SCL0707) reason` above that connection
                = note: once all of them wait, nothing moves any more
@@ -142,7 +145,8 @@ fn two_circles_with_a_common_connection() {
             18 |   - [b.o, a.i]
                |     ---------- `b` waits until `a` answers, at most 1s
                |
-               = help: let `b` publish what `a` asks for: `pub` and `sub` instead of `rep` and `req`
+               = help: let `a` publish what `b.o` asks for, if that is the same for each request: `pub` and `sub` instead of `rep` and `req`
+               = help: or let `b` publish what `a.o` asks for, if that is the same for each request: `pub` and `sub` instead of `rep` and `req`
                = help: or, if a component never waits at its connection while another one waits for it, write
                        `# scl: allow(SCL0707) reason` above that connection
                = note: a request sent while answering one of the same circle is never answered, however long its timeout
@@ -158,7 +162,9 @@ fn two_circles_with_a_common_connection() {
             20 |   - [c.o, a.i]
                |     ---------- `c` waits until `a` answers, at most 1s
                |
-               = help: let `b` publish what `a` asks for: `pub` and `sub` instead of `rep` and `req`
+               = help: let `a` publish what `c.o` asks for, if that is the same for each request: `pub` and `sub` instead of `rep` and `req`
+               = help: or let `c` publish what `b.p` asks for, if that is the same for each request: `pub` and `sub` instead of `rep` and `req`
+               = help: or let `b` publish what `a.o` asks for, if that is the same for each request: `pub` and `sub` instead of `rep` and `req`
                = help: or, if a component never waits at its connection while another one waits for it, write
                        `# scl: allow(SCL0707) reason` above that connection
                = note: a request sent while answering one of the same circle is never answered, however long its timeout

@@ -154,6 +154,14 @@ pub(in crate::parse) fn parentheses(open: &Range<usize>, brackets: &[&str], sour
     .help(format!("write `{left}` and `{right}` in place of the parentheses"))
 }
 
+/// `x: pub: A`, where the value needs braces.
+pub(in crate::parse) fn braces(value: &Range<usize>, text: &str, source: &SourceFile) -> Diagnostic {
+    let line = source.line_range(value.start);
+    let key = text[line.start..value.start].trim_start();
+    RULE.at("a second key and its value in one line need braces", source.span(value.clone()), "no braces around this")
+        .help(format!("write `{key}{{{}}}`", &text[value.clone()]))
+}
+
 /// A bracket that should be opened before a word.
 pub(in crate::parse) fn open_before(close: usize, word: &Range<usize>, text: &str, source: &SourceFile) -> Diagnostic {
     let found = &text[close..close + 1];

@@ -2,9 +2,12 @@
 //! numbers, prompts, templates.
 
 mod comment;
+pub(in crate::parse) mod hidden;
+mod in_brackets;
 mod line_mark;
 mod prefix;
-pub(super) mod template;
+pub(in crate::parse) mod prose;
+pub(in crate::parse) mod template;
 
 use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::parse::dialect::Dialect;
@@ -19,7 +22,8 @@ pub(crate) const RULE: Rule = Rule {
     title: "mark of another format",
     explanation: "The line begins with a sign that means something in another format or tool, but not in YAML: `//`, \
                   `/*`, `--` or `;` of a comment, the fence of a Markdown code block, the `+` of a diff, the line number \
-                  of a listing, the prompt of a shell, `{{` of a template. A comment starts with `#`; remove the rest.",
+                  of a listing, the prompt of a shell, `{{` or `@NAME@` of a template, `[section]` of an INI file, a \
+                  link. A comment starts with `#`, a section with its key and `:`; remove the rest.",
     example: " components:
 -  // the only one
 +  # the only one
@@ -48,7 +52,7 @@ struct Way {
 }
 
 /// The kinds, each with the function that finds its marks.
-const KINDS: [fn(&str, &SourceFile) -> Option<Found>; 9] = [
+const KINDS: [fn(&str, &SourceFile) -> Option<Found>; 12] = [
     line_mark::fences,
     prefix::diff,
     prefix::line_numbers,
@@ -58,6 +62,9 @@ const KINDS: [fn(&str, &SourceFile) -> Option<Found>; 9] = [
     line_mark::prompts,
     line_mark::editor_commands,
     line_mark::line_ends,
+    line_mark::headings,
+    in_brackets::indexes,
+    in_brackets::links,
 ];
 
 /// The problem of the first kind of marks without which the text can be read further.
@@ -108,7 +115,7 @@ fn reads_further(way: &Way, error: &SyntaxError, text: &str, source: &SourceFile
 }
 
 /// The lines of a text with their starts, each with its line break.
-fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut start = 0;
     text.split_inclusive('\n').map(move |line| {
         start += line.len();
@@ -117,7 +124,7 @@ fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
 }
 
 /// `line 3`, `lines 3 and 7` or `lines 3 to 7`.
-fn line_list(starts: &[usize], source: &SourceFile) -> String {
+pub(in crate::parse) fn line_list(starts: &[usize], source: &SourceFile) -> String {
     let numbers: Vec<u32> = starts.iter().map(|start| source.line(*start)).collect();
     match numbers.as_slice() {
         [only] => format!("line {only}"),

@@ -1,5 +1,6 @@
 //! SCL0105: a line whose indentation fits no line above it.
 
+use super::scan;
 use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::parse::words::COMPONENT_KEYS;
 use crate::source::SourceFile;
@@ -49,6 +50,10 @@ pub(in crate::parse) fn find(error: &SyntaxError, text: &str, source: &SourceFil
     }
     if first.is_dash && above.iter().all(|level| level.indent < first.indent) {
         let key = above.last().filter(|level| has_value(level, text, source))?;
+        // Inside a bracket, the line itself is wrong.
+        if !scan::scan(text.get(line.start..error.at)?).open_brackets.is_empty() {
+            return None;
+        }
         return Some(list_without_key(first, key, source));
     }
     let item = above.iter().rev().find(|level| level.is_dash && first.is_dash);

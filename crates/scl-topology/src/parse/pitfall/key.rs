@@ -39,9 +39,11 @@ pub(in crate::parse) fn duplicate(
         _ => problem,
     };
     let entry = second.key_span.to(second.value.span);
+    let is_same = source.snippet(entry) == source.snippet(first_entry);
     let ways = [("remove the second one", entry), ("remove the first one", first_entry)];
-    let removals = ways.into_iter().filter_map(|(help, entry)| Some((help, removal(source, entry)?)));
-    let problem = match merged(second, source) {
+    let ways = ways.into_iter().filter(|(_, entry)| is_same || !has_entries(*entry, source));
+    let removals = ways.filter_map(|(help, entry)| Some((help, removal(source, entry)?)));
+    let problem = match merged(second, source).filter(|_| !is_same) {
         Some(edit) => {
             problem.suggest(format!("remove this line with `{}:`, so that both lists become one", second.key), [edit])
         }
@@ -50,6 +52,12 @@ pub(in crate::parse) fn duplicate(
     removals
         .fold(problem, |problem, (help, removed)| problem.suggest(help, [removed]))
         .note("YAML tools disagree which one wins: PyYAML silently keeps the second")
+}
+
+/// Whether a key has a list or a mapping with something in it, which would be lost without it.
+fn has_entries(entry: Span, source: &SourceFile) -> bool {
+    let value = source.snippet(entry).split_once(':').map_or("", |(_, value)| value.trim());
+    !matches!(value, "[]" | "{}") && (value.contains('\n') || value.starts_with(['[', '{', '-']))
 }
 
 /// Removes the line of a key alone, so that the list below it continues the one above it.
@@ -105,8 +113,6 @@ mod tests {
                   |
                   = help: the second list belongs to another component if its `- name` is missing, else to the first list
                   = help: remove this line with `gates:`, so that both lists become one
-                  = help: remove the second one
-                  = help: remove the first one
                   = note: YAML tools disagree which one wins: PyYAML silently keeps the second"#]],
         );
     }

@@ -41,11 +41,23 @@ pub(in crate::parse) fn marks(text: &str) -> impl Iterator<Item = (usize, char, 
     letters.filter_map(|(at, letter)| Some((at, letter, confusable::mark(letter)?.1)))
 }
 
-/// The problem of a character that looks like a mark.
-pub(in crate::parse) fn diagnose(mark: &Range<usize>, source: &SourceFile) -> Diagnostic {
-    let letter = source.text()[mark.clone()].chars().next().unwrap_or(' ');
-    look_alike_mark(letter, source.span(mark.clone()))
+/// The problem of a character that looks like a mark, and is replaced by the mark, perhaps with a space.
+pub(in crate::parse) fn diagnose(mark: &Range<usize>, with: &str, source: &SourceFile) -> Diagnostic {
+    let text = source.text();
+    let letter = text[mark.clone()].chars().next().unwrap_or(' ');
+    let line = source.line_range(mark.start);
+    let key = text[line.start..mark.start].trim_start_matches([' ', '-']);
+    let value = text[mark.end..line.end].trim_end();
+    match with {
+        ": " if key.len() + value.len() <= MOST_SHOWN => {
+            look_alike_mark(letter, format!("write `{key}: {value}`"), source.span(mark.clone()))
+        }
+        _ => look_alike_mark(letter, retype(with), source.span(mark.clone())),
+    }
 }
+
+/// Maximum length of an entry that a help repeats, in bytes.
+const MOST_SHOWN: usize = 80;
 
 /// The first such character of a word; `what` is the word's part in a message, for example `gate name`.
 pub(in crate::parse) fn in_word(node: &Node, text: &str, what: &str, source: &SourceFile) -> Option<Diagnostic> {
@@ -74,7 +86,7 @@ pub(in crate::parse) fn in_word(node: &Node, text: &str, what: &str, source: &So
                     .note("names are ASCII, so that the file, the socket paths and all language bindings agree"),
             }
         }
-        None => look_alike_mark(letter, span),
+        None => look_alike_mark(letter, retype(confusable::mark(letter).map_or("", |(_, mark)| mark)), span),
     };
     // The value of a quoted or multi-line text differs from its source, so there is no fix.
     let retyped = confusable::retyped(text);
@@ -84,13 +96,19 @@ pub(in crate::parse) fn in_word(node: &Node, text: &str, what: &str, source: &So
     })
 }
 
-fn look_alike_mark(letter: char, span: Span) -> Diagnostic {
+fn retype(with: &str) -> String {
+    match with.strip_suffix(' ') {
+        Some(mark) => format!("retype it as `{mark}`, with a space after it"),
+        None if matches!(with, "\"" | "'") => {
+            "remove the quotes, which names do not need, or retype them as `\"`".to_owned()
+        }
+        None => format!("retype it as `{with}`"),
+    }
+}
+
+fn look_alike_mark(letter: char, help: String, span: Span) -> Diagnostic {
     let (name, mark) = confusable::mark(letter).unwrap_or(("another character", ""));
     let message = format!("`{letter}` (U+{:04X}) is {name}, not `{mark}`", u32::from(letter));
-    let help = match mark {
-        "\"" | "'" => "remove the quotes, which names do not need, or retype them as `\"`".to_owned(),
-        _ => format!("retype it as `{mark}`"),
-    };
     RULE.at(message, span, format!("not `{mark}`")).help(help).about(letter)
 }
 

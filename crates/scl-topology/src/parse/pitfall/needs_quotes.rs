@@ -1,7 +1,9 @@
 //! SCL0130: a text that YAML cannot read without quotes, or not in the quotes that it has.
 
+use super::scan;
 use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::source::{SourceFile, Span};
+use crate::yaml::SyntaxError;
 use std::ops::Range;
 
 /// SCL0130.
@@ -61,6 +63,76 @@ pub(in crate::parse) fn at_start(at: Span, source: &SourceFile) -> Option<Diagno
     let value = start..start + rest[..length].trim_end().len();
     let quoted = vec![Edit::new(source.span(value.clone()), quoted(&text[value.clone()]))];
     Some(diagnose(&value, text, source).carry(quoted, true))
+}
+
+/// A backslash in double quotes at which the parser stops.
+pub(in crate::parse) fn bad_escape(error: &SyntaxError, text: &str, source: &SourceFile) -> Option<Diagnostic> {
+    let ranges = scan::scan(text).quoted;
+    let range = ranges.get(ranges.partition_point(|range| range.start <= error.at).checked_sub(1)?)?.clone();
+    let written = text.get(range.clone()).filter(|written| written.starts_with('"') && !written.contains('\n'))?;
+    let at = unknown_escape(written).filter(|_| error.at <= range.end)?;
+    let escape: String = written[at..].chars().take(2).collect();
+    let plain = quoted(written);
+    // Another one may be meant as an escape.
+    let is_certain = !["\\n", "\\t", "\\\\", "\\\""].iter().any(|escape| written.contains(escape));
+    let span = source.span(range.start + at..range.start + at + escape.len());
+    let problem = RULE
+        .at(format!("`{escape}` in double quotes starts an escape"), span, "no escape that YAML knows")
+        .help(format!("write `{plain}`: in single quotes, a backslash has no meaning"));
+    Some(problem.carry(vec![Edit::new(source.span(range), plain)], is_certain))
+}
+
+/// The first escape in a text that YAML does not know.
+fn unknown_escape(written: &str) -> Option<usize> {
+    let mut letters = written.char_indices();
+    while let Some((at, letter)) = letters.next() {
+        let Some((_, kind)) = (letter == '\\').then(|| letters.next()).flatten() else { continue };
+        let digits = match kind {
+            'x' => 2,
+            'u' => 4,
+            'U' => 8,
+            other if "0abtnvfre \"/\\N_LP\t".contains(other) => 0,
+            _ => return Some(at),
+        };
+        let mut hex = written[at + 2..].chars().take(digits);
+        if digits > 0 && (written.len() < at + 2 + digits || !hex.all(|digit| digit.is_ascii_hexdigit())) {
+            return Some(at);
+        }
+    }
+    None
+}
+
+/// A text behind the `|` or `>` that begins a text on the next line.
+pub(in crate::parse) fn behind_mark(value: &Range<usize>, text: &str, source: &SourceFile) -> Option<Diagnostic> {
+    let written = &text[value.clone()];
+    let rest = written.strip_prefix(['|', '>']).filter(|rest| rest.starts_with(' '))?.trim_start();
+    let mark = &written[..1];
+    let line = source.line_range(value.start);
+    let before = &text[line.start..value.start];
+    let in_braces = before.contains('{');
+    let problem = RULE.at(
+        format!("after `{mark}`, a text begins on the next line"),
+        source.span(value.start..value.start + 1),
+        "has a meaning in YAML",
+    );
+    let start = value.end - rest.len();
+    let plain = match is_needed(rest, in_braces) {
+        true => quoted(rest),
+        false => rest.to_owned(),
+    };
+    let removed = Edit::new(source.span(value.clone()), plain);
+    let problem = problem.suggest(format!("remove `{mark}`"), [removed]);
+    if in_braces {
+        return Some(problem);
+    }
+    let below = text[line.end..].lines().nth(1).filter(|_| rest.contains('\n')).unwrap_or("");
+    let column = match below.len() - below.trim_start_matches(' ').len() {
+        0 => before.len() - before.trim_start_matches([' ', '-']).len() + 2,
+        column => column,
+    };
+    let moved = Edit::new(source.span(value.start + 1..start), format!("\n{}", " ".repeat(column)));
+    let key = before.trim_start_matches([' ', '-']);
+    Some(problem.suggest(format!("end the line after `{key}{mark}`, and write the text below it"), [moved]))
 }
 
 /// The length of a text in braces: up to the next key, or to the closing bracket.

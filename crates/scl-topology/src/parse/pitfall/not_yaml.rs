@@ -17,9 +17,9 @@ pub(crate) const RULE: Rule = Rule {
                   before.",
     example: " components:
    - name: sensor
--sensor reads the bus
+-sensor = reads = the bus
 -  - name: camera
--camera is optional
+-camera = optional = yes
 +    gates: []
 ",
 };

@@ -1,6 +1,6 @@
 //! SCL0125: something behind a value, or between two, that belongs to neither.
 
-use crate::diagnostic::{Diagnostic, Rule, Severity};
+use crate::diagnostic::{Diagnostic, MOST_LABELS, Rule, Severity};
 use crate::source::SourceFile;
 use std::ops::Range;
 
@@ -51,8 +51,30 @@ pub(in crate::parse) fn diagnose(range: &Range<usize>, text: &str, source: &Sour
 pub(in crate::parse) fn brackets_after_type(range: &Range<usize>, text: &str, source: &SourceFile) -> Diagnostic {
     let word = &text[range.clone()];
     let name = word.split(['[', '{']).next().unwrap_or(word);
+    let others = text.match_indices(word).filter(|(at, _)| *at != range.start).take(MOST_LABELS);
     RULE.at(format!("`{word}` is not a type"), source.span(range.clone()), "brackets after a name")
-        .help(format!("write `{name}`, or give the list a name: in Rust `type Name = ...;`, in a schema a message"))
+        .labels(others.map(|(at, _)| (source.span(at..at + word.len()), "and here")))
+        .help(format!("write `{name}`"))
+        .help(
+            "a gate carries messages: for a list, declare a message with a `repeated` field in a schema, or a type in \
+             Rust, and write its name here",
+        )
+}
+
+/// `{pub: Bus: A}` and `{rep: A: B}`: the value with its colon, and what replaces part of it.
+pub(in crate::parse) fn second_colon(value: &Range<usize>, with: &str, text: &str, source: &SourceFile) -> Diagnostic {
+    let written = &text[value.clone()];
+    let (first, second) = written.split_once(':').unwrap_or((written, ""));
+    let meant = match with.trim() {
+        "" => second.trim_start().to_owned(),
+        "->" => format!("{first} -> {}", second.trim_start()),
+        mark => format!("{first}{mark}{}", second.trim_start()),
+    };
+    let line = source.line_range(value.start);
+    let key = text[line.start..value.start].rsplit(['{', ',']).next().unwrap_or("").trim_start();
+    let colon = value.start + first.len();
+    RULE.at("a key has one value, and this is a second colon", source.span(colon..colon + 1), "not expected")
+        .help(format!("write `{key}{meant}`"))
 }
 
 /// `}#c`.

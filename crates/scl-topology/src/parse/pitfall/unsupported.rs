@@ -1,6 +1,7 @@
 //! Parts of YAML that a topology does not have. SCL0111: anchors and aliases. SCL0112: the merge key `<<`. SCL0113: a
 //! tag. SCL0114: more than one document. SCL0118: a directive, such as `%YAML 1.1`.
 
+mod merged;
 mod written_out;
 
 use super::needs_quotes;
@@ -8,6 +9,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::parse::dialect::Dialect;
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Anchor, MOST_REPEATED, Node, NodeKind, Tree};
+use scl_text::list::quoted_list;
 use std::ops::Range;
 
 /// SCL0111.
@@ -83,7 +85,14 @@ fn diagnose_anchor(anchor: &Anchor, root: Option<&Node>, source: &SourceFile) ->
         problem = problem.labels(anchor.aliases.iter().map(|alias| (*alias, "used here")));
     }
     let anchor_help = match first_use {
-        Some(alias) => anchor_help(alias, root, source),
+        Some(alias) => match written_out::merge(alias, source)
+            .and_then(|place| Some((place, written_out::keys(anchor, source)?)))
+        {
+            Some((place, keys)) => {
+                format!("write {} in the place of `{}`", quoted_list(&keys), source.snippet(place))
+            }
+            None => anchor_help(alias, root, source),
+        },
         None => "remove it; nothing refers to it".to_owned(),
     };
     let problem = match (anchor.definition, first_use) {
@@ -209,7 +218,15 @@ pub(super) fn second_document(source: &SourceFile, at: Span, dialect: &Dialect) 
     match line.map(|line| source.line_range(line)) {
         Some(line) => {
             let end = text[line.end..].find('\n').map_or(text.len(), |found| line.end + found + 1);
-            problem.propose(help, [Edit::new(source.span(line.start..end), "")])
+            let removed = Edit::new(source.span(line.start..end), "");
+            match merged::sections(&(line.start..end), source) {
+                Some((keys, edits)) => problem.suggest(
+                    format!("{help}, and move the entries of {keys} below it to those above"),
+                    edits.into_iter().chain([removed]),
+                ),
+                None => problem.propose(help, [removed]),
+            }
+            .otherwise("if it is the same system, join both documents: each section stands once in a file")
         }
         None => problem.help(help),
     }

@@ -1,5 +1,6 @@
 //! The changes to one line that are tried.
 
+mod colons;
 mod columns;
 
 use super::line::{Class, Token, tokens};
@@ -28,6 +29,8 @@ pub(super) fn of_line(line: &Range<usize>, text: &str, source: &SourceFile, dial
     }
     surplus(&tokens, line, text, &mut edits);
     second_key(&tokens, line, text, dialect, &mut edits);
+    colons::braces(&tokens, line, text, dialect, &mut edits);
+    colons::second(&tokens, text, &mut edits);
     odd_colon(&tokens, text, dialect, &mut edits);
     parentheses(&tokens, text, &mut edits);
     quotes(line, text, &mut edits);

@@ -3,6 +3,7 @@
 use super::{Edit, Kind};
 use crate::diagnostic::{Diagnostic, Edit as Replacement};
 use crate::parse::dialect::Dialect;
+use crate::parse::pitfall::habit::line_list;
 use crate::parse::pitfall::{
     bracket, dash, indentation, look_alike, missing_mark, missing_space, needs_quotes, quote, unexpected,
 };
@@ -10,13 +11,32 @@ use crate::parse::shape::nameless;
 use crate::source::SourceFile;
 use std::ops::Range;
 
-/// The problem, with the change as its proposal. A name that is missing is no proposal: nobody knows it.
-pub(super) fn tell(edit: &Edit, text: &str, source: &SourceFile, dialect: &Dialect, is_meant: bool) -> Diagnostic {
+/// The problem, with the change as its proposal, and the changes of the same kind in later lines. A name that is
+/// missing is no proposal: nobody knows it.
+pub(super) fn tell(
+    edit: &Edit,
+    later: &[Edit],
+    text: &str,
+    source: &SourceFile,
+    dialect: &Dialect,
+    is_meant: bool,
+) -> Diagnostic {
+    if let Kind::Text(value) = &edit.kind
+        && let Some(problem) = needs_quotes::behind_mark(value, text, source)
+    {
+        return problem;
+    }
     let problem = words(edit, text, source, dialect);
     if matches!(edit.kind, Kind::Nameless(_)) {
         return problem;
     }
-    let edits = edit.changes.iter().map(|(range, with)| Replacement::new(source.span(range.clone()), with));
+    let starts: Vec<usize> = later.iter().filter_map(|edit| Some(edit.changes.first()?.0.start)).collect();
+    let problem = match starts.is_empty() {
+        true => problem,
+        false => problem.extend_help(&format!(", and the same on {}", line_list(&starts, source))),
+    };
+    let changes = std::iter::once(edit).chain(later).flat_map(|edit| &edit.changes);
+    let edits = changes.map(|(range, with)| Replacement::new(source.span(range.clone()), with));
     problem.carry(edits.collect(), is_meant)
 }
 
@@ -41,6 +61,10 @@ fn words(edit: &Edit, text: &str, source: &SourceFile, dialect: &Dialect) -> Dia
         Kind::Instead(range, ',') => missing_mark::instead_of_comma(range, text, source),
         Kind::Instead(range, _) => missing_mark::instead_of_colon(range, text, source),
         Kind::Surplus(range) => surplus(range, text, source),
+        Kind::Braces(value) => bracket::braces(value, text, source),
+        Kind::SecondColon(rest) => {
+            unexpected::second_colon(rest, edit.changes.first().map_or("", |(_, with)| with), text, source)
+        }
         Kind::ArrayType(range) => unexpected::brackets_after_type(range, text, source),
         Kind::Space(glued) => missing_space::in_brackets(glued, text, source, dialect),
         Kind::CommentSpace(hash) => unexpected::glued_comment(*hash, text, source),
@@ -54,7 +78,10 @@ fn words(edit: &Edit, text: &str, source: &SourceFile, dialect: &Dialect) -> Dia
         Kind::Nameless(key) => nameless::above(source.span(key.clone())),
         Kind::Indent(word, column) => indentation::in_wrong_column(word, *column, text, source),
         Kind::Text(value) => needs_quotes::diagnose(value, text, source),
-        Kind::LookAlike(mark) => look_alike::diagnose(mark, source),
+        Kind::LookAlike(mark) => {
+            let with = edit.changes.first().map_or("", |(_, with)| with.as_str());
+            look_alike::diagnose(mark, with, source)
+        }
     }
 }
 

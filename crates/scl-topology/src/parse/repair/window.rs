@@ -34,11 +34,11 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// The part with a change in it.
-    pub(super) fn with(&self, edit: &Edit, text: &str) -> String {
+    /// The part, perhaps with a change in it.
+    pub(super) fn with(&self, edit: Option<&Edit>, text: &str) -> String {
         let mut out = text[self.head.clone()].to_owned();
         let mut at = self.range.start;
-        for (range, with) in &edit.changes {
+        for (range, with) in edit.iter().flat_map(|edit| &edit.changes) {
             out.push_str(&text[at..range.start]);
             out.push_str(with);
             at = range.end;
@@ -49,16 +49,22 @@ impl Window {
 }
 
 impl Window {
-    /// The part up to the line in which the parser stopped, or to the end of what is in brackets there; `None` if that
-    /// is all of it.
-    pub(super) fn without_lines_below(&self, error: &SyntaxError, text: &str, source: &SourceFile) -> Option<Self> {
+    /// The parts up to the line in which the parser stopped, or to the end of what is in brackets there, and up to the
+    /// line above it, unless that line is in brackets; but not all of it.
+    pub(super) fn without_lines_below(&self, error: &SyntaxError, text: &str, source: &SourceFile) -> Vec<Self> {
         let with_break = |end: usize| text[end..].find('\n').map_or(text.len(), |found| end + found + 1);
-        let mut end = with_break(source.line_range(error.at.min(text.len())).end);
+        let line = source.line_range(error.at.min(text.len()));
+        let mut end = with_break(line.end);
         while end < self.range.end && !scan::scan(&text[self.range.start..end]).open_brackets.is_empty() {
             end = with_break(end);
         }
-        (self.range.start < end && end < self.range.end)
-            .then(|| Self { head: self.head.clone(), range: self.range.start..end })
+        let indent_of = |line: &str| line.len() - line.trim_start_matches(' ').len();
+        let above = text.get(self.range.start..line.start).unwrap_or_default();
+        let open = scan::scan(above).open_brackets.first().map(|open| source.line_range(self.range.start + open));
+        let is_inside = open.is_some_and(|open| indent_of(&text[line.clone()]) > indent_of(&text[open]));
+        let ends = std::iter::once(end).chain(Some(line.start).filter(|_| !is_inside));
+        let ends = ends.filter(|end| self.range.start < *end && *end < self.range.end);
+        ends.map(|end| Self { head: self.head.clone(), range: self.range.start..end }).collect()
     }
 }
 

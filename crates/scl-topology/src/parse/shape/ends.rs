@@ -24,7 +24,7 @@ pub(crate) const RULE: Rule = Rule {
 const PAIR: &str = "a connection joins exactly two gates";
 
 /// What is allowed, where nobody can know the names.
-const FORM: &str = "a connection is written `[component.gate, component.gate]`";
+pub(super) const FORM: &str = "a connection is written `[component.gate, component.gate]`";
 
 /// Maximum number of connections that are made of one entry.
 const MOST_PAIRS: usize = 10;
@@ -37,7 +37,15 @@ pub(in crate::parse) fn words(text: &str) -> Vec<&str> {
     const MARKS: [char; 17] = ['[', ']', '{', '}', '(', ')', '"', '\'', ',', ';', '=', '|', '&', '-', '<', '>', ':'];
     let words = text.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | '|' | '→'));
     let parts = words.flat_map(|word| word.split("->").flat_map(|part| part.split("=>")));
-    parts.map(|word| word.trim_matches(MARKS)).filter(|word| !word.is_empty()).collect()
+    let parts = parts.flat_map(|part| part.split("--")).map(|word| word.trim_matches(MARKS));
+    parts.flat_map(apart).filter(|word| !word.is_empty()).collect()
+}
+
+/// The ends in `a.b:c.d`, or else the whole word.
+fn apart(word: &str) -> impl Iterator<Item = &str> {
+    let is_mark = |letter: char| matches!(letter, ':' | '=' | '/' | '~' | '+' | '<' | '>');
+    let is_several = word.split(is_mark).filter(|part| !part.is_empty()).all(|part| part.contains('.'));
+    word.split(move |letter| is_several && is_mark(letter))
 }
 
 /// A list of one, three or more.
@@ -306,7 +314,7 @@ fn pair(ends: [&str; 2]) -> String {
 }
 
 /// An end with a dot, where a slash or a colon stands in its place.
-fn with_dot(end: &str) -> String {
+pub(super) fn with_dot(end: &str) -> String {
     match end.contains('.') {
         true => end.to_owned(),
         false => end.replacen("::", ".", 1).replacen(['/', ':'], ".", 1),

@@ -1,10 +1,12 @@
 //! SCL0210: a gate that is not written as `name: kind` or `name: {kind: type, option: value}`.
 
 use super::option_value::{self, replacement};
+use super::reference::{is_type, types_meant};
 use super::shift;
 use crate::diagnostic::{Diagnostic, Edit, Rule, Severity, removal};
 use crate::habits;
 use crate::model::GateModel;
+use crate::parse::exchange::Odd;
 use crate::parse::field::{Field, Fields};
 use crate::parse::scalar;
 use crate::parse::words::{is_kind, is_option};
@@ -82,34 +84,52 @@ pub(in crate::parse) fn comma_between_types(gate: &GateModel, answer: Field<'_>)
 }
 
 /// `{rep: Request => Reply}`.
-pub(in crate::parse) fn odd_arrow(kind: Field<'_>, types: Span, arrow: &str, meant: &str) -> Diagnostic {
-    let message = match arrow {
+pub(in crate::parse) fn odd_arrow(kind: Field<'_>, types: Span, odd: &Odd) -> Diagnostic {
+    let message = match odd.mark.as_str() {
         "" => "`->` is missing between the two types".to_owned(),
         "->" => "the types of a request and of its reply stand without parentheses".to_owned(),
-        _ => format!("`{arrow}` does not join two types"),
+        arrow => format!("`{arrow}` does not join two types"),
     };
-    RULE.at(message, types, "expected `->` between the two")
-        .propose(format!("write `{}: {meant}`", kind.key), [Edit::new(types, meant)])
+    let ways: Vec<String> = odd.ways.iter().map(|meant| format!("{}: {meant}", kind.key)).collect();
+    let edits = odd.ways.iter().map(|meant| Edit::new(types, meant));
+    RULE.at(message, types, "expected the request, `->` and the reply")
+        .choose(("write ", ""), ways.iter().map(String::as_str).zip(edits))
 }
 
-/// `{rep: {request: A, response: B}}`, `{pub: [A, B]}`: what the type is, and what is meant.
-pub(in crate::parse) fn type_is_not_text(kind: Field<'_>) -> (Diagnostic, Option<String>) {
-    let problem = option_value::not_text(&format!("`{}`", kind.key), kind.value);
+/// `{rep: {request: A, response: B}}`, `{pub: [A, B]}`: what the type is, and what it certainly is meant to be. The
+/// `source` is searched for types that a reference may mean.
+pub(in crate::parse) fn type_is_not_text(kind: Field<'_>, source: Option<&SourceFile>) -> (Diagnostic, Option<String>) {
+    let key = kind.key;
+    let problem = option_value::not_text(&format!("`{key}`"), kind.value);
+    let is_list = matches!(kind.value.kind, NodeKind::Sequence { .. });
     let values: Vec<&Node> = match &kind.value.kind {
         NodeKind::Sequence { items } => items.iter().collect(),
         NodeKind::Mapping { entries } => entries.iter().map(|(_, value)| value).collect(),
         _ => Vec::new(),
     };
     let types: Option<Vec<&str>> = values.into_iter().map(Node::text).collect();
-    let meant = match (types.as_deref(), kind.key) {
-        (Some([request, reply]), "req" | "rep") => format!("{request} -> {reply}"),
-        (Some([only]), _) => (*only).to_owned(),
-        (_, "req" | "rep") => {
-            return (problem.help("the types of a request and of its reply are joined by `->`"), None);
+    let with_type =
+        |problem: Diagnostic, name: &str| problem.suggest(format!("write `{key}: {name}`"), [replacement(kind, name)]);
+    match (types.as_deref(), key) {
+        (Some([request, reply]), "req" | "rep") if is_type(request) && is_type(reply) => {
+            let meant = format!("{request} -> {reply}");
+            (problem.propose(format!("write `{key}: {meant}`"), [replacement(kind, &meant)]), Some(meant))
         }
-        _ => return (problem.help("a gate carries one type; each further type needs a gate of its own"), None),
-    };
-    (problem.propose(format!("write `{}: {meant}`", kind.key), [replacement(kind, &meant)]), Some(meant))
+        (_, "req" | "rep") => (problem.help("the types of a request and of its reply are joined by `->`"), None),
+        (Some([only]), _) if is_type(only) && !is_list => {
+            let meant = (*only).to_owned();
+            (problem.propose(format!("write `{key}: {meant}`"), [replacement(kind, &meant)]), Some(meant))
+        }
+        (Some([only]), _) => {
+            let problem = types_meant(only, source).iter().fold(problem, |problem, name| with_type(problem, name));
+            let text = match is_list {
+                true => "a gate carries one message; a list is a `repeated` field of it".to_owned(),
+                false => format!("a type is a dotted name: `{key}: package.Message`"),
+            };
+            (problem.otherwise(text), None)
+        }
+        _ => (problem.help("a gate carries one type; each further type needs a gate of its own"), None),
+    }
 }
 
 /// `- measurements: {queue: 4}`.

@@ -2,7 +2,7 @@
 
 use super::option_value::replacement;
 use crate::diagnostic::{Diagnostic, Edit};
-use crate::grammar::{self, Shape};
+use crate::grammar::{self, GateOption, Shape};
 use crate::habits::{self, Habit};
 use crate::parse::field::Field;
 use crate::parse::meant::meant;
@@ -39,15 +39,21 @@ pub(super) fn with_habit(
     let problem =
         ways.iter().fold(problem, |problem, &(key, value)| with_way(problem, field, key, value, ways.len() == 1));
     match (habit.text, ways.first()) {
-        ("", Some((key, _))) => problem.otherwise(format!("it is called `{key}` here")),
+        ("", Some((key, _))) => problem.otherwise(called(key)),
         ("", None) => problem,
         (text, Some(_)) => problem.otherwise(text),
         (text, None) => problem.help(text),
     }
 }
 
-fn split(way: &'static str) -> (&'static str, Option<&'static str>) {
+pub(super) fn split(way: &'static str) -> (&'static str, Option<&'static str>) {
     way.split_once(": ").map_or((way, None), |(key, value)| (key, Some(value)))
+}
+
+fn called(key: &str) -> String {
+    let values = shape(key).map(Shape::values).filter(|_| grammar::option(key).is_some());
+    let values = values.map(|values| format!("; allowed: {values}"));
+    format!("it is called `{key}` here{}", values.unwrap_or_default())
 }
 
 fn with_way(problem: Diagnostic, field: Field<'_>, key: &str, value: Option<&str>, is_only: bool) -> Diagnostic {
@@ -78,7 +84,7 @@ fn with_way(problem: Diagnostic, field: Field<'_>, key: &str, value: Option<&str
 }
 
 /// The value in the form that another key expects; none if it has this form.
-fn converted(key: &str, field: Field<'_>) -> Option<String> {
+pub(super) fn converted(key: &str, field: Field<'_>) -> Option<String> {
     let shape = shape(key)?;
     if field.value.text().is_some_and(|text| shape.fits(text, field.value.is_plain())) {
         return None;
@@ -87,6 +93,12 @@ fn converted(key: &str, field: Field<'_>) -> Option<String> {
     // `timeout_ms: 50`.
     let unit = field.key.to_lowercase().ends_with("ms").then(|| values.iter().find(|value| value.ends_with("ms")));
     unit.flatten().or(values.first()).cloned()
+}
+
+/// Whether a key could have the value of a field, perhaps in another form.
+pub(super) fn could_have(key: &str, field: Field<'_>) -> bool {
+    let fits = |shape: Shape| field.value.text().is_some_and(|text| shape.fits(text, field.value.is_plain()));
+    shape(key).is_some_and(fits) || converted(key, field).is_some()
 }
 
 fn shape(key: &str) -> Option<Shape> {
@@ -107,16 +119,22 @@ pub(super) fn with_lifted(
     let whole = field.key_span.to(field.value.span);
     let line = source.line_range(field.key_span.start as usize).start as u32;
     let head = source.snippet(Span { start: line, end: field.key_span.start, ..whole });
-    let mut lifted = Vec::new();
-    for (key, value) in entries {
-        let Some(word) = key.text() else { return problem };
+    let mut lifted: Vec<String> = Vec::new();
+    for (key_node, value) in entries {
+        let Some(word) = key_node.text() else { return problem };
         let habit = habits::of_key(table, word).and_then(|habit| habit.ways.first()).map(|way| split(way).0);
         let Some(known) = Some(word).filter(|word| is_known(word)).or(habit) else { return problem };
-        let value = source.snippet(value.span);
+        let entry = Field { key: word, key_span: key_node.span, key_node, value };
+        let value = converted(known, entry).unwrap_or_else(|| source.snippet(value.span).to_owned());
         if value.contains('\n') {
             return problem;
         }
-        lifted.push(format!("{known}: {value}"));
+        let entry = format!("{known}: {value}");
+        // A value that is the default may be left out.
+        let is_default = grammar::option(known).and_then(GateOption::default).is_some_and(|default| default == value);
+        if !is_default && !lifted.contains(&entry) {
+            lifted.push(entry);
+        }
     }
     if lifted.is_empty() || source.snippet(whole).contains('#') {
         return problem;

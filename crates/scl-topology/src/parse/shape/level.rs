@@ -1,6 +1,6 @@
 //! SCL0214: a key that belongs elsewhere.
 
-use super::shift;
+use super::{moved, shift};
 use crate::diagnostic::{Diagnostic, Edit, Rule, Severity, removal};
 use crate::model::ComponentModel;
 use crate::parse::field::{Field, Fields, head};
@@ -133,6 +133,29 @@ pub(in crate::parse) fn gate_among_components(item: &Node, above: &ComponentMode
         }
         None => problem.help(format!("a gate stands below the `gates:` of its component, `{}`", above.name.value)),
     }
+}
+
+/// The key and the value of `name` among the keys of a component; none among other keys.
+pub(in crate::parse) fn component_name(entries: &[(Node, Node)]) -> Option<&(Node, Node)> {
+    let find = |key: &str| entries.iter().find(|(node, _)| node.text() == Some(key));
+    find("name").filter(|_| find("gates").is_some_and(|(_, gates)| gates.text().is_none()))
+}
+
+/// A component in another list. It belongs below the component `above`.
+pub(in crate::parse) fn component_among(
+    list: &str,
+    item: Span,
+    (key, name): &(Node, Node),
+    above: Option<Span>,
+    source: &SourceFile,
+) -> Diagnostic {
+    let message = format!("component `{}` stands in the list of {list}", name.text().unwrap_or(""));
+    let problem = RULE.at(message, key.span.to(name.span), "a component");
+    match above.and_then(|above| moved::below(item, above, source)) {
+        Some(edits) => problem.propose("move it into the list `components`", edits),
+        None => problem,
+    }
+    .otherwise("components stand in the list `components`")
 }
 
 /// `- measurements:` with `pub: Type` below it, in the same column as the name.

@@ -1,7 +1,7 @@
 //! SCL0215: a value of the wrong kind.
 
-use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
-use crate::grammar::Shape;
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity, removal};
+use crate::grammar::{GateOption, Shape, option};
 use crate::habits;
 use crate::parse::field::{Field, end_with_colon};
 use crate::parse::meant::{Meant, meant};
@@ -19,12 +19,12 @@ pub(crate) const RULE: Rule = Rule {
     example: " components:
    - name: sensor
      gates:
--      - measurements: {pub: Measurement, queue: many}
+-      - measurements: {sub: Measurement, queue: many}
 +      - measurements: {sub: Measurement, queue: 16}
 ",
 };
 
-pub(in crate::parse) fn diagnose(field: Field<'_>, expected: Shape) -> Diagnostic {
+pub(in crate::parse) fn diagnose(field: Field<'_>, expected: Shape, source: &SourceFile) -> Diagnostic {
     let key = field.key;
     let problem =
         RULE.at(format!("`{key}` must be {}", expected.rule()), field.value.span, label(field.value, expected));
@@ -32,11 +32,28 @@ pub(in crate::parse) fn diagnose(field: Field<'_>, expected: Shape) -> Diagnosti
     let words = field.value.text().and_then(|text| habits::of_value(key, text)).map_or("", |habit| habit.text);
     if let (false, Some(largest)) = (words.is_empty() || problem.proposals().next().is_some(), expected.largest()) {
         let text = format!("{words}; the largest is `{key}: {largest}`");
-        return problem.suggest(text, [replacement(field, &largest)]);
+        return with_default(problem.suggest(text, [replacement(field, &largest)]), field, source);
     }
     match words {
         "" => problem.otherwise(format!("allowed: {}", expected.values())),
         words => problem.otherwise(format!("{words}; allowed: {}", expected.values())),
+    }
+}
+
+/// A group of pullers in the place of the length of the queue of one.
+pub(in crate::parse) fn group(field: Field<'_>, source: &SourceFile) -> Diagnostic {
+    let problem = RULE.at("`queue` is a number of messages, not the name of a group", field.value.span, "a name");
+    let problem =
+        problem.help("all pullers of a `push` gate with `share: true` share its work, so no group has a name");
+    with_default(problem, field, source)
+}
+
+/// Suggests leaving an option out.
+fn with_default(problem: Diagnostic, field: Field<'_>, source: &SourceFile) -> Diagnostic {
+    let default = option(field.key).and_then(GateOption::default);
+    match (default, removal(source, field.key_span.to(field.value.span))) {
+        (Some(default), Some(removed)) => problem.suggest(format!("without it, the default is {default}"), [removed]),
+        _ => problem,
     }
 }
 
@@ -110,7 +127,7 @@ mod tests {
                 error: [SCL0215] `queue` must be a whole number
                  --> topology.yaml:4:49
                   |
-                4 |       - measurements: {pub: Measurement, queue: many}
+                4 |       - measurements: {sub: Measurement, queue: many}
                   |                                                 ^^^^ this is text
                   |
                   = help: allowed: 1 to 1000000"#]],
@@ -144,5 +161,25 @@ mod tests {
             [8MiB]: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is a list ["write `max_size: 8MiB`"]
             true: `max_size` must be a whole number and a unit: `B`, `KiB`, `MiB` or `GiB` this is not a size ["allowed: 1B to 1GiB (units: `B`, `KiB`, `MiB`, `GiB`)"]
         "#]].assert_eq(&told.concat());
+    }
+
+    #[test]
+    fn there_is_no_unlimited_timeout() {
+        for timeout in ["0", "\"0\"", "0.0", "-1", "forever", "infinite", "K_FOREVER", "none", "false"] {
+            let gate = format!("x: {{req: A -> B, timeout: {timeout}}}");
+            let (_, found, _) = parse_text(&format!("components: [{{name: a, gates: [{gate}]}}]\nconnections: []\n"));
+            let helps: Vec<_> =
+                found.iter().flat_map(|found| found.shown_helps()).map(|help| help.text().into_owned()).collect();
+            let largest = "a call always ends: there is no unlimited timeout; the largest is `timeout: 24h`";
+            assert_eq!(helps, [largest, "without it, the default is 1s"], "{timeout}");
+        }
+    }
+
+    #[test]
+    fn a_queue_is_no_group() {
+        let (_, found, _) =
+            parse_text("components: [{name: a, gates: [x: {pull: T, queue: workers}]}]\nconnections: []\n");
+        let messages: Vec<&str> = found.iter().map(|found| found.message.as_str()).collect();
+        assert_eq!(messages, ["`queue` is a number of messages, not the name of a group"]);
     }
 }

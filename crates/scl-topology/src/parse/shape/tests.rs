@@ -50,6 +50,9 @@ fn gates_in_other_notations() {
         ("- x: {rep: A, B}", "- x: {rep: A -> B}"),
         ("- x: {rep: (A, B)}", "- x: {rep: A -> B}"),
         ("- x: {req: {request: A, response: B}}", "- x: {req: A -> B}"),
+        ("- x: {rep: B (A)}", "- x: {rep: A -> B}"),
+        ("- x: {pub: [t.T]}", "- x: {pub: t.T}"),
+        ("- x: {pub: {$ref: '#/schemas/T'}} # a.T", "- x: {pub: a.T} # a.T"),
     ];
     check(&cases, |gate| format!("components:\n  - name: a\n    gates:\n      {gate}\nconnections: []\n"));
 }
@@ -70,6 +73,13 @@ fn options_in_other_words() {
         ("max_size: 8_000_000", "max_size: 8000000B"),
         ("unconnected: yes", "unconnected: ok"),
         ("with: {queue: 1, when_full: wait}", "queue: 1, when_full: wait"),
+        ("qos: {reliability: best_effort, history: keep_last, depth: 5}", "queue: 5"),
+        ("max_nb_message: 16", "queue: 16"),
+        ("maxMessageBytes: 2MiB", "max_size: 2MiB"),
+        ("discard: new", "when_full: drop_newest"),
+        ("leaky: downstream", "when_full: drop_oldest"),
+        ("max_size: 1920*1080*3", "max_size: 6220800B"),
+        ("queue: 2*8", "queue: 16"),
     ];
     check(&cases, |option| {
         format!("components:\n  - name: a\n    gates:\n      - x: {{sub: T, {option}}}\nconnections: []\n")
@@ -86,6 +96,8 @@ fn connections_in_other_notations() {
         ("- {from: a.x, to: b.y}", "- [a.x, b.y]"),
         ("- from: a.x\n    to: b.y", "- [a.x, b.y]"),
         ("- a.x: b.y", "- [a.x, b.y]"),
+        ("- \"a.x:b.y\"", "- [a.x, b.y]"),
+        ("- a.x--b.y", "- [a.x, b.y]"),
         ("- a.x: [b.y, c.z]", "- [a.x, b.y]\n  - [a.x, c.z]"),
         ("- [a, x, b.y]", "- [a.x, b.y]"),
         ("- [{a: x}, b.y]", "- [a.x, b.y]"),
@@ -129,4 +141,72 @@ fn sections_in_other_words() {
         ("version: 3", "scl: 1"),
     ];
     check(&cases, |section| format!("{section}\ncomponents: []\nconnections: []\n"));
+}
+
+#[test]
+fn components_in_other_lists() {
+    let cases = [
+        (
+            "- name: a\n    gates:\n      - x: pub\n      - name: b # why\n        gates:\n          - x: sub\n      - y: pub",
+            "- name: a\n    gates:\n      - x: pub\n      - y: pub\n  - name: b # why\n    gates:\n      - x: sub",
+        ),
+        (
+            "- name: a\n    gates:\n      - name: b\n        gates: []\nconnections:\n  - [a.x, b.x]",
+            "- name: a\n    gates:\n  - name: b\n    gates: []\nconnections:\n  - [a.x, b.x]",
+        ),
+        (
+            "- {name: a, gates: []}\nconnections:\n- name: b\n  gates: []\n- [a.x, b.x]",
+            "- {name: a, gates: []}\n  - name: b\n    gates: []\nconnections:\n- [a.x, b.x]",
+        ),
+    ];
+    check(&cases, |components| format!("components:\n  {components}\nx-end: {{}}\n"));
+}
+
+#[test]
+fn ports_in_the_place_of_gates() {
+    let cases = [
+        ("inputs: [c.x]", "gates: [x: sub]", "  - [c.x, b.x]\n"),
+        ("inputs: {y: c/x}", "gates: [y: sub]", "  - [c.x, b.y]\n"),
+        ("outputs:\n      y: a.T", "gates: [y: {pub: a.T}]", ""),
+        ("outputs: [y, z]", "gates: [y: pub, z: pub]", ""),
+    ];
+    let file = |keys: &str, connection: &str| {
+        format!("components:\n  - name: b\n    {keys}\nconnections:\n  - [c.z, d.z]\n{connection}")
+    };
+    for (wrong, right, connection) in cases {
+        assert_eq!(proposed(&file(wrong, "")), file(right, connection));
+    }
+}
+
+#[test]
+fn repeated_lists_keep_their_entries() {
+    let advice = |one: &str, two: &str| {
+        let (_, problems, _) = parse_text(&format!("components: []\nconnections: {one}\nconnections: {two}\n"));
+        let helps = problems.iter().flat_map(Diagnostic::shown_helps).map(|help| help.text().into_owned());
+        helps.filter(|help| help.starts_with("remove")).collect::<Vec<_>>().join(" | ")
+    };
+    assert_eq!(advice("\n  - [a.x, b.x]", "[]"), "remove the second one");
+    assert_eq!(advice("[]", "\n  - [a.x, b.x]"), "remove the first one");
+    let both = "remove this line with `connections:`, so that both lists become one";
+    assert_eq!(advice("\n  - [a.x, b.x]", "\n  - [a.y, b.y]"), both);
+    assert_eq!(advice("[[a.x, b.x]]", "[[a.x, b.x]]"), "remove the second one | remove the first one");
+}
+
+#[test]
+fn merged_keys_are_written_out() {
+    let anchors = ["\n  queue: 1 # why\n  max_size: 4KiB", "{queue: 1, max_size: 4KiB}"];
+    let gates = [
+        ("sub: T\n          <<: *a", "sub: T\n          queue: 1\n          max_size: 4KiB"),
+        ("{sub: T, <<: *a}", "{sub: T, queue: 1, max_size: 4KiB}"),
+    ];
+    for (anchor, (wrong, right)) in anchors.into_iter().flat_map(|anchor| gates.map(|gate| (anchor, gate))) {
+        let gate = |gate: &str| {
+            let line = if gate.starts_with('{') { " " } else { "\n          " };
+            format!("components:\n  - name: b\n    gates:\n      - x:{line}{gate}\nconnections: []\n")
+        };
+        let space = if anchor.starts_with('{') { " " } else { "" };
+        let text = format!("x-a: &a{space}{anchor}\n{}", gate(wrong));
+        assert_eq!(errors(&text), 1, "{text}");
+        assert_eq!(proposed(&text), format!("x-a:{space}{anchor}\n{}", gate(right)));
+    }
 }

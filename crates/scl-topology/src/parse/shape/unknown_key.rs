@@ -1,8 +1,9 @@
 //! Unknown keys. SCL0202: at the top level. SCL0207: in a component. SCL0212: in a gate.
 
-use super::habit::{with_habit, with_lifted, with_spelling};
+use super::habit::{converted, could_have, split, with_habit, with_lifted, with_spelling};
 use super::option_value::filled;
 use super::own_key;
+use super::ports::with_gates;
 use crate::diagnostic::{Diagnostic, Edit, Rule, Severity, removal};
 use crate::grammar::{OPTIONS, is_whole_number, option};
 use crate::habits::{self, Habit};
@@ -12,7 +13,8 @@ use crate::parse::words::{COMPONENT_KEYS, SECTIONS};
 use crate::source::{SourceFile, Span};
 use crate::suggest::similar;
 use crate::topology::GateKind;
-use scl_text::list::{all_of, quoted_list};
+use crate::yaml::{Node, NodeKind};
+use scl_text::list::{all_of, listed, quoted_list};
 
 /// SCL0202.
 pub(crate) const SECTION: Rule = Rule {
@@ -30,6 +32,10 @@ pub(crate) const SECTION: Rule = Rule {
 pub(in crate::parse) fn section(field: Field<'_>, source: &SourceFile) -> Diagnostic {
     let message = format!("unknown section `{}`", field.key);
     let problem = SECTION.at(message, field.key_span, "not a section of a topology");
+    if let Some(files) = included(field) {
+        let text = format!("a topology is one file: copy the components of {} into `components`", listed(files));
+        return problem.help(text);
+    }
     let is_section = |key: &str| SECTIONS.contains(&key);
     let problem = with_lifted(problem, field, habits::SECTIONS, is_section, source);
     let (problem, is_spelling) = with_spelling(problem, field, SECTIONS);
@@ -40,6 +46,16 @@ pub(in crate::parse) fn section(field: Field<'_>, source: &SourceFile) -> Diagno
     }
     .note(format!("sections: {}", quoted_list(SECTIONS)))
     .note("keys that start with `x-` are ignored, for your own use")
+}
+
+/// `include: sprayer.yaml`: the other files whose components are meant to belong to this one.
+pub(in crate::parse) fn included<'n>(field: Field<'n>) -> Option<Vec<&'n str>> {
+    let files: Vec<&str> = match &field.value.kind {
+        NodeKind::Sequence { items } => items.iter().map(Node::text).collect::<Option<_>>()?,
+        _ => vec![field.value.text()?],
+    };
+    let is_file = |text: &&str| [".yaml", ".yml", ".json", ".xml"].into_iter().any(|end| text.ends_with(end));
+    (!files.is_empty() && files.iter().all(is_file)).then_some(files)
 }
 
 /// SCL0207.
@@ -57,14 +73,23 @@ pub(crate) const OF_COMPONENT: Rule = Rule {
 ",
 };
 
-pub(in crate::parse) fn of_component(field: Field<'_>, component: &str) -> Diagnostic {
+/// An unknown key in a component; `last` is the last connection of the file.
+pub(in crate::parse) fn of_component(
+    field: Field<'_>,
+    component: &str,
+    last: Option<Span>,
+    source: &SourceFile,
+) -> Diagnostic {
     let message = format!("unknown key `{}` in component `{component}`", field.key);
     let problem = OF_COMPONENT.at(message, field.key_span, "not a key of a component");
     let problem = own_key(problem, field.key);
     let (problem, is_spelling) = with_spelling(problem, field, COMPONENT_KEYS);
     match habits::of_key(habits::COMPONENT, field.key) {
         _ if is_spelling => problem,
-        Some(habit) => with_habit(problem, habit, field, |_| true),
+        Some(habit) => match with_gates(problem, habit, field, component, last, source) {
+            problem if problem.proposals().next().is_some() => problem.otherwise(habit.text),
+            problem => with_habit(problem, habit, field, |_| true),
+        },
         None => problem.did_you_mean(field.key, &similar(field.key, COMPONENT_KEYS)),
     }
     .note(format!("keys of a component: {}", quoted_list(COMPONENT_KEYS)))
@@ -128,8 +153,11 @@ pub(in crate::parse) fn of_gate(field: Field<'_>, kind: Field<'_>, path: &str, s
     let (problem, is_spelling) = with_spelling(problem, field, OPTIONS.iter().map(|option| option.key).filter(fits));
     let problem = match habits::of_key(habits::GATE, field.key) {
         _ if is_spelling && field.value.text().is_none_or(|text| !is_whole_number(text)) => problem,
-        Some(habit) => of_another_tool(problem, habit, field, kind, source),
-        None => with_similar(problem, field, kind),
+        Some(habit) => with_habit(problem, habit, field, |key| only_of(key, kind).is_empty()),
+        None => match habits::of_part(field.key) {
+            Some(habit) => with_part(problem, habit, field, kind),
+            None => with_similar(problem, field, kind),
+        },
     };
     let keys = OPTIONS.iter().filter(|option| option.kinds.iter().any(|of| of.word() == kind)).map(|option| option.key);
     match GateKind::of(kind).is_some() {
@@ -149,26 +177,26 @@ fn with_type(problem: Diagnostic, field: Field<'_>, kind: Field<'_>, source: &So
     }
 }
 
-/// An option by the name that another tool has for it, as far as this kind of gate has the option.
-fn of_another_tool(
-    problem: Diagnostic,
-    habit: &'static Habit,
-    field: Field<'_>,
-    kind: &str,
-    source: &SourceFile,
-) -> Diagnostic {
-    let fits = |key: &str| only_of(key, kind).is_empty();
-    let misfit = habit.ways.first().map(|way| way.split(": ").next().unwrap_or(way)).filter(|key| !fits(key));
-    let problem = with_habit(problem, habit, field, fits);
-    let Some(key) = misfit.filter(|_| !habit.ways.iter().any(|way| fits(way.split(": ").next().unwrap_or(way)))) else {
-        return problem;
-    };
-    let problem = match removal(source, field.key_span.to(field.value.span)) {
-        Some(removed) => problem.suggest("remove it", [removed]),
-        None => problem,
-    };
-    let reason = GateKind::of(kind).and_then(|kind| option(key)?.reason(kind)).map(|reason| format!(": {reason}"));
-    problem.help(format!("it is called `{key}`{}{}", only_of(key, kind), reason.unwrap_or_default()))
+/// The option that another tool calls by the name of this key, with its value if that is another one, if only other
+/// kinds of gates have it.
+pub(in crate::parse) fn misplaced(field: Field<'_>, kind: GateKind) -> Option<(String, Option<String>)> {
+    let ways = habits::of_key(habits::GATE, field.key)?.ways.iter().map(|way| split(way));
+    let fits = |key: &str| option(key).is_none_or(|option| option.fits(kind));
+    let (key, value) = ways.clone().next().filter(|_| !ways.clone().any(|(key, _)| fits(key)))?;
+    Some((key.to_owned(), value.map(str::to_owned).or_else(|| converted(key, field))))
+}
+
+/// An option that a part of a longer key stands for, if the option could have the value.
+fn with_part(problem: Diagnostic, habit: &'static Habit, field: Field<'_>, kind: &str) -> Diagnostic {
+    let takes = |key: &str| only_of(key, kind).is_empty() && could_have(key, field);
+    match habit.ways.iter().any(|key| takes(key)) {
+        true => {
+            let mut problem = with_habit(problem, habit, field, takes);
+            problem.doubt();
+            problem
+        }
+        false => with_similar(problem, field, kind),
+    }
 }
 
 /// Options whose names are similar to an unknown key.

@@ -5,6 +5,7 @@ use crate::diagnostic::{Diagnostic, Rule, Severity};
 use crate::grammar::{FORMAT, Shape, is_whole_number};
 use crate::parse::field::Field;
 use crate::parse::pitfall::leading_zero;
+use crate::source::SourceFile;
 use crate::yaml::NodeKind;
 
 /// SCL0213.
@@ -20,7 +21,7 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-pub(in crate::parse) fn find(field: Field<'_>) -> Option<Diagnostic> {
+pub(in crate::parse) fn find(field: Field<'_>, source: &SourceFile) -> Option<Diagnostic> {
     match &field.value.kind {
         NodeKind::Unread => None,
         NodeKind::Scalar { text, .. } if field.value.is_plain() && *text == FORMAT.to_string() => None,
@@ -28,7 +29,7 @@ pub(in crate::parse) fn find(field: Field<'_>) -> Option<Diagnostic> {
             Some(leading_zero::find(field, text).unwrap_or_else(|| unsupported(field, text)))
         }
         _ => {
-            let problem = option_value::diagnose(field, Shape::Number { least: FORMAT, most: FORMAT });
+            let problem = option_value::diagnose(field, Shape::Number { least: FORMAT, most: FORMAT }, source);
             if problem.proposals().next().is_some() {
                 return Some(problem);
             }

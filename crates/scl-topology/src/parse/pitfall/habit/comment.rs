@@ -17,7 +17,7 @@ const MARKS: [(&str, &str); 5] = [
 const PAIRS: [(&str, &str, &str); 2] = [("/*", "*/", "C"), ("<!--", "-->", "XML and HTML")];
 
 /// Marks that also follow a value in the same line.
-const TRAILING: [&str; 2] = ["//", ";"];
+const TRAILING: [&str; 4] = ["//", ";", "--", "%"];
 
 /// Comments up to the end of the line.
 pub(super) fn lines(text: &str, source: &SourceFile) -> Option<Found> {
@@ -28,6 +28,7 @@ pub(super) fn lines(text: &str, source: &SourceFile) -> Option<Found> {
         let help = match found.len() {
             1 if content.is_empty() => "write `#`".to_owned(),
             1 => format!("write `# {content}`"),
+            2 => format!("write `#` in place of `{}` in both lines", mark.trim()),
             count => format!("write `#` in place of `{}` in all {count} lines", mark.trim()),
         };
         let changes = found.into_iter().map(|at| {

@@ -35,6 +35,32 @@ pub(super) fn prompts(text: &str, source: &SourceFile) -> Option<Found> {
     whole_lines(text, source, is_prompt, |_| "this is the prompt of a shell, not YAML".to_owned())
 }
 
+/// Headings in brackets, as in INI files and in TOML.
+pub(super) fn headings(text: &str, source: &SourceFile) -> Option<Found> {
+    let heading = |(start, line): (usize, &str)| {
+        let line = line.trim_end();
+        let word = line.strip_prefix('[')?.strip_suffix(']')?;
+        let word = word.strip_prefix('[').and_then(|word| word.strip_suffix(']')).unwrap_or(word);
+        let is_word = !word.is_empty() && word.bytes().all(|byte| byte.is_ascii_lowercase() || byte == b'_');
+        is_word.then(|| (start..start + line.len(), format!("{word}:")))
+    };
+    let changes: Vec<_> = lines(text).filter_map(heading).collect();
+    let (first, key) = changes.first()?.clone();
+    let later: Vec<usize> = changes.iter().skip(1).map(|(at, _)| at.start).collect();
+    let help = match later.is_empty() {
+        true => format!("write `{key}`"),
+        false => format!("write `{key}`, and the same on {}", line_list(&later, source)),
+    };
+    Some(Found {
+        message: format!("`{}` is a heading in INI files and TOML; in YAML, it is a list", &text[first.clone()]),
+        at: first,
+        label: "a key and a colon stand here",
+        ways: vec![Way { help, changes }],
+        is_certain: true,
+        otherwise: Some("a section begins with its key and a colon, for example `components:`"),
+    })
+}
+
 /// Lines that `is_found`, which should go.
 fn whole_lines(
     text: &str,

@@ -1,9 +1,10 @@
 //! Marks of template engines, of shells that continue a line, of HTML and of Git LFS.
 
 use super::{RULE, lines};
-use crate::diagnostic::{Diagnostics, Edit};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit};
 use crate::parse::pitfall::scan::{Scan, blank};
 use crate::source::SourceFile;
+use crate::yaml::SyntaxError;
 use std::ops::Range;
 
 /// What opens and closes a part of a template.
@@ -27,6 +28,53 @@ pub(in crate::parse::pitfall) fn check(
     );
     blank(text, found);
     true
+}
+
+/// What opens and closes the name of something that another tool fills in.
+const PLACEHOLDERS: [(&str, &str); 4] = [("${", "}"), ("$(", ")"), ("@", "@"), ("%", "%")];
+
+/// Maximum length of such a name.
+const LONGEST_NAME: usize = 64;
+
+/// The first placeholder in a text, such as `${NAME}`, `$(arg name)`, `@NAME@` or `$NAME`.
+pub(crate) fn placeholder(text: &str) -> Option<Range<usize>> {
+    let is_inside = |letter: char| letter.is_ascii_alphanumeric() || "_-. :".contains(letter);
+    let found = |(open, close): &(&str, &str)| {
+        let start = text.find(open)?;
+        let rest = &text[start + open.len()..];
+        let length = rest.find(|letter| !is_inside(letter)).filter(|length| (1..=LONGEST_NAME).contains(length))?;
+        // A name between the same marks is in capitals, unlike an address or a share.
+        let is_name = open != close || !rest[..length].contains(|letter: char| letter.is_lowercase() || letter == ' ');
+        (is_name && rest[length..].starts_with(close)).then(|| start..start + open.len() + length + close.len())
+    };
+    let variable = || {
+        let start = text.find('$')?;
+        let name = text[start + 1..].find(|letter: char| !letter.is_ascii_alphanumeric() && letter != '_');
+        let end = name.map_or(text.len(), |length| start + 1 + length);
+        text[start + 1..end].starts_with(|first: char| first.is_ascii_uppercase()).then_some(start..end)
+    };
+    PLACEHOLDERS.iter().filter_map(found).chain(variable()).min_by_key(|found| found.start)
+}
+
+/// What to do about a placeholder.
+pub(crate) const FILL_IN: &str = "write the value itself here, or check the file in which the tool has filled it in";
+
+/// The problem of a placeholder.
+pub(in crate::parse) fn unfilled(at: Range<usize>, source: &SourceFile) -> Diagnostic {
+    let written = &source.text()[at.clone()];
+    let message = format!("`{written}` is a placeholder, and this file is read as it is");
+    RULE.at(message, source.span(at), "not replaced by anything").help(FILL_IN)
+}
+
+/// A placeholder at the place of a syntax error.
+pub(in crate::parse) fn at_error(error: &SyntaxError, text: &str, source: &SourceFile) -> Option<Diagnostic> {
+    let line = source.line_range(error.at.min(text.len()));
+    let start = text[line.start..error.at.min(line.end)].rfind(['$', '@', '%']).map_or(error.at, |at| line.start + at);
+    [start, error.at].into_iter().find_map(|start| {
+        let found = placeholder(text.get(start..line.end)?).filter(|found| found.start == 0)?;
+        let at = start..start + found.end;
+        (at.start..=at.end).contains(&error.at).then(|| unfilled(at, source))
+    })
 }
 
 /// Longer lines are not searched, so that the time is linear.

@@ -22,18 +22,54 @@ pub(super) fn edits(anchor: &Anchor, source: &SourceFile) -> Option<Vec<Edit>> {
     let rest = text[start..line.end].split(" #").next().unwrap_or("");
     let value = rest.trim();
     let mut edits = vec![without(definition, rest, source)];
-    if !value.is_empty() {
-        edits.extend(anchor.aliases.iter().map(|alias| Edit::new(*alias, value)));
-        return Some(edits);
-    }
-    let block = block(source, definition)?;
+    let block = if value.is_empty() { Some(block(source, definition)?) } else { None };
     for alias in &anchor.aliases {
-        let indent = column_of_key(source, *alias);
-        let before = text[..alias.start as usize].trim_end_matches(' ').len();
-        let lines = block.iter().map(|(deeper, line)| format!("\n{}{line}", " ".repeat(indent + deeper)));
-        edits.push(Edit::new(source.span(before..alias.end as usize), lines.collect::<String>()));
+        edits.push(match (merge(*alias, source), &block) {
+            (Some(place), _) => Edit::new(place, keys(anchor, source)?.join(&separator(place, source))),
+            (None, None) => Edit::new(*alias, value),
+            (None, Some(block)) => {
+                let indent = column_of_key(source, *alias);
+                let before = text[..alias.start as usize].trim_end_matches(' ').len();
+                let lines = block.iter().map(|(deeper, line)| format!("\n{}{line}", " ".repeat(indent + deeper)));
+                Edit::new(source.span(before..alias.end as usize), lines.collect::<String>())
+            }
+        });
     }
     Some(edits)
+}
+
+/// The place of `<<: *name`, if the alias stands there.
+pub(super) fn merge(alias: Span, source: &SourceFile) -> Option<Span> {
+    let before = source.text().get(..alias.start as usize)?.trim_end_matches(' ').strip_suffix("<<:")?;
+    Some(Span { start: before.len() as u32, ..alias })
+}
+
+/// The keys of an anchor's mapping with their values. `None` if one of them is not on one line.
+pub(super) fn keys(anchor: &Anchor, source: &SourceFile) -> Option<Vec<String>> {
+    let definition = anchor.definition?;
+    let line = source.line_range(definition.end as usize);
+    let rest = source.text().get(definition.end as usize..line.end).filter(|rest| rest.len() <= LONGEST)?;
+    let value = rest.split(" #").next().unwrap_or("").trim();
+    if let Some(inner) = value.strip_prefix('{').and_then(|value| value.strip_suffix('}')) {
+        let is_plain = !inner.contains(['{', '[', '"', '\'']);
+        return is_plain.then(|| inner.split(',').map(|entry| entry.trim().to_owned()).collect());
+    }
+    let block = block(source, definition).filter(|_| value.is_empty())?;
+    let entry = |(deeper, line): &(usize, &str)| {
+        let entry = line.split(" #").next().unwrap_or(line).trim_end();
+        (*deeper == block[0].0 && entry.contains(": ")).then(|| entry.to_owned())
+    };
+    block.iter().map(entry).collect()
+}
+
+/// What stands between two keys of a mapping that has one here.
+fn separator(key: Span, source: &SourceFile) -> String {
+    let start = source.line_range(key.start as usize).start;
+    let head = source.text().get(start..key.start as usize).unwrap_or("");
+    match head.trim_start_matches([' ', '-']).is_empty() {
+        true => format!("\n{}", " ".repeat(head.len())),
+        false => ", ".to_owned(),
+    }
 }
 
 fn without(definition: Span, rest: &str, source: &SourceFile) -> Edit {
