@@ -202,10 +202,8 @@ fn a_key_given_twice_is_named() {
             3 |   a: {command: ls}
               |   ^ second time
               |
-              = help: the entries of both belong into one
               = help: remove the second one
               = help: remove the first one
-              = help: write what is here in the first `a`
               = note: YAML tools disagree which one wins: PyYAML silently keeps the second
 
         "#]],
@@ -261,7 +259,7 @@ profiles:
             2 |   a: {command: ls, build: []}
               |                           ^^
               |
-              = note: a command that builds the program is a text, or a list of its words
+              = note: `build` is a command that builds the program: a text, or a list of its words
 
             error: [SCL1202] this `build` is not a command
              --> launch.yaml:3:27
@@ -269,7 +267,7 @@ profiles:
             3 |   b: {command: ls, build: {make: all}}
               |                           ^^^^^^^^^^^
               |
-              = note: a command that builds the program is a text, or a list of its words
+              = note: `build` is a command that builds the program: a text, or a list of its words
 
             error: [SCL1201] unknown key `comand` in component `a`
              --> launch.yaml:6:16
@@ -279,13 +277,13 @@ profiles:
               |
               = help: did you mean `command`?
 
-            error: [SCL1204] component `c` has no usable `command`
+            error: [SCL1204] `c` needs a `command` or a `replay` in profile `python`
              --> launch.yaml:6:29
               |
             6 |   python: {a: {comand: ls}, c: {working_directory: .}, b: ls}
               |                             ^
               |
-              = note: a command is a text, or a list of the program and its arguments
+              = note: `components` has no entry `c`
 
             error: [SCL1203] the entry of component `b` is a mapping, not `ls`
              --> launch.yaml:6:59

@@ -33,6 +33,9 @@ impl Deployment {
     /// The folder of the authority that signs the certificates, beside those of the hosts. No host has this name.
     pub const AUTHORITY: &str = "authority";
 
+    /// The name of the gateway's program in the output and in `scl restart`. No component has this name.
+    pub const GATEWAY: &str = "gateway";
+
     /// The host with this name.
     pub fn host(&self, name: &str) -> Option<&Host> {
         self.hosts.iter().find(|host| host.name == name)

@@ -8,14 +8,18 @@ mod document;
 mod edits;
 mod entry;
 mod environment;
+mod expanded;
 mod explained;
 mod forms;
+mod habit_parts;
 mod habits;
 mod hosts;
 mod keys;
 mod likely;
 mod likely_key;
 mod names;
+mod outdented;
+mod placeholder;
 mod profile;
 mod reader;
 mod rules;
@@ -103,7 +107,7 @@ impl Reader<'_> {
         self.read_setting(&top, "topology", value::path);
         self.check_path(top.get("topology"));
         LaunchFile {
-            build: top.get("build").and_then(|field| self.read_build(field)),
+            build: self.read_build(&top),
             components: self.read_components(&top, root.span),
             profiles: self.read_profiles(&top),
             environment: self.read_environment(&top),
@@ -155,8 +159,9 @@ impl Reader<'_> {
             self.report(wrong(&MISSING, "`components` is empty", field).help(help));
         }
         let entries = self.own_entries(field, entries);
-        let entries = self.names(entries, "`components`").list;
-        let components = entries.iter().filter_map(|field| self.read_entry(*field, true)?.into_component()).collect();
+        let entries = self.without_outdented(entries, keys::COMPONENT);
+        let entries = self.names(&entries, "`components`").list;
+        let components = entries.iter().filter_map(|field| self.read_entry(*field, None)?.into_component()).collect();
         self.check_terminal(&entries, top);
         components
     }

@@ -9,6 +9,7 @@ pub use host::{DeployedSystem, read_deployment};
 use super::Options;
 use super::cargo::{Artifact, CargoRun};
 use super::component::Component;
+use super::deployment::Deployment;
 use super::launch_file::{LaunchComponent, LaunchDocument, LaunchFile, Settings, Source};
 use super::orphan_guard::THIS_PROGRAM;
 use super::placement::Placement;
@@ -157,7 +158,6 @@ fn plan_from_launch_file(
     let mut expected = known.as_ref().map_or_else(Vec::new, |names| names.components.clone());
     let host = host::choose(&launch, options, &shown).map_err(|problem| vec![problem])?;
     if let Some(host) = host {
-        host::check_names(&components, &shown).map_err(|problem| vec![problem])?;
         components.retain(|component| host.components.contains(&component.name));
         expected.clone_from(&host.components);
     }
@@ -166,14 +166,14 @@ fn plan_from_launch_file(
         return Err(vec![problem.help("write `components: {sensor: {command: ./sensor}}`")]);
     }
     let names = components.iter().map(|component| component.name.clone());
-    let names: Vec<String> = names.chain(host.map(|_| host::GATEWAY.to_owned())).collect();
+    let names: Vec<String> = names.chain(host.map(|_| Deployment::GATEWAY.to_owned())).collect();
     let source = host.map_or_else(|| format!("`{shown}`"), |host| format!("host `{}`", host.name));
     let selection = Selection::new(options, &names, &source)?;
     if selection.is_everything() {
         note_missing(&components, &expected);
     }
     let own_name = launch.environment.iter().rev().find(|(key, _)| key == SYSTEM).map(|(_, name)| name.clone());
-    let gateway = host.filter(|_| selection.includes(host::GATEWAY));
+    let gateway = host.filter(|_| selection.includes(Deployment::GATEWAY));
     let gateway =
         gateway.map(|host| host::plan_gateway(folder, launch_path, topology.as_deref(), &launch, host, options));
     let gateway = gateway.transpose().map_err(|problem| vec![problem])?;

@@ -137,6 +137,8 @@ components:
                |                                                  ^^^^^^
                |
                = help: did you mean `restart_delay: 1s..5s`?
+               = help: did you mean `restart_delay: 5s`?
+               = note: the second time is the longest delay, so it cannot be shorter than the first
 
             error: [SCL1202] `restart_limit` is a number of restarts and a time, like `5 in 1m`, not `5`
               --> launch.yaml:15:73
@@ -174,7 +176,6 @@ components:
             16 |   c: {command: ls, replay: a.mcap}
                |                    ^^^^^^
                |
-               = help: put one of them into a profile, or keep one alone
                = help: play the recording: remove `command`
                = help: run the program: remove `replay`
 

@@ -14,7 +14,7 @@ fn told(text: &str) -> String {
         gates: ["a.images", "b.images"].map(str::to_owned).to_vec(),
         ..SystemNames::default()
     };
-    let found = LaunchDocument::parse("launch.yaml", text).read(Some(&names)).err().unwrap_or_default();
+    let found = LaunchDocument::parse("launch.yaml", text).check(Some(&names)).1;
     let mut out = String::new();
     for problem in &found {
         out.push_str(&format!("{}\n", problem.message));
@@ -48,11 +48,20 @@ fn what_no_program_can_get_is_told() {
         &[
             "command: [./a --rate 100]",
             "command: [./a, --rate 100]",
+            "command:\n  - ./a\n  - --rate 100\n  - --port 5",
             "command: [\"./a b\", 'c d', e f]",
             "command: [./a, '|', tee, log]",
             "command: [./a, 2>, log file]",
             "command: [./a, $HOME/x]",
             "command: [./a, '$HOME']",
+            "command: [./a, -r, $(RATE), '$HOME']\nenvironment: {RATE: 5}",
+            "command: [./a, $(find maps)/hall.yaml]",
+            "command: [./a, '${{ env.RATE }}']",
+            "command: [./a, $(arg rate)]",
+            "command: ./a ${{ env.RATE }} $(find maps)/b",
+            "command: ./a ${{ inputs.rate }}",
+            "command: ./a $(RATE) $(nproc)\nenvironment: {RATE: 5}",
+            "command: ./a $(RATE) $HOME ${A:-b} '{{.Name}}' $(find . -name a)",
             "command: [sh, -c, echo $HOME]",
             "command: [~/a, -v]",
             "command: [“./a”, -v]",
@@ -71,8 +80,16 @@ fn what_no_program_can_get_is_told() {
               (a name with spaces is written in quotes)
             # command: [./a, --rate 100]
             `--rate 100` is a single word of this list, so it is a single argument
-              write two items: `--rate, 100`
+              write two items: `--rate` and `100`
                 => command: [./a, --rate, 100]
+              (an argument with spaces is written in quotes)
+            # command:
+              - ./a
+              - --rate 100
+              - --port 5
+            `--rate 100` is a single word of this list, so it is a single argument
+              write each as two items, like `--rate` and `100`
+                => - --rate | - 100 | - --port | - 5
               (an argument with spaces is written in quotes)
             # command: ["./a b", 'c d', e f]
             # command: [./a, '|', tee, log]
@@ -91,6 +108,42 @@ fn what_no_program_can_get_is_told() {
                 ?> command: ./a $HOME/x
               (a text is given to the shell if it needs one)
             # command: [./a, '$HOME']
+            # command: [./a, -r, $(RATE), '$HOME']
+            environment: {RATE: 5}
+            `$(RATE)` is passed on as it is: a list is executed without a shell
+              write `5`
+                ?> command: [./a, -r, 5, '$HOME']
+              write `command: ./a -r $RATE '$HOME'`
+                ?> command: ./a -r $RATE '$HOME'
+              (a text is given to the shell if it needs one)
+            # command: [./a, $(find maps)/hall.yaml]
+            `$(find maps)/hall.yaml` is passed on as it is: a list is executed without a shell
+              write `hall.yaml`, relative to the working directory
+                ?> command: [./a, hall.yaml]
+              write `command: ./a hall.yaml`
+                ?> command: ./a hall.yaml
+              (a text is given to the shell if it needs one)
+            # command: [./a, '${{ env.RATE }}']
+            `${{ env.RATE }}` is passed on as it is: a list is executed without a shell
+              write `command: ./a $RATE`
+                ?> command: ./a $RATE
+              (a text is given to the shell if it needs one)
+            # command: [./a, $(arg rate)]
+            `$(arg rate)` is passed on as it is: a list is executed without a shell
+              write the value itself
+            # command: ./a ${{ env.RATE }} $(find maps)/b
+            `${{ env.RATE }}` is not replaced: the shell does not know this notation
+              write `$RATE`
+                ?> command: ./a $RATE b
+            # command: ./a ${{ inputs.rate }}
+            `${{ inputs.rate }}` is not replaced: the shell does not know this notation
+              write the value itself, or `$NAME` for a variable of `environment`
+            # command: ./a $(RATE) $(nproc)
+            environment: {RATE: 5}
+            `$(RATE)` is not replaced: the shell does not know this notation
+              write `$RATE`
+                ?> command: ./a $RATE $(nproc)
+            # command: ./a $(RATE) $HOME ${A:-b} '{{.Name}}' $(find . -name a)
             # command: [sh, -c, echo $HOME]
             # command: [~/a, -v]
             `~/a` is passed on as it is: a list is executed without a shell
@@ -144,6 +197,8 @@ fn keys_of_other_tools_are_understood() {
             "command: ./a\ndepends_on:\n  - b",
             "command: ./a\nports: ['80:80']",
             "command: ./a\nrestart_policy: {condition: on-failure, delay: 5}",
+            "command: ./a\nrestart_policy: {condition: any, max_attempts: 3, window: 120s, mode: x}",
+            "command: ./a\ndeploy:\n  replicas: 1\n  restart_policy: {delay: 5s}",
             "command: ./a\nrestart-policy: unless-stopped",
             "command: ./a\ntty: true\nstdin_open: true",
             "command: ./a\ninput: terminal\ntty: true",
@@ -156,6 +211,13 @@ fn keys_of_other_tools_are_understood() {
             "command: ./a\nenv:\n  - A=b c\n  - B=",
             "command: ./a\nenvironment:\n  - name: A\n    value: 1",
             "command: ./a\nenvironment: A=b",
+            "command: ./a\nenvironment: A=\"b\",C='d,e'",
+            "command: ./a\nenvironment: A=b,C=d",
+            "command: ./a\nenvironment:\n  A: b\n  restart: on_failure\n  cpu: 1",
+            "command: ./a\nenvironment: {restart: a, CPU: 1}",
+            "command: ./a\nbuild: {context: ./x, args: {A: b}}",
+            "command: ./a\nbuild: {context: ./x, args: {A: b c}}",
+            "command: ./a\nreplay: a.mcap",
         ],
         &expect![[r##"
             # command: ./a
@@ -210,6 +272,20 @@ fn keys_of_other_tools_are_understood() {
                 ?> restart: on_failure | restart_delay: 5s
               (`restart`, `restart_delay` and `restart_limit` say when a program is started again)
             # command: ./a
+            restart_policy: {condition: any, max_attempts: 3, window: 120s, mode: x}
+            unknown key `restart_policy` in component `a`
+              write `restart: always`, `restart_limit: 3 in 120s`; nothing stands for `mode`
+                ?> restart: always | restart_limit: 3 in 120s
+              (`restart`, `restart_delay` and `restart_limit` say when a program is started again)
+            # command: ./a
+            deploy:
+              replicas: 1
+              restart_policy: {delay: 5s}
+            unknown key `deploy` in component `a`
+              write `restart_delay: 5s`; nothing stands for `replicas`
+                ?> restart_delay: 5s
+              (`restart`, `restart_delay` and `restart_limit` say when a program is started again)
+            # command: ./a
             restart-policy: unless-stopped
             unknown key `restart-policy` in component `a`
               write `restart: always`
@@ -251,7 +327,8 @@ fn keys_of_other_tools_are_understood() {
             # command: ./a
             profiles: [debug]
             unknown key `profiles` in component `a`
-              (a component that is not always started has its entry in a profile, in `profiles` at the top of the file)
+              move the entry from `components` into a profile, at the top of the file: `profiles: {debug: {a: {command: ...}}}`
+                ?> profiles: | debug: | a: | command: ./a
             # command: ./a
             transport: shm
             unknown key `transport` in component `a`
@@ -276,6 +353,45 @@ fn keys_of_other_tools_are_understood() {
             `environment` is a mapping, not `A=b`
               write `environment: {A: b}`
                 => environment: {A: b}
+            # command: ./a
+            environment: A="b",C='d,e'
+            `environment` is a mapping, not `A="b",C='d,e'`
+              write `environment: {A: b, C: "d,e"}`
+                => environment: {A: b, C: "d,e"}
+            # command: ./a
+            environment: A=b,C=d
+            `environment` is a mapping, not `A=b,C=d`
+              write `environment: {A: b, C: d}`
+                ?> environment: {A: b, C: d}
+              write `environment: {A: "b,C=d"}`
+                ?> environment: {A: "b,C=d"}
+            # command: ./a
+            environment:
+              A: b
+              restart: on_failure
+              cpu: 1
+            `restart` is a variable here, not the key of the entry
+              write it beside `environment`: `restart: on_failure`
+                ?> restart: on_failure | cpu: 1
+            # command: ./a
+            environment: {restart: a, CPU: 1}
+            # command: ./a
+            build: {context: ./x, args: {A: b}}
+            this `build` is not a command
+              write `build: make -C ./x A=b`
+                ?> build: make -C ./x A=b
+              (`build` is a command that builds the program: a text, or a list of its words)
+            # command: ./a
+            build: {context: ./x, args: {A: b c}}
+            this `build` is not a command
+              (`build` is a command that builds the program: a text, or a list of its words)
+            # command: ./a
+            replay: a.mcap
+            component `a` has both a `command` and a `replay`
+              play the recording: remove `command`
+                ?> 
+              run the program: remove `replay`
+                ?> 
         "##]],
     );
 }

@@ -1,6 +1,7 @@
 //! Commands: their words, and what no program can have been meant to get.
 
 use super::super::command_line;
+use super::expanded::{OPERATORS, is_variable};
 use super::reader::{Keys, Reader, wrong};
 use super::rules::WRONG_VALUE;
 use super::value::{text, texts};
@@ -9,9 +10,6 @@ use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
 use scl_topology::yaml::Node;
-
-/// Operators of the shell that are no argument of any usual program.
-const OPERATORS: &[&str] = &["|", "||", "&&", ">", ">>", "2>", "2>>", "2>&1", "&>", "&>>", "1>"];
 
 /// Quotes of word processors.
 const CURLY: &[char] = &['“', '”', '„', '‘', '’', '«', '»'];
@@ -76,15 +74,16 @@ impl Reader<'_> {
     }
 
     /// Reports words of a command that no program can have been meant to get.
-    pub(super) fn check_command(&mut self, field: Field<'_>) {
+    /// `keys` are those of its entry.
+    pub(super) fn check_command(&mut self, field: Field<'_>, keys: &Keys<'_, '_>) {
         let problem = match field.value.items() {
-            Some(items) => self.wrong_list(field, items),
-            None => self.wrong_text(field),
+            Some(items) => self.wrong_list(field, items, keys),
+            None => self.wrong_text(field, keys),
         };
         problem.into_iter().for_each(|problem| self.report(problem));
     }
 
-    fn wrong_list(&self, field: Field<'_>, items: &[Node]) -> Option<Diagnostic> {
+    fn wrong_list(&self, field: Field<'_>, items: &[Node], keys: &Keys<'_, '_>) -> Option<Diagnostic> {
         let words = texts(field.value)?;
         let (program, first) = (words.first()?, items.first()?);
         // What a shell or a program on another host gets is its own language.
@@ -105,42 +104,39 @@ impl Reader<'_> {
                 return Some(problem);
             }
             let is_operator = OPERATORS.contains(&word.as_str());
-            let is_expanded = is_variable(word) && item.is_plain();
             let is_home = word.starts_with("~/") && (item.is_plain() || item.span == first.span);
-            if is_operator || is_expanded || is_home {
-                let message = match is_operator {
-                    true => {
-                        format!("the program would get `{word}` as an argument: a list is executed without a shell")
-                    }
-                    false => format!("`{word}` is passed on as it is: a list is executed without a shell"),
-                };
-                let problem =
-                    WRONG_VALUE.at(message, item.span, "").note("a text is given to the shell if it needs one");
-                let quoted = words.iter().zip(items).map(|(word, item)| shell_word(word, item.is_plain()));
-                let line = flow_word(&quoted.collect::<Option<Vec<_>>>()?.join(" "));
-                let text = format!("write `{}: {line}`", field.key);
-                return Some(match self.replace_entry(field, format!("{}: {line}", field.key)) {
-                    Some(edit) => problem.suggest(text, [edit]),
-                    None => problem,
-                });
-            }
-            if let Some((option, value)) = word.split_once(' ').filter(|_| item.is_plain()) {
-                let is_option = option.starts_with("--") && !option.contains('=') && option.len() > 2;
-                if is_option && !value.contains(' ') {
-                    let message = format!("`{word}` is a single word of this list, so it is a single argument");
-                    let separator = self.separator(field.value, item);
-                    let text = format!("write two items: `{}, {}`", flow_word(option), flow_word(value));
-                    let edit = Edit::new(item.span, format!("{}{separator}{}", flow_word(option), flow_word(value)));
-                    let problem =
-                        WRONG_VALUE.at(message, item.span, "").note("an argument with spaces is written in quotes");
-                    return Some(problem.propose(text, [edit]));
-                }
+            if is_operator || is_home || self.is_expanded(item, word, keys) {
+                return Some(self.for_shell(field, items, &words, item, keys));
             }
         }
-        None
+        self.options_with_values(field.value, items)
     }
 
-    fn wrong_text(&self, field: Field<'_>) -> Option<Diagnostic> {
+    /// The problem of items that hold an option and its value.
+    fn options_with_values(&self, list: &Node, items: &[Node]) -> Option<Diagnostic> {
+        let both: Vec<(&Node, &str, &str)> = items
+            .iter()
+            .filter(|item| item.is_plain())
+            .filter_map(|item| {
+                let (option, value) = item.text()?.split_once(' ')?;
+                let is_option = option.starts_with("--") && !option.contains('=') && option.len() > 2;
+                (is_option && !value.contains(' ')).then_some((item, option, value))
+            })
+            .collect();
+        let (first, option, value) = both.first()?;
+        let message = format!("`{option} {value}` is a single word of this list, so it is a single argument");
+        let problem = WRONG_VALUE.at(message, first.span, "");
+        let problem = problem.labels(both.iter().skip(1).map(|(item, ..)| (item.span, "this one too")));
+        let what = if both.len() == 1 { "write two items:" } else { "write each as two items, like" };
+        let text = format!("{what} `{}` and `{}`", flow_word(option), flow_word(value));
+        let edits = both.iter().map(|(item, option, value)| {
+            let separator = self.separator(list, item);
+            Edit::new(item.span, format!("{}{separator}{}", flow_word(option), flow_word(value)))
+        });
+        Some(problem.propose(text, edits).note("an argument with spaces is written in quotes"))
+    }
+
+    fn wrong_text(&self, field: Field<'_>, keys: &Keys<'_, '_>) -> Option<Diagnostic> {
         let line = field.value.text()?;
         let written = self.written(field.value.span);
         if (field.value.is_plain() || written.starts_with('>')) && line.contains("\\ ") {
@@ -156,6 +152,9 @@ impl Reader<'_> {
                 });
                 return Some(problem.propose("remove the `\\` at the end of the line", edits));
             }
+        }
+        if let Some(problem) = self.wrong_placeholder(field.value, keys) {
+            return Some(problem);
         }
         if !field.value.is_plain() {
             return None;
@@ -237,23 +236,6 @@ fn joined(parts: &[Field<'_>]) -> Option<String> {
         }
     }
     Some(flow_list(&words))
-}
-
-/// Whether a shell would replace a part of a word by a variable or by the output of a command.
-fn is_variable(word: &str) -> bool {
-    word.split('$')
-        .skip(1)
-        .any(|rest| rest.starts_with(|next: char| next.is_ascii_alphabetic() || "_{(".contains(next)))
-}
-
-/// A word as a shell has to read it. What was not in quotes may be its syntax.
-fn shell_word(word: &str, is_plain: bool) -> Option<String> {
-    let is_syntax = OPERATORS.contains(&word) || is_plain && (is_variable(word) || word.starts_with("~/"));
-    match is_syntax {
-        true if word.contains(' ') => None,
-        true => Some(word.to_owned()),
-        false => shlex::try_quote(word).ok().map(|word| word.into_owned()),
-    }
 }
 
 /// The places of backslashes at the ends of lines.

@@ -7,7 +7,7 @@ use super::rules::{UNCHECKED, WRONG_VALUE};
 use crate::system_names::SystemNames;
 use scl_terminal::Problem;
 use scl_topology::advice::{Extent, Judged, try_advice};
-use scl_topology::diagnostic::{Diagnostic, Diagnostics, Edit, render};
+use scl_topology::diagnostic::{Diagnostic, Diagnostics, Edit, Severity, render};
 use scl_topology::parse::{Document, read_document};
 use scl_topology::source::{FileId, SourceFile, Sources};
 use scl_topology::yaml::Node;
@@ -62,18 +62,22 @@ impl LaunchDocument {
     /// # Errors
     ///
     /// Every mistake of the file, sorted by place. If a part of the text cannot be parsed, only the problems of the
-    /// text: any others may be consequences.
+    /// text: any others may be consequences. Warnings alone are no mistakes.
     pub(crate) fn read(&self, known: Option<&SystemNames>) -> Result<LaunchFile, Vec<Diagnostic>> {
+        let (file, problems) = self.check(known);
+        let is_wrong = problems.iter().any(|problem| problem.severity == Severity::Error);
+        if is_wrong { Err(problems) } else { Ok(file) }
+    }
+
+    /// What the file says, as far as it can be read, and its mistakes and warnings with advice that was tried.
+    pub(super) fn check(&self, known: Option<&SystemNames>) -> (LaunchFile, Vec<Diagnostic>) {
         let (file, problems) = self.judge(known);
-        if problems.is_empty() {
-            return Ok(file);
-        }
         let mut found = self.judged(problems);
         try_advice(&mut found, self.source(), |copy| {
             let copy = Self::of(self.sources.with_text(self.file, copy), self.file);
             copy.judged(copy.judge(known).1)
         });
-        Err(found.problems)
+        (file, found.problems)
     }
 
     fn judged(&self, problems: Vec<Diagnostic>) -> Judged {
@@ -142,7 +146,7 @@ pub fn check_launch_file(
     let document = LaunchDocument::of(sources.clone(), file);
     let found = topology(document.topology().map(|(path, _)| path));
     let known = if let LaunchTopology::Names(names) = &found { Some(names) } else { None };
-    let mut diagnostics = document.read(known).err().unwrap_or_default();
+    let mut diagnostics = document.check(known).1;
     let of_topology = match (&found, document.topology()) {
         (LaunchTopology::Missing(likely), Some((path, field))) => {
             let message = format!("the topology file does not exist: `{path}`");

@@ -49,15 +49,32 @@ impl Reader<'_> {
         Some(Edit::new(Span { end: first.start, ..first }, format!("{entry}\n{indent}")))
     }
 
-    /// Adds an entry to the mapping of the whole file, behind another one.
-    pub(super) fn add_behind(&self, root: &Node, field: Field<'_>, entry: &str) -> Option<Edit> {
-        if self.is_flow(root) {
-            return self.add_entry(root, entry);
+    /// As [`add_entry`](Self::add_entry), behind the last entry.
+    pub(super) fn add_last(&self, mapping: &Node, entry: &str) -> Option<Edit> {
+        let (key, value) = mapping.entries()?.last()?;
+        let last = Field { key: key.text()?, key_span: key.span, key_node: key, value };
+        self.add_behind(mapping, last, entry)
+    }
+
+    /// Adds an entry to a mapping, behind another one.
+    pub(super) fn add_behind(&self, mapping: &Node, field: Field<'_>, entry: &str) -> Option<Edit> {
+        if self.is_flow(mapping) {
+            return self.add_entry(mapping, entry);
         }
-        let (text, end) = (self.source.text(), field.value.span.end as usize);
+        let (text, end) = (self.source.text(), field.value.span.end.max(field.key_span.end) as usize);
         let line_end = text.get(end..)?.find(['\r', '\n']).map_or(text.len(), |at| end + at) as u32;
         let indent = " ".repeat(self.source.column(field.key_span.start));
         Some(Edit::new(Span { start: line_end, end: line_end, ..field.key_span }, format!("\n{indent}{entry}")))
+    }
+
+    /// What stands between an entry and the next one: a line break and the indentation, or a comma.
+    pub(super) fn separator_of_entries(&self, field: Field<'_>) -> String {
+        let column = self.source.column(field.key_span.start);
+        let line = self.source.line_text(self.source.line_column(field.key_span.start).line);
+        match line.len() - line.trim_start().len() == column {
+            true => format!("\n{}", " ".repeat(column)),
+            false => ", ".to_owned(),
+        }
     }
 
     /// Whether an item stands in a list in brackets, in one line with its neighbours or its bracket.

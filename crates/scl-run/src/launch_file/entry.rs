@@ -1,17 +1,18 @@
 //! What a launch file says about one component, in `components` or in a profile.
 
+use super::super::deployment::Deployment;
 use super::super::terminal::StandardInput;
 use super::command::command_words;
 use super::keys;
 use super::reader::{Keys, Reader, wrong};
-use super::rules::{CONTRADICTION, MISSING, WRONG_VALUE};
+use super::rules::{CONTRADICTION, MISSING, WRONG_NAME, WRONG_VALUE};
 use super::settings::Settings;
 use super::unknown_key::names_program;
 use super::value::{path, placed_texts, texts};
-use super::words::bare;
-use super::words::flow_list;
+use super::words::{bare, flow_list, flow_word};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
+use scl_topology::yaml::Node;
 
 /// A component and the program that runs it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -117,25 +118,32 @@ impl Entry {
 }
 
 impl Reader<'_> {
-    /// Reads the entry of a component, in `components` or in a profile.
-    pub(super) fn read_entry(&mut self, field: Field<'_>, must_have_command: bool) -> Option<Entry> {
+    /// Reads the entry of a component, in `components` or in a profile: then its name, and the names in `components`.
+    pub(super) fn read_entry(&mut self, field: Field<'_>, profile: Option<(&str, &[String])>) -> Option<Entry> {
         let name = field.key;
         self.check_entry_name(name, field.key_span);
+        if name == Deployment::GATEWAY && self.top_value("hosts").is_some() {
+            let message = format!("with `hosts`, no component can be called `{name}`");
+            let problem = WRONG_NAME.at(message, field.key_span, "");
+            let problem = problem.help("give it another name here and in the topology, for example `radio_gateway`");
+            self.report(problem.note("this is the name of the program that connects the hosts"));
+        }
         let message = format!("the entry of component `{name}` is a mapping");
         let entries = self.entries(field, &message, |reader, problem| {
             let problem = reader.as_one_mapping(reader.as_entry(problem, field), field);
             problem.otherwise("`command` in it names the program")
         })?;
         let keys = self.keys(entries, keys::COMPONENT, &format!("component `{name}`"));
+        let only_in = profile.filter(|(_, started)| !started.iter().any(|other| other == name));
         let source = match (keys.get("command"), keys.get("replay")) {
-            (None, None) if !must_have_command => None,
+            (None, None) if profile.is_some() && only_in.is_none() => None,
             (None, Some(_)) => self.read_replay(&keys),
             (command, replay) => {
                 if let Some(replay) = replay {
                     let message = format!("component `{name}` has both a `command` and a `replay`");
                     let problem = CONTRADICTION.at(message, replay.key_span, "");
                     let edits = command.and_then(|command| self.remove_entry(command)).zip(self.remove_entry(replay));
-                    let problem = problem.help("put one of them into a profile, or keep one alone");
+                    let problem = problem.otherwise("keep one of them");
                     self.report(match edits {
                         Some((command, replay)) => problem
                             .suggest("play the recording: remove `command`", [command])
@@ -143,14 +151,14 @@ impl Reader<'_> {
                         None => problem,
                     });
                 }
-                Some(Source::Command(self.read_command(field, command, &keys)))
+                Some(Source::Command(self.read_command(field, command, &keys, only_in)))
             }
         };
         self.check_path(keys.get("working_directory"));
         self.check_path(keys.get("replay"));
         Some(Entry {
             name: name.to_owned(),
-            build: keys.get("build").and_then(|field| self.read_build(field)),
+            build: self.read_build(&keys),
             source,
             environment: self.read_environment(&keys),
             opens: keys.get("opens").and_then(|field| self.read_opens(field, name)),
@@ -161,13 +169,18 @@ impl Reader<'_> {
     }
 
     /// Reads a build command.
-    pub(super) fn read_build(&mut self, field: Field<'_>) -> Option<Vec<String>> {
+    pub(super) fn read_build(&mut self, keys: &Keys<'_, '_>) -> Option<Vec<String>> {
+        let field = keys.get("build")?;
         let words = command_words(field.value);
         if words.is_none() {
             let problem = wrong(&WRONG_VALUE, "this `build` is not a command", field);
-            self.report(problem.note("a command that builds the program is a text, or a list of its words"));
+            let problem = match make_command(field.value) {
+                Some(command) => self.other_entry(problem, field, format!("build: {command}")),
+                None => problem,
+            };
+            self.report(problem.note("`build` is a command that builds the program: a text, or a list of its words"));
         } else {
-            self.check_command(field);
+            self.check_command(field, keys);
         }
         words
     }
@@ -215,16 +228,26 @@ impl Reader<'_> {
         self.read_setting(keys, "replay", path).map(Source::Replay)
     }
 
-    fn read_command(&mut self, entry: Field<'_>, command: Option<Field<'_>>, keys: &Keys<'_, '_>) -> Vec<String> {
+    fn read_command(
+        &mut self,
+        entry: Field<'_>,
+        command: Option<Field<'_>>,
+        keys: &Keys<'_, '_>,
+        only_in: Option<(&str, &[String])>,
+    ) -> Vec<String> {
         let words = command.and_then(|command| command_words(command.value));
         let has_other = || keys.fields.list.iter().any(|field| names_program(field.key));
         let is_reported = command.is_none() && (keys.may_have("command") || keys.may_have("replay") || has_other());
         if words.is_none() && !is_reported {
             let name = entry.key;
             let message = format!("component `{name}` has no usable `command`");
-            let problem = match command {
-                Some(command) => wrong(&WRONG_VALUE, message, command),
-                None => MISSING.at(message, entry.key_span, ""),
+            let problem = match (command, only_in) {
+                (Some(command), _) => wrong(&WRONG_VALUE, message, command),
+                (None, None) => MISSING.at(message, entry.key_span, ""),
+                (None, Some((profile, _))) => {
+                    let message = format!("`{name}` needs a `command` or a `replay` in profile `{profile}`");
+                    MISSING.at(message, entry.key_span, "").note(format!("`components` has no entry `{name}`"))
+                }
             };
             // A list of one list.
             let inner = command.and_then(|command| match command.value.items() {
@@ -235,10 +258,28 @@ impl Reader<'_> {
                 Some((command, words)) => self.whole(problem, command, format!("command: {}", flow_list(&words))),
                 None => problem,
             };
-            self.report(problem.note("a command is a text, or a list of the program and its arguments"));
+            let form = "a command is a text, or a list of the program and its arguments";
+            self.report(problem.notes((command.is_some() || only_in.is_none()).then_some(form)));
         } else if let Some(command) = command {
-            self.check_command(command);
+            self.check_command(command, keys);
         }
         words.unwrap_or_default()
     }
+}
+
+/// A command for the folder and the arguments of an image in the notation of Docker Compose.
+fn make_command(value: &Node) -> Option<String> {
+    let get = |name| value.entries()?.iter().find(|(key, _)| key.text() == Some(name)).map(|(_, value)| value);
+    let arguments = get("args").map_or(Some(Vec::new()), |arguments| match arguments.entries() {
+        Some(entries) => {
+            entries.iter().map(|(key, value)| Some(format!("{}={}", key.text()?, value.text()?))).collect()
+        }
+        None => texts(arguments),
+    });
+    let folder = get("context")?.text()?.to_owned();
+    let is_plain =
+        |word: &String| word.chars().all(|letter| letter.is_ascii_alphanumeric() || "_-./=:".contains(letter));
+    let words = [folder].into_iter().chain(arguments?);
+    let words: Option<Vec<String>> = words.map(|word| is_plain(&word).then_some(word)).collect();
+    Some(flow_word(&format!("make -C {}", words?.join(" "))))
 }

@@ -1,11 +1,14 @@
 //! `environment`: variables for programs.
 
+use super::keys::Form;
+use super::likely::fits;
 use super::reader::{Keys, Reader, wrong};
-use super::rules::{WRONG_NAME, WRONG_VALUE};
+use super::rules::{LIKE_A_KEY, WRONG_NAME, WRONG_VALUE};
 use super::value::{shown, text};
 use super::words::flow_word;
 use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::parse::Field;
+use scl_topology::source::Span;
 
 impl Reader<'_> {
     /// Reads the variables in file order.
@@ -15,7 +18,36 @@ impl Reader<'_> {
             problem.otherwise("each variable is an entry: its name, a colon, a space and its value")
         });
         let before = |at: usize| at.checked_sub(1).and_then(|before| variables.get(before)).copied();
+        self.check_misplaced(&variables, keys);
         variables.iter().enumerate().filter_map(|(at, field)| self.read_variable(*field, before(at))).collect()
+    }
+
+    /// Warns of keys of the entry that stand among its variables.
+    fn check_misplaced(&mut self, variables: &[Field<'_>], keys: &Keys<'_, '_>) {
+        let is_key = |field: &&Field<'_>| {
+            let known = keys.allowed.iter().find(|key| key.name == field.key && keys.get(key.name).is_none());
+            known.is_some_and(|key| !matches!(key.form, Form::Other(_)) && fits(key.name, field.value))
+        };
+        let misplaced: Vec<&Field<'_>> = variables.iter().filter(is_key).collect();
+        let (Some(first), Some(owner)) = (misplaced.first(), keys.fields.list.first()) else { return };
+        let message = format!("`{}` is a variable here, not the key of the entry", first.key);
+        let problem = LIKE_A_KEY.at(message, first.key_span, "");
+        let problem = problem.labels(misplaced.iter().skip(1).map(|field| (field.key_span, "this one too")));
+        let separator = self.separator_of_entries(*owner);
+        let entries: Option<Vec<String>> = misplaced
+            .iter()
+            .map(|field| Some(format!("{}: {}{separator}", field.key, self.in_brackets(field.value)?)))
+            .collect();
+        let removed: Option<Vec<Edit>> = misplaced.iter().map(|field| self.remove_entry(**field)).collect();
+        let text = format!("write it beside `environment`: `{}: {}`", first.key, self.written(first.value.span));
+        let start = Span { end: owner.key_span.start, ..owner.key_span };
+        self.report(match removed.zip(entries) {
+            Some((mut edits, entries)) => {
+                edits.push(Edit::new(start, entries.concat()));
+                problem.suggest(text, edits)
+            }
+            None => problem.help(text),
+        });
     }
 
     fn read_variable(&mut self, field: Field<'_>, before: Option<Field<'_>>) -> Option<(String, String)> {
@@ -36,11 +68,11 @@ impl Reader<'_> {
                 None if field.value.is_null() && !name.contains(',') => Some(format!("{name}: \"\"")),
                 _ => None,
             };
-            let edit = entry.and_then(|entry| Some((self.replace_entry(field, entry.clone())?, entry)));
-            self.report(match edit {
-                Some((edit, entry)) => problem.suggest(format!("write `{entry}`"), [edit]),
+            let problem = match entry {
+                Some(entry) => self.other_entry(problem, field, entry),
                 None => problem,
-            });
+            };
+            self.report(problem);
         }
         Some((name.to_owned(), value?.to_owned()))
     }

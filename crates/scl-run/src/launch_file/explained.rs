@@ -59,7 +59,7 @@ pub fn explain_launch_rule(code: &str) -> Option<String> {
 /// Returns the messages about an example, as they are shown to the user.
 fn told(text: &str) -> String {
     let document = LaunchDocument::parse("launch.yaml", text);
-    let found = document.read(None).err().unwrap_or_default();
+    let found = document.check(None).1;
     found.iter().map(|problem| render(problem, &document.sources)).collect::<Vec<_>>().join("\n\n")
 }
 
@@ -73,7 +73,7 @@ mod tests {
     fn examples_are_what_they_say() {
         for rule in LAUNCH_RULES.iter().filter(|rule| !rule.example.is_empty()) {
             let codes = |text: &str| {
-                let found = LaunchDocument::parse("launch.yaml", text).read(None).err().unwrap_or_default();
+                let found = LaunchDocument::parse("launch.yaml", text).check(None).1;
                 found.iter().map(|problem| problem.code()).collect::<Vec<_>>()
             };
             assert_eq!(codes(&rule.bad_example()), [rule.code]);

@@ -5,12 +5,13 @@ use super::words::bare;
 /// Words of other tools with one meaning.
 pub(super) struct Habit {
     /// Without case and marks.
-    words: &'static [&'static str],
+    pub(super) words: &'static [&'static str],
     /// What to know, and what to do instead.
     pub(super) instead: &'static str,
     /// Whether nothing is lost without the key.
     pub(super) can_go: bool,
-    /// If the value is a mapping: its keys, without case and marks, that have a key here.
+    /// If the value is a mapping: its keys, without case and marks, that have a key here. The values of several for
+    /// the same key are its parts, in this order.
     pub(super) parts: &'static [(&'static str, &'static str)],
 }
 
@@ -90,7 +91,14 @@ const HABITS: &[Habit] = &[
         words: &["restartpolicy", "deploy"],
         instead: "`restart`, `restart_delay` and `restart_limit` say when a program is started again",
         can_go: false,
-        parts: &[("condition", "restart"), ("name", "restart"), ("delay", "restart_delay")],
+        parts: &[
+            ("condition", "restart"),
+            ("name", "restart"),
+            ("delay", "restart_delay"),
+            ("maxattempts", "restart_limit"),
+            ("maximumretrycount", "restart_limit"),
+            ("window", "restart_limit"),
+        ],
     },
     meant(
         &["envfile", "environmentfile", "dotenv", "passenvironment"],
@@ -165,10 +173,6 @@ const HABITS: &[Habit] = &[
     meant(
         &["startdelay", "delay", "sleep", "timer", "wait", "launchdelay"],
         "nothing delays a start: programs wait for their peers, in any order",
-    ),
-    meant(
-        &["profiles", "profile"],
-        "a component that is not always started has its entry in a profile, in `profiles` at the top of the file",
     ),
     habit(&["shell", "usershell"], "a `command` that is a text with the syntax of the shell is given to `/bin/sh`"),
     meant(

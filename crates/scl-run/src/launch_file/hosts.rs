@@ -84,7 +84,8 @@ impl Reader<'_> {
             self.report(wrong(&MISSING, "`hosts` is empty", field).help(ALLOWED));
         }
         let started = top.names_of("components");
-        let fields = self.names(entries, "`hosts`").list;
+        let entries = self.without_outdented(entries, keys::HOST);
+        let fields = self.names(&entries, "`hosts`").list;
         let count = fields.len();
         let hosts: Vec<HostEntry> = fields.into_iter().filter_map(|host| self.read_host(host)).collect();
         if hosts.len() == count {

@@ -314,7 +314,7 @@ pub(super) const COMPONENT: &[Key] = &[
 pub(super) const HOST: &[Key] = &[
     Key {
         name: "address",
-        also: &["ip", "hostname", "addr", "host"],
+        also: &["ip", "hostname", "addr", "host", "ansible_host", "ansible_ssh_host"],
         form: Form::Other("an IP address or a DNS name"),
         default: "required",
         meaning: "Where the gateway of the host listens, and where the other hosts find it.",

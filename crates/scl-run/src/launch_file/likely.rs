@@ -10,7 +10,9 @@ use scl_terminal::closest_name;
 use scl_text::duration;
 use scl_text::suggest::boolean;
 use scl_topology::yaml::Node;
-use times::{delay_range, limit_of_restarts, time};
+use times::{delay_range, time};
+
+pub(super) use times::{limit_of_restarts, period};
 
 /// What may be meant by a wrong value.
 #[derive(Debug, Default, PartialEq, Eq)]
@@ -72,6 +74,10 @@ pub(super) fn fits(key: &str, value: &Node) -> bool {
 pub(super) fn likely(key: &str, value: &Node) -> Likely {
     let form = form_of(key);
     if form == Form::Processors {
+        if let Some(mask) = value.text().and_then(mask) {
+            let processors: Vec<String> = (0..64).filter(|at| mask >> at & 1 == 1).map(|at| at.to_string()).collect();
+            return Likely::possible([format!("[{}]", processors.join(", ")), mask.to_string()]);
+        }
         let items = texts(value).or_else(|| Some(vec![value.text()?.to_owned()])).unwrap_or_default();
         let numbers: Option<Vec<usize>> =
             items.iter().map(|item| range(item)).collect::<Option<Vec<_>>>().map(|all| all.concat());
@@ -157,6 +163,15 @@ fn range(text: &str) -> Option<Vec<usize>> {
     Some(numbers)
 }
 
+/// The processors of `taskset 0xC` and the like, as bits.
+fn mask(text: &str) -> Option<u64> {
+    let text = text.to_lowercase();
+    let digits = text.strip_prefix("0x").map(|digits| (digits, 16)).or_else(|| Some((text.strip_prefix("0b")?, 2)));
+    digits
+        .and_then(|(digits, radix)| u64::from_str_radix(&digits.replace('_', ""), radix).ok())
+        .filter(|mask| *mask > 0)
+}
+
 /// A number with separators or a factor: `4_096`, `64k`.
 fn count(text: &str) -> Option<u64> {
     let text = text.to_lowercase().replace(['_', ' ', ',', '\''], "");
@@ -175,7 +190,7 @@ mod tests {
     /// The proposals for a value of a component's key.
     fn told(key: &str, value: &str) -> String {
         let text = format!("components:\n  a:\n    command: ls\n    {key}: {value}\n");
-        let found = LaunchDocument::parse("launch.yaml", &text).read(None).err().unwrap_or_default();
+        let found = LaunchDocument::parse("launch.yaml", &text).check(None).1;
         let ways = found.iter().flat_map(|problem| problem.proposals()).map(|way| {
             let edits: Vec<&str> = way.edits.iter().map(|edit| edit.replacement.as_str()).collect();
             format!("{}{}", edits.join(" + "), if way.is_sure { "" } else { "?" })
@@ -205,12 +220,18 @@ mod tests {
                     "'7'",
                 ],
             ),
-            ("ready_within", &["0", "0s", "none", "infinity", "-1s"]),
+            ("ready_within", &["0", "0s", "none", "infinity", "-1s", "20Hz", "1.5 kHz", "0Hz"]),
             ("restart", &["no", "true", "unless-stopped", "on-failure:5", "unexpected", "ON_FAILURE", "sometimes"]),
-            ("restart_delay", &["5", "100ms-5s", "1-5s", "100ms to 5s", "[100ms, 5s]", "5s..1s", "soon..later"]),
+            (
+                "restart_delay",
+                &["5", "100ms-5s", "1-5s", "100ms to 5s", "[100ms, 5s]", "1s…5s", "5s..1s", "soon..later"],
+            ),
             ("restart_limit", &["5", "5/1m", "5 per minute", "3 times in 10s", "5 in 60", "often"]),
             ("essential", &["yes", "'true'", "off", "1", "maybe"]),
-            ("cpu", &["2-3", "0-1,4", "2 3", "'2'", "['2', 3]", "500m", "-1", "0-99999999", "all"]),
+            (
+                "cpu",
+                &["2-3", "0-1,4", "2 3", "'2'", "['2', 3]", "500m", "-1", "0-99999999", "all", "0x0C", "0b101", "0x0"],
+            ),
             ("priority", &["80", "fifo 80", "SCHED_FIFO:80", "rr:10", "fifo:100", "-5", "high"]),
             ("descriptors", &["64k", "4_096", "'4096'", "unlimited", "0"]),
             ("input", &["true", "tty", "no", "file"]),
@@ -236,6 +257,9 @@ mod tests {
             ready_within: none => ?
             ready_within: infinity => ?
             ready_within: -1s => -
+            ready_within: 20Hz => 50ms?
+            ready_within: 1.5 kHz => 666us?
+            ready_within: 0Hz => -
             restart: no => never?
             restart: true => always?
             restart: unless-stopped => always?
@@ -248,7 +272,8 @@ mod tests {
             restart_delay: 1-5s => 1s..5s
             restart_delay: 100ms to 5s => 100ms..5s
             restart_delay: [100ms, 5s] => 100ms..5s
-            restart_delay: 5s..1s => 1s..5s?
+            restart_delay: 1s…5s => 1s..5s
+            restart_delay: 5s..1s => 1s..5s?, 5s?
             restart_delay: soon..later => -
             restart_limit: 5 => 5 in 1m?
             restart_limit: 5/1m => 5 in 1m
@@ -270,6 +295,9 @@ mod tests {
             cpu: -1 => -
             cpu: 0-99999999 => -
             cpu: all => ?
+            cpu: 0x0C => [2, 3]?, 12?
+            cpu: 0b101 => [0, 2]?, 5?
+            cpu: 0x0 => -
             priority: 80 => fifo:80
             priority: fifo 80 => fifo:80
             priority: SCHED_FIFO:80 => fifo:80

@@ -56,7 +56,7 @@ fn names() -> SystemNames {
 }
 
 fn problems(text: &str) -> Vec<Diagnostic> {
-    LaunchDocument::parse("launch.yaml", text).read(Some(&names())).err().unwrap_or_default()
+    LaunchDocument::parse("launch.yaml", text).check(Some(&names())).1
 }
 
 /// What a file means, without the places of its entries; `None` if it has mistakes.

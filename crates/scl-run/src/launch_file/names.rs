@@ -12,6 +12,11 @@ use scl_topology::yaml::Node;
 const MOST_PLACES: usize = 100;
 
 impl Reader<'_> {
+    /// Whether the topology has a component of this name.
+    pub(super) fn is_component(&self, name: &str) -> bool {
+        self.known.is_some_and(|known| known.components.iter().any(|known| known == name))
+    }
+
     /// Reports a component that the topology does not have or, without a topology, the launch file.
     pub(super) fn check_component(&mut self, name: &str, at: Span) {
         let is_known = match self.known {
@@ -49,6 +54,10 @@ impl Reader<'_> {
             let problem = UNKNOWN_NAME.at(format!("unknown component `{name}`"), *first, "");
             let problem = problem.labels(places.iter().skip(1).map(|place| (*place, "here too")));
             let near = similar(&name, known.iter().copied());
+            let longer: Vec<&str> = match near.is_empty() {
+                true => known.iter().copied().filter(|known| has_part(known, &name)).take(4).collect(),
+                false => Vec::new(),
+            };
             let is_gate = name.split_once('.').filter(|(component, _)| known.contains(component));
             let unused = || known.iter().copied().filter(|known| !self.started.contains(known));
             let problem = match (is_gate, near.is_empty(), places.len()) {
@@ -58,6 +67,7 @@ impl Reader<'_> {
                 }
                 (None, false, 1) => problem.did_you_mean(&name, &near),
                 (None, false, _) => self.offer(problem, &name, &places, &near),
+                _ if !longer.is_empty() && longer.len() < 4 => self.offer(problem, &name, &places, &longer),
                 // The component that has no entry may have another name here.
                 _ => {
                     let unused: Vec<&str> = unused().take(4).collect();
@@ -79,6 +89,12 @@ impl Reader<'_> {
             problem.suggest(format!("did you mean `{meant}`?"), edits)
         })
     }
+}
+
+/// Whether a name has the words of another one, and more.
+fn has_part(name: &str, part: &str) -> bool {
+    let behind = name.strip_prefix(part).is_some_and(|rest| rest.starts_with(['_', '-']));
+    behind || name.strip_suffix(part).is_some_and(|rest| rest.ends_with(['_', '-']))
 }
 
 /// The problem of an unknown gate, with the `known` gates that may have been meant.

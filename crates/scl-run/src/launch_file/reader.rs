@@ -70,12 +70,25 @@ impl<'a> Reader<'a> {
     pub(super) fn names<'n>(&mut self, entries: &'n [(Node, Node)], owner: &str) -> Fields<'n> {
         let fields = fields(entries, owner, self.source, self.dialect, &mut self.problems);
         for second in fields.repeated.iter().take(MOST_REPEATED) {
-            let merged = fields.get(second.key).and_then(|first| self.merged(first, *second));
-            let Some(edits) = merged else { continue };
+            let Some(first) = fields.get(second.key) else { continue };
+            if first.value.entries().is_none() || second.value.entries().is_none() {
+                continue;
+            }
+            let moved = self.moved_up(first, *second);
+            let removed = [("second", *second), ("first", first)]
+                .map(|(which, field)| Some((format!("remove the {which} one"), vec![self.remove_entry(field)?])));
+            let ways = match moved {
+                Some(edits) => {
+                    vec![(format!("write what is here in the first `{}`", second.key), edits)]
+                }
+                None => removed.into_iter().flatten().collect(),
+            };
             self.problems.retain(|problem| {
                 if problem.primary.as_ref().is_some_and(|label| label.span == second.key_span) {
-                    let text = format!("write what is here in the first `{}`", second.key);
-                    *problem = problem.clone().suggest(text, edits.clone());
+                    problem.clear_helps();
+                    let told = ways.iter().cloned();
+                    *problem = told.fold(problem.clone(), |problem, (text, edits)| problem.suggest(text, edits));
+                    *problem = problem.clone().otherwise("the entries of both belong into one");
                 }
                 true
             });
@@ -83,23 +96,28 @@ impl<'a> Reader<'a> {
         fields
     }
 
-    /// Writes the keys of a repeated mapping in the first one, where they replace the same keys.
-    fn merged(&self, first: Field<'_>, second: Field<'_>) -> Option<Vec<Edit>> {
+    /// Writes the keys of a repeated mapping in the first one; `None` if that has one of them already.
+    fn moved_up(&self, first: Field<'_>, second: Field<'_>) -> Option<Vec<Edit>> {
         let mut edits = vec![self.remove_entry(second)?];
-        self.merge(first.value, second.value, &mut edits)?;
+        self.move_up(first.value, second.value, &mut edits)?;
         Some(edits)
     }
 
-    fn merge(&self, first: &Node, second: &Node, edits: &mut Vec<Edit>) -> Option<()> {
+    fn move_up(&self, first: &Node, second: &Node, edits: &mut Vec<Edit>) -> Option<()> {
+        let column = |entries: &[(Node, Node)]| Some(self.source.column(entries.first()?.0.span.start));
+        let shift = (column(first.entries()?)?, column(second.entries()?)?);
         for (key, value) in second.entries()? {
             let name = key.text()?;
-            let written = self.written(value.span);
             let same = first.entries()?.iter().find(|(known, _)| known.text() == Some(name));
             match same.map(|(_, old)| old) {
-                Some(old) if old.entries().is_some() && value.entries().is_some() => self.merge(old, value, edits)?,
-                Some(old) if !old.is_null() && !written.contains('\n') => edits.push(Edit::new(old.span, written)),
-                None if !written.contains('\n') => edits.push(self.add_entry(first, &format!("{name}: {written}"))?),
-                _ => return None,
+                Some(old) if old.entries().is_some() && value.entries().is_some() => self.move_up(old, value, edits)?,
+                Some(_) => return None,
+                None => {
+                    let entry = self.written(key.span.to(value.span));
+                    let is_block = !self.is_flow(first) && !self.is_flow(second) && shift.0 == shift.1;
+                    (is_block || !entry.contains('\n')).then_some(())?;
+                    edits.push(self.add_last(first, entry)?);
+                }
             }
         }
         Some(())

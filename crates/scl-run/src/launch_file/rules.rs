@@ -93,8 +93,9 @@ pub(super) const CONTRADICTION: Rule = Rule {
 pub(super) const WRONG_NAME: Rule = Rule {
     code: "SCL1207",
     title: "text that cannot be used as this name",
-    explanation: "This text cannot be the name of a host, a gate or a variable. Host names are used in certificates \
-                  and folder names; names of gates and variables are passed to programs in the environment.",
+    explanation: "This text cannot be the name of a host, a gate, a variable or, with `hosts`, a component: `gateway` \
+                  is the program that connects them. Host names are used in certificates and folder names; names of \
+                  gates and variables are passed to programs in the environment.",
     example: " components:
    sensor: {command: ./sensor}
  transports:
@@ -130,6 +131,23 @@ pub(super) const UNCHECKED: Rule = Rule {
     ..RULE
 };
 
+pub(super) const LIKE_A_KEY: Rule = Rule {
+    code: "SCL1210",
+    severity: Severity::Warning,
+    title: "variable with the name of a key",
+    explanation: "A variable in `environment` has the name of a key of the entry and a value that this key accepts. It \
+                  is probably the key, indented too far: as a variable it has no effect on the start of the program. \
+                  Write it beside `environment`.",
+    example: " components:
+   sensor:
+     command: ./sensor
+     environment:
+       RUST_LOG: info
+-      restart: on_failure
++    restart: on_failure
+",
+};
+
 /// All rules, in the order of their codes.
 pub const LAUNCH_RULES: &[&Rule] = &[
     &UNKNOWN_KEY,
@@ -141,4 +159,5 @@ pub const LAUNCH_RULES: &[&Rule] = &[
     &WRONG_NAME,
     &HOSTS,
     &UNCHECKED,
+    &LIKE_A_KEY,
 ];

@@ -3,7 +3,7 @@
 use super::super::policy::{Policy, Restart, RestartDelay, RestartLimit};
 use super::forms::{any_duration, limit, priority, restart_delay, restart_limit};
 use super::keys::{Form, form_of};
-use super::likely::{Likely, likely};
+use super::likely::{Likely, likely, period};
 use super::reader::{Keys, Reader, wrong};
 use super::rules::WRONG_VALUE;
 use super::value::{flag, number, path, processors, shown, texts};
@@ -118,17 +118,19 @@ impl Reader<'_> {
             (help, edits) if is_certain => problem.propose(help, edits),
             (help, edits) => problem.suggest(help, edits),
         });
+        let text = field.value.text().unwrap_or_default();
         let advice = match key {
+            "restart_delay" if values.len() > 1 => {
+                Some("the second time is the longest delay, so it cannot be shorter than the first")
+            }
+            _ if text.contains('…') => Some("`…` is a single character: write two dots"),
+            "cpu" if text.starts_with("0x") => Some("processors are counted from 0, and a mask is written as a list"),
+            _ if period(text).is_some() => Some("a time is the period of a rate, not the rate"),
             _ if !values.is_empty() => None,
-            "cpu"
-                if field.value.text().is_some_and(|text| {
-                    text.contains(|letter: char| letter == '.' || letter == '%' || letter.is_alphabetic())
-                }) =>
-            {
+            "cpu" if text.contains(|letter: char| letter == '.' || letter == '%' || letter.is_alphabetic()) => {
                 Some("an amount of computing time cannot be set")
             }
             "descriptors" => Some("the largest possible number is what `ulimit -Hn` prints"),
-            "restart_delay" => Some("the first time is the shorter one"),
             _ => None,
         };
         self.report(problem.notes(advice));

@@ -88,9 +88,11 @@ impl Reader<'_> {
 
     /// Adds the proposal to write variables as a mapping.
     pub(super) fn as_variables(&self, problem: Diagnostic, field: Field<'_>) -> Diagnostic {
-        match variables(field.value) {
-            Some(variables) => self.whole(problem, field, format!("{}: {variables}", field.key)),
-            None => problem,
+        match variables(field.value).as_slice() {
+            [variables] => self.whole(problem, field, format!("{}: {variables}", field.key)),
+            ways => ways.iter().fold(problem, |problem, variables| {
+                self.other_entry(problem, field, format!("{}: {variables}", field.key))
+            }),
         }
     }
 
@@ -134,6 +136,14 @@ impl Reader<'_> {
     pub(super) fn whole(&self, problem: Diagnostic, field: Field<'_>, entry: String) -> Diagnostic {
         match self.replace_entry(field, entry.clone()) {
             Some(edit) => problem.propose(format!("write `{entry}`"), [edit]),
+            None => problem,
+        }
+    }
+
+    /// As [`whole`](Self::whole), for an entry that may be meant.
+    pub(super) fn other_entry(&self, problem: Diagnostic, field: Field<'_>, entry: String) -> Diagnostic {
+        match self.replace_entry(field, entry.clone()) {
+            Some(edit) => problem.suggest(format!("write `{entry}`"), [edit]),
             None => problem,
         }
     }
@@ -241,22 +251,51 @@ fn other_section(section: &str, value: &Node) -> Option<&'static str> {
     (section != "profiles" && entries.iter().all(is_entry)).then_some("profiles")
 }
 
-/// Variables as a mapping: those of a list `A=b`, of a text, or of items with names.
-pub(super) fn variables(value: &Node) -> Option<String> {
-    let pairs: Option<Vec<(String, String)>> = match value.text() {
-        Some(line) => shlex::split(line)?.iter().filter(|word| *word != "export").map(|word| pair(word)).collect(),
-        None => value.items()?.iter().map(variable).collect(),
+/// Variables as a mapping: those of a list `A=b`, of a text, or of items with names. Two ways if a comma in a text may
+/// belong to a value.
+pub(super) fn variables(value: &Node) -> Vec<String> {
+    let ways = match value.text() {
+        Some(line) => match separated_by_commas(line) {
+            Some(pairs) if line.contains(['"', '\'']) => vec![pairs],
+            pairs => pairs.into_iter().chain(separated_by_spaces(line)).collect(),
+        },
+        None => value.items().and_then(|items| items.iter().map(variable).collect()).into_iter().collect(),
     };
-    let pairs = pairs.filter(|pairs| !pairs.is_empty())?;
-    let pairs = pairs.iter().map(|(name, value)| format!("{}: {}", flow_word(name), flow_word(value)));
-    Some(format!("{{{}}}", pairs.collect::<Vec<_>>().join(", ")))
+    let ways = ways.into_iter().filter(|pairs: &Vec<_>| !pairs.is_empty());
+    let shown = ways.map(|pairs| {
+        let pairs = pairs.iter().map(|(name, value)| format!("{}: {}", flow_word(name), flow_word(value)));
+        format!("{{{}}}", pairs.collect::<Vec<_>>().join(", "))
+    });
+    shown.collect()
+}
+
+fn separated_by_spaces(line: &str) -> Option<Vec<(String, String)>> {
+    shlex::split(line)?.iter().filter(|word| *word != "export").map(|word| pair(word)).collect()
+}
+
+/// At least two variables, as in `A="b",C="d"`.
+fn separated_by_commas(line: &str) -> Option<Vec<(String, String)>> {
+    let mut quote = None;
+    let pieces: Vec<&str> = line
+        .split(|letter| {
+            quote = match quote {
+                Some(open) if open == letter => None,
+                None if matches!(letter, '"' | '\'') => Some(letter),
+                open => open,
+            };
+            letter == ',' && quote.is_none()
+        })
+        .collect();
+    let pairs: Option<Vec<_>> = pieces.iter().map(|piece| pair(piece.trim())).collect();
+    pairs.filter(|pairs| pairs.len() > 1)
 }
 
 /// `NAME=value`, the whole or its value perhaps in quotes.
 fn pair(word: &str) -> Option<(String, String)> {
     let (name, value) = word.split_once('=')?;
     let is_name = !name.is_empty() && name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
-    let bare = value.strip_prefix('"').and_then(|value| value.strip_suffix('"')).unwrap_or(value);
+    let inner = |quote| value.strip_prefix(quote)?.strip_suffix(quote);
+    let bare = inner('"').or_else(|| inner('\'')).unwrap_or(value);
     is_name.then(|| (name.to_owned(), bare.to_owned()))
 }
 

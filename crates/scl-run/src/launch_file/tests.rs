@@ -334,7 +334,7 @@ fn programs_get_what_is_written() {
         "environment: {{{variables}, True: 1, 0x1: 2}}
 build: &b [make, {scalars}]
 components:
-  command: {{command: [./a, {scalars}], environment: {{{variables}}}, build: *b, essential: True, cpu: 0x1}}
+  command: {{command: [./a, {scalars}], environment: {{{variables}}}, build: *b, essential: True, cpu: 0o1}}
 profiles:
   environment:
     command: {{command: [./b, {scalars}], environment: {{{variables}}}}}

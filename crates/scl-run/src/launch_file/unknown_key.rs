@@ -80,6 +80,9 @@ impl Reader<'_> {
             return self.negated(problem, field, "essential");
         }
         let is_mapping = field.value.entries().is_some();
+        if matches!(bare(field.key).as_str(), "profile" | "profiles") && owner.starts_with("component") {
+            return self.moved_to_profile(problem, field, owner.trim_start_matches("component ").trim_matches('`'));
+        }
         let habit = Habit::of(field.key).filter(|habit| meant.is_empty() || is_mapping && !habit.parts.is_empty());
         if let Some(habit) = habit {
             return self.habit(problem, field, habit, keys);
@@ -112,7 +115,7 @@ impl Reader<'_> {
         let guess = likely(key, field.value);
         let values = match fits(key, field.value) {
             true => vec![value.to_owned()],
-            false if key == "environment" => variables(field.value).into_iter().collect(),
+            false if key == "environment" => variables(field.value),
             false => guess.values,
         };
         if let Some(list) = self.without_names(field).filter(|_| matches!(key, "components" | "hosts" | "profiles")) {
@@ -145,41 +148,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Says why there is no such key, and what to write instead.
-    fn habit(&self, problem: Diagnostic, field: Field<'_>, habit: &Habit, keys: &Keys<'_, '_>) -> Diagnostic {
-        let entries = field.value.entries().unwrap_or_default();
-        let part = |name: &Node, value: &Node| {
-            let name = bare(name.text()?);
-            let (_, key) = habit.parts.iter().find(|(part, _)| *part == name)?;
-            if keys.get(key).is_some() {
-                return None;
-            }
-            let value = match fits(key, value) {
-                true => value.text()?.to_owned(),
-                false => likely(key, value).values.into_iter().next()?,
-            };
-            Some(format!("{key}: {value}"))
-        };
-        let parts: Vec<String> = entries.iter().filter_map(|(name, value)| part(name, value)).collect();
-        let problem = problem.note(habit.instead);
-        if parts.is_empty() && !habit.can_go {
-            return problem;
-        }
-        if parts.is_empty() {
-            return self.without(problem, field, format!("remove `{}`", field.key));
-        }
-        let column = self.source.column(field.key_span.start);
-        let line = self.source.line_text(self.source.line_column(field.key_span.start).line);
-        let is_block = line.trim_start().len() + column == line.len();
-        let separator = if is_block { format!("\n{}", " ".repeat(column)) } else { ", ".to_owned() };
-        match self.replace_entry(field, parts.join(&separator)) {
-            Some(edit) => problem.suggest(format!("write `{}`", parts.join("`, `")), [edit]),
-            None => problem,
-        }
-    }
-
     /// Proposes to remove a key.
-    fn without(&self, problem: Diagnostic, field: Field<'_>, text: String) -> Diagnostic {
+    pub(super) fn without(&self, problem: Diagnostic, field: Field<'_>, text: String) -> Diagnostic {
         match self.remove_entry(field) {
             Some(edit) => problem.suggest(text, [edit]),
             None => problem,

@@ -36,7 +36,9 @@ pub(super) fn number(value: &Node) -> Option<u64> {
 /// A list of processors, or one of them; at least one.
 pub(super) fn processors(value: &Node) -> Option<Vec<usize>> {
     let processor = |value: &Node| {
-        let number = number(value).and_then(|number| usize::try_from(number).ok());
+        // A hexadecimal number may be a mask of processors.
+        let decimal = value.text().filter(|text| !text.starts_with("0x")).and_then(|_| number(value));
+        let number = decimal.and_then(|number| usize::try_from(number).ok());
         number.filter(|number| *number < rustix::thread::CpuSet::MAX_CPU)
     };
     match value.items() {

@@ -4,7 +4,7 @@ use super::super::Options;
 use super::super::component::Component;
 use super::super::deployment::{Deployment, Host};
 use super::super::gateway_program;
-use super::super::launch_file::{LaunchComponent, LaunchDocument, LaunchFile};
+use super::super::launch_file::{LaunchDocument, LaunchFile};
 use super::super::policy::{Policy, Restart, RestartLimit};
 use super::super::program::Program;
 use super::{ComponentNames, LAUNCH_FILE, environment_of_programs, find_folder, find_topology, read_names, read_text};
@@ -12,9 +12,6 @@ use scl_terminal::{Problem, print_err};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-
-/// The name of the gateway's program in the output and in `scl restart`.
-pub(super) const GATEWAY: &str = "gateway";
 
 /// A system on several hosts.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -69,15 +66,6 @@ pub(super) fn choose<'l>(launch: &'l LaunchFile, options: &Options, shown: &str)
     }
 }
 
-/// Rejects a component that has the name of the gateway's program.
-pub(super) fn check_names(components: &[LaunchComponent], shown: &str) -> Result<(), Problem> {
-    if components.iter().any(|component| component.name == GATEWAY) {
-        let problem = Problem::new(format!("the component `{GATEWAY}` has the name of the gateway's program"));
-        return Err(problem.at(shown).help("give the component another name to run it with `--host`"));
-    }
-    Ok(())
-}
-
 /// The program that connects a host to the others. It is started again whenever it ends: components go on without it,
 /// and nothing else brings the connections back.
 pub(super) fn plan_gateway(
@@ -97,7 +85,7 @@ pub(super) fn plan_gateway(
     let command = [program, "run".into()].into_iter().chain(files).chain(["--host".into(), (&host.name).into()]);
     let limit = RestartLimit { count: usize::MAX, within: Duration::from_secs(60) };
     Ok(Component {
-        name: GATEWAY.to_owned(),
+        name: Deployment::GATEWAY.to_owned(),
         program: Program {
             environment: environment_of_programs(launch).collect(),
             ..Program::new(command.collect(), folder.to_owned())

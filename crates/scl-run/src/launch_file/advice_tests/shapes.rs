@@ -27,6 +27,13 @@ fn other_shapes_are_understood() {
         "components: {a: {command: ./a}}\nenvironment: {A: b,c=d, E: 1}\n",
         "components: {a: {command: ./a}}\ndefaults: {env: {A: 1}}\n",
         "components:\n  a: {command: ./a}\n  a: {restart: always, environment: {A: 1}}\n",
+        "components:\n  a: {command: ./a}\n  a: {command: ./b}\n",
+        "components:\n  a:\n    command: ./a\ntransport: ipc\ncomponents:\n  b:\n    command: ./b\n    cpu: 1\n",
+        "components:\n  a:\n  command:\n    - ./a\n  cpu: 1\n  b:\n    command: ./b\n",
+        "components:\n  a:\n    command: ./a\n    profiles: [debug]\n    cpu: 1\n  b: {command: ./b}\n",
+        "components: {a: {command: ./a}}\nprofiles:\n  debug:\n    environment: {A: 1}\n    a: {cpu: 1}\n    b: {cpu: 2}\n    transport: shm\n",
+        "components: {a: {command: ./a}, gateway: {command: ./b}}\nhosts: {one: {address: '127,0,0,1', components: [a]}}\ngateway: {port: 80}\n",
+        "components: {a: {command: ./a}, b: {command: ./b}}\nhosts:\n  one:\n    address: tcp/127.0.0.1:80\n    components: [a]\n  two: {address: 'http://127.0.0.2:81', components: [b]}\ngateway: {port: 80}\n",
         "components: {a: {command: ./a}, b: {command: ./b}}\nprofiles:\n  debug:\n    components:\n      a: {command: ./x}\n  sim:\n    command: ./a_sim\n    restart: never\n",
         "components: {a: {command: ./a}, b: {command: ./b}}\ntransports:\n  a.images: shm\n  board: {address: 127.0.0.1, components: [a, b]}\ngateway: {port: 80}\n",
         "components: {a: {command: ./a}, b: {command: ./b, machine: two}}\nhosts:\n  one: {address: 127.0.0.1, components: [a]}\n  two: {address: 127.0.0.2}\n",
@@ -128,8 +135,8 @@ fn other_shapes_are_understood() {
           two: {address: 127.0.0.2}
         gateway: 7447
         `address` is an address alone, not `tcp://127.0.0.1:80`
-          write `address: 127.0.0.1, port: 80`
-            => one: {address: 127.0.0.1, components: a, port: 80}
+          write `address: 127.0.0.1` and `port: 80`
+            => one: {address: 127.0.0.1, port: 80, components: a}
         host `one` has no list of `components`
           write `components: [a]`
             => one: {address: 'tcp://127.0.0.1:80', components: [a]}
@@ -184,12 +191,96 @@ fn other_shapes_are_understood() {
           a: {command: ./a}
           a: {restart: always, environment: {A: 1}}
         the key `a` is written twice in `components`
-          the entries of both belong into one
-          remove the second one
-            ?> 
           write what is here in the first `a`
             ?> a: {command: ./a, restart: always, environment: {A: 1}}
           (YAML tools disagree which one wins: PyYAML silently keeps the second)
+        # components:
+          a: {command: ./a}
+          a: {command: ./b}
+        the key `a` is written twice in `components`
+          remove the second one
+            ?> 
+          remove the first one
+            ?> 
+          (YAML tools disagree which one wins: PyYAML silently keeps the second)
+        # components:
+          a:
+            command: ./a
+        transport: ipc
+        components:
+          b:
+            command: ./b
+            cpu: 1
+        the key `components` is written twice in a launch file
+          write what is here in the first `components`
+            ?> 
+          (YAML tools disagree which one wins: PyYAML silently keeps the second)
+        # components:
+          a:
+          command:
+            - ./a
+          cpu: 1
+          b:
+            command: ./b
+        `command` stands beside `a`, not in its entry
+          indent the keys by 4 spaces, below `a`
+            => command: | - ./a | cpu: 1
+        # components:
+          a:
+            command: ./a
+            profiles: [debug]
+            cpu: 1
+          b: {command: ./b}
+        unknown key `profiles` in component `a`
+          move the entry from `components` into a profile, at the top of the file: `profiles: {debug: {a: {command: ...}}}`
+            ?> profiles: | debug: | a: | command: ./a | cpu: 1
+        # components: {a: {command: ./a}}
+        profiles:
+          debug:
+            environment: {A: 1}
+            a: {cpu: 1}
+            b: {cpu: 2}
+            transport: shm
+        profile `debug` has the key `environment` in place of a component
+          `environment` belongs into the entries of components: move it to `a`, `b`
+            ?> a: {cpu: 1, environment: {A: 1}} | b: {cpu: 2, environment: {A: 1}}
+          (a profile holds entries of components only)
+        `b` needs a `command` or a `replay` in profile `debug`
+          (`components` has no entry `b`)
+        profile `debug` has the key `transport` in place of a component
+          `transport` belongs at the top of the file
+          (a profile holds entries of components only)
+        # components: {a: {command: ./a}, gateway: {command: ./b}}
+        hosts: {one: {address: '127,0,0,1', components: [a]}}
+        gateway: {port: 80}
+        unknown component `gateway`
+          did you mean `b`?
+            ?> components: {a: {command: ./a}, b: {command: ./b}}
+          (the topology has the components `a`, `b`)
+        with `hosts`, no component can be called `gateway`
+          give it another name here and in the topology, for example `radio_gateway`
+          (this is the name of the program that connects the hosts)
+        component `b` is on no host
+          add `b` to `components` of host `one`
+            ?> hosts: {one: {address: '127,0,0,1', components: [a, b]}}
+        `address` is an IP address or a DNS name, not `127,0,0,1`
+          write `address: 127.0.0.1`
+            => hosts: {one: {address: 127.0.0.1, components: [a]}}
+        # components: {a: {command: ./a}, b: {command: ./b}}
+        hosts:
+          one:
+            address: tcp/127.0.0.1:80
+            components: [a]
+          two: {address: 'http://127.0.0.2:81', components: [b]}
+        gateway: {port: 80}
+        `address` is an address alone, not `tcp/127.0.0.1:80`
+          write `address: 127.0.0.1`
+            => address: 127.0.0.1
+        `address` is an address alone, not `http://127.0.0.2:81`
+          write `address: 127.0.0.2`
+            ?> two: {address: 127.0.0.2, components: [b]}
+          write `address: 127.0.0.2` and `port: 81`, in place of port 80 of `gateway`
+            ?> two: {address: 127.0.0.2, port: 81, components: [b]}
         # components: {a: {command: ./a}, b: {command: ./b}}
         profiles:
           debug:

@@ -8,7 +8,7 @@ use super::super::words::flow_word;
 use scl_topology::diagnostic::Edit;
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
-use std::net::{IpAddr, SocketAddr};
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 
 /// The longest DNS name.
 const LONGEST: usize = 253;
@@ -27,24 +27,23 @@ impl Reader<'_> {
             let message = format!("`address` is an address alone, not {}", shown(field.value));
             let problem = wrong(&WRONG_VALUE, message, field);
             let entry = format!("address: {}", flow_word(&address));
-            let added = port.filter(|_| fields.get("port").is_none()).and_then(|port| {
-                let port = format!("port: {port}");
-                Some((self.add_entry(host.value, &port)?, port))
-            });
-            let edits = self.replace_entry(field, entry.clone()).map(|edit| match added {
-                Some((port, text)) if !port.span.eq(&edit.span) && port.span.start != edit.span.end => {
-                    (format!("write `{entry}, {text}`"), vec![edit, port])
+            let port = port.filter(|_| fields.get("port").is_none()).map(|port| port.to_string());
+            let problem = match (port, self.port_of_gateway()) {
+                (Some(port), of_all) if of_all != Some(port.as_str()) => {
+                    let both = format!("{entry}{}port: {port}", self.separator_of_entries(field));
+                    let text = format!("write `{entry}` and `port: {port}`");
+                    let edit = self.replace_entry(field, both);
+                    match (edit, of_all) {
+                        (None, _) => problem,
+                        (Some(edit), None) => problem.propose(text, [edit]),
+                        (Some(edit), Some(other)) => self
+                            .other_entry(problem, field, entry)
+                            .suggest(format!("{text}, in place of port {other} of `gateway`"), [edit]),
+                    }
                 }
-                // The address is the first or the last entry: write both in its place.
-                Some((_, text)) => {
-                    (format!("write `{entry}, {text}`"), vec![Edit::new(edit.span, self.both(field, &entry, &text))])
-                }
-                None => (format!("write `{entry}`"), vec![edit]),
-            });
-            self.report(match edits {
-                Some((help, edits)) => problem.propose(help, edits),
-                None => problem,
-            });
+                _ => self.whole(problem, field, entry),
+            };
+            self.report(problem);
             return None;
         }
         if text.parse().is_ok_and(|address: IpAddr| address.is_unspecified()) {
@@ -57,9 +56,12 @@ impl Reader<'_> {
             let problem = wrong(&WRONG_VALUE, format!("`address` is {form}, not {}", shown(field.value)), field);
             let problem = self.with_template(problem, field.value);
             let meant = text.replace('_', "-");
-            let problem = match is_address(&meant) && !text.is_empty() {
-                true => problem.suggest(format!("write `address: {meant}`"), [Edit::new(field.value.span, meant)]),
-                false => problem,
+            let problem = match dotted(text) {
+                Some(dotted) => self.whole(problem, field, format!("address: {dotted}")),
+                None if is_address(&meant) && !text.is_empty() => {
+                    problem.suggest(format!("write `address: {meant}`"), [Edit::new(field.value.span, meant)])
+                }
+                None => problem,
             };
             self.report(problem);
             return None;
@@ -67,14 +69,10 @@ impl Reader<'_> {
         Some((text.to_owned(), field.value.span))
     }
 
-    /// Two entries in the place of one.
-    fn both(&self, field: Field<'_>, one: &str, other: &str) -> String {
-        let column = self.source.column(field.key_span.start);
-        let line = self.source.line_text(self.source.line_column(field.key_span.start).line);
-        match line.len() - line.trim_start().len() == column {
-            true => format!("{one}\n{}{other}", " ".repeat(column)),
-            false => format!("{one}, {other}"),
-        }
+    /// The port of the hosts without one of their own, as written.
+    fn port_of_gateway(&self) -> Option<&str> {
+        let mut keys = self.top_value("gateway")?.entries()?.iter();
+        keys.find(|(key, _)| key.text() == Some("port"))?.1.text()
     }
 }
 
@@ -93,6 +91,13 @@ fn is_dns_name(text: &str) -> bool {
     };
     let last = text.rsplit('.').next().unwrap_or_default();
     text.len() <= LONGEST && text.split('.').all(is_label) && !last.chars().all(|letter| letter.is_ascii_digit())
+}
+
+/// The IPv4 address whose numbers are separated by something else than one dot each.
+fn dotted(text: &str) -> Option<String> {
+    let numbers: Vec<&str> = text.split(['.', ',', ';', ' ', '…']).filter(|number| !number.is_empty()).collect();
+    let address: Ipv4Addr = numbers.join(".").parse().ok()?;
+    Some(address.to_string())
 }
 
 /// Returns the address in a text like `192.0.2.10:7447`, `tcp://192.0.2.10:7447`, `pi@board.local` or `192.0.2.10/24`,

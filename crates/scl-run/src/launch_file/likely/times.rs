@@ -25,6 +25,9 @@ pub(super) fn time(text: &str) -> Likely {
         let values = units.iter().map(|unit| format!("{plain}{unit}"));
         return Likely::possible(values.filter(|value| limit(value).is_some()));
     }
+    if let Some(period) = period(&plain) {
+        return Likely::possible([period]);
+    }
     let clock: Option<Vec<u64>> = text.split(':').map(|part| part.parse().ok()).collect();
     if let Some([hours, minutes, seconds]) = clock.as_deref() {
         let parts = [("h", hours), ("m", minutes), ("s", seconds)].into_iter().filter(|(_, number)| **number > 0);
@@ -36,6 +39,18 @@ pub(super) fn time(text: &str) -> Likely {
         Some(once) => Likely::certain(Some(once)),
         None => Likely::certain(time_of(text).filter(|value| limit(value).is_some())),
     }
+}
+
+/// The time between two events of a rate, as in `20Hz`.
+pub(in super::super) fn period(text: &str) -> Option<String> {
+    let text = text.to_lowercase();
+    let (number, thousands) = match text.strip_suffix("hz")? {
+        rest if rest.ends_with('k') => (rest.trim_end_matches('k'), 1_000.0),
+        rest => (rest, 1.0),
+    };
+    let rate = number.trim().parse::<f64>().ok().filter(|rate| *rate > 0.0)? * thousands;
+    let period = Duration::try_from_secs_f64(1.0 / rate).ok().filter(|period| !period.is_zero())?;
+    Some(duration::text(period))
 }
 
 /// A time as this format writes it: one part as it is, several as their sum.
@@ -94,7 +109,7 @@ fn time_or_seconds(text: &str) -> Option<String> {
 
 pub(super) fn delay_range(text: &str) -> Likely {
     let text = text.trim_matches(['[', ']', '(', ')']);
-    let separators = ["...", "..", " to ", "–", "-", "/", ";"];
+    let separators = ["...", "..", "…", " to ", "–", "-", "/", ";"];
     let Some((first, last)) = separators.iter().find_map(|separator| text.split_once(separator)) else {
         let is_number = text.parse::<f64>().is_ok();
         let meant = time_or_seconds(text);
@@ -107,11 +122,12 @@ pub(super) fn delay_range(text: &str) -> Likely {
     let (meant, turned) = (format!("{first}..{last}"), format!("{last}..{first}"));
     match restart_delay(&meant) {
         Some(_) => Likely::certain(Some(meant)),
-        None => Likely::possible(restart_delay(&turned).map(|_| turned)),
+        // The second time is the shorter one.
+        None => Likely::possible(restart_delay(&turned).map(|_| [turned, first]).into_iter().flatten()),
     }
 }
 
-pub(super) fn limit_of_restarts(text: &str) -> Likely {
+pub(in super::super) fn limit_of_restarts(text: &str) -> Likely {
     let digits = text.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(text.len());
     let (count, rest) = text.split_at(digits);
     if count.is_empty() {
