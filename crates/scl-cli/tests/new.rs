@@ -51,7 +51,7 @@ fn names_that_cannot_be_used_write_nothing() {
     let system = System::of_files(&[]);
     let too_long = "a_name_that_goes_on_and_on_and_on_and_on_a";
     for (name, expected) in [
-        ("2nd", "error: [SCL0305] a system name must start with a letter\n"),
+        ("2nd", "error: [SCL0305] a system name must start with a letter or `_`\n"),
         ("a b", "error: [SCL0303] a system name cannot contain a space\n"),
         ("röver", "error: [SCL0304] system name `röver` contains the letter `ö` (U+00F6), which is not ASCII\n"),
         ("a--b", "error: [SCL0303] a system name cannot contain two hyphens in a row\n"),

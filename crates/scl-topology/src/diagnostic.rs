@@ -14,7 +14,7 @@ use std::borrow::Cow;
 pub use help::{Edit, Help, Proposal, removal};
 pub(crate) use limit::RULE as TOO_MANY;
 pub use limit::{MOST_SHOWN, limit};
-pub use list_edit::{appended, new_list};
+pub use list_edit::{appended, new_list, separator};
 pub use render::{render, render_headless, render_styled};
 pub use rule::{Rule, Severity};
 

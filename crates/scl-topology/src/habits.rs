@@ -49,6 +49,11 @@ pub(crate) static COMPONENT: &[Habit] = &[
     habit("ports pins interfaces endpoints sockets io topics channels slots", &["gates"], ""),
     habit("description comment desc summary documentation help note notes brief", &["doc"], ""),
     habit(
+        "continueonerror allowfailure ignoreerrors ignorefailure besteffort mayfail",
+        &["optional"],
+        "`optional: true` says that peers do not wait for this component",
+    ),
+    habit(
         "required mandatory essential",
         &["optional: !"],
         "`optional: true` says that peers do not wait for this component",

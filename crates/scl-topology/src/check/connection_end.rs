@@ -115,6 +115,9 @@ fn respelt(draft: &Draft<'_>, text: &str) -> Option<(String, usize)> {
     }
     if let [only] = words.as_slice() {
         found = split_anywhere(draft, only);
+    } else if found.is_empty() {
+        // `drive.left.currents` of the component `drive_left`.
+        found = split_anywhere(draft, &words.join("_"));
     }
     let &[gate] = found.as_slice() else { return None };
     Some((slip(text, &words), gate))
@@ -133,6 +136,7 @@ fn split_anywhere(draft: &Draft<'_>, word: &str) -> Vec<usize> {
 
 fn slip(text: &str, words: &[&str]) -> String {
     match words {
+        [_, _, _, ..] if text.matches('.').count() > 1 => "more than one dot".to_owned(),
         [_, _, _, ..] => "only a component and its gate".to_owned(),
         [component, gate] if text.starts_with(component) && text.ends_with(gate) => {
             match text[component.len()..text.len() - gate.len()].trim() {

@@ -15,11 +15,13 @@ pub(super) struct FittingGates<'m> {
     by_component: HashMap<(&'static str, &'m str), Vec<usize>>,
     by_type: HashMap<(&'static str, &'m str), Vec<usize>>,
     all: HashMap<&'static str, Vec<usize>>,
+    /// By gate: its connections whose ends fit, with the gate at the other end.
+    peers: Vec<Vec<(usize, usize)>>,
 }
 
 impl<'m> FittingGates<'m> {
     pub(super) fn of(draft: &Draft<'m>) -> Self {
-        let mut gates = Self::default();
+        let mut gates = Self { peers: draft.links_by_gate(), ..Self::default() };
         for (at, gate) in draft.gates.iter().enumerate() {
             let Some(kind) = gate.kind.map(GateKind::word).filter(|_| !gate.duplicate) else { continue };
             gates.all.entry(kind).or_default().push(at);
@@ -30,6 +32,23 @@ impl<'m> FittingGates<'m> {
             }
         }
         gates
+    }
+
+    /// The gates to which a gate is connected, as far as a search looks at them.
+    pub(super) fn peers(&self, gate: usize) -> impl Iterator<Item = usize> + '_ {
+        self.peers.get(gate).into_iter().flatten().take(SEARCHED).map(|(_, peer)| *peer)
+    }
+
+    /// The connection of a sender in which another receiver of the same name, which has more senders, stands in the
+    /// place of this one.
+    pub(super) fn misled(&self, draft: &Draft<'m>, sender: usize, receiver: usize) -> Option<(usize, usize)> {
+        let name = &draft.gates[receiver].model.name.value;
+        let is_twin = |&&(_, peer): &&(usize, usize)| {
+            draft.gates[peer].model.name.value == *name && peer != receiver && self.peers[peer].len() > 1
+        };
+        let (link, twin) = self.peers.get(sender)?.iter().take(SEARCHED).find(is_twin)?;
+        // The first connection of the other one is its own.
+        (self.peers[*twin].first()?.0 != *link).then_some((*link, *twin))
     }
 
     /// Returns at most three gates that fit a gate: first those with its name, then gates of a component with its name,

@@ -1,9 +1,11 @@
 //! SCL0401: a word that is no kind of gate. Sets the kind of every other gate.
 
-use super::draft::Draft;
+use super::draft::{Draft, DraftGate};
+use super::unconnected::new_connection;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::grammar::{PATTERNS, Pattern};
 use crate::habits;
+use crate::model::GateModel;
 use crate::source::{Sources, Spanned};
 use crate::suggest;
 use crate::topology::GateKind;
@@ -25,13 +27,15 @@ pub(crate) const RULE: Rule = Rule {
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     for gate in &mut draft.gates {
-        let word = &gate.model.kind;
-        gate.kind = GateKind::of(&word.value);
-        // An empty word stands for a gate that could not be read, which has its own problem.
-        if gate.kind.is_none() && !word.value.is_empty() {
-            problems.push(report(word, draft.sources));
-        }
+        gate.kind = GateKind::of(&gate.model.kind.value);
     }
+    // An empty word stands for a gate that could not be read, which has its own problem.
+    let is_unknown = |gate: &DraftGate<'_>| gate.kind.is_none() && !gate.model.kind.value.is_empty();
+    let unknown = draft.gates.iter().enumerate().filter(|(_, gate)| is_unknown(gate));
+    problems.extend(unknown.map(|(at, gate)| match as_connection(draft, at) {
+        Some((help, edits)) => headline(&gate.model.kind).suggest(help, edits).note(kinds()),
+        None => report(gate.model, draft.sources),
+    }));
     poison_contradictions(draft);
 }
 
@@ -61,8 +65,29 @@ fn kinds() -> String {
     format!("kinds: {}", PATTERNS.iter().map(pair).collect::<Vec<_>>().join(", "))
 }
 
-fn report(word: &Spanned<String>, sources: &Sources) -> Diagnostic {
-    let found = RULE.at(format!("unknown gate kind `{}`", word.value), word.span, "");
+/// `image: camera/image`, where the gate to which this one is to be connected stands in the place of the kind.
+fn as_connection(draft: &Draft<'_>, gate: usize) -> Option<(String, [Edit; 2])> {
+    let model = draft.gates[gate].model;
+    let (component, name) = model.kind.value.split_once(['/', '.'])?;
+    let other = draft.gate(component, name).filter(|_| model.payload.is_none())?;
+    let kind = draft.gates[other].kind?.opposite().word();
+    let written = match &draft.gates[other].model.payload {
+        Some(payload) => format!("{{{kind}: {}}}", payload.value.trim()),
+        None => kind.to_owned(),
+    };
+    let pair = format!("[{}, {}]", draft.path(other), draft.path(gate));
+    let added = new_connection(draft, &pair)?;
+    let help = format!("write `{}: {written}`, and add the connection `{pair}`", model.name.value);
+    Some((help, [Edit::new(model.kind.span, written), added]))
+}
+
+fn headline(word: &Spanned<String>) -> Diagnostic {
+    RULE.at(format!("unknown gate kind `{}`", word.value), word.span, "")
+}
+
+fn report(gate: &GateModel, sources: &Sources) -> Diagnostic {
+    let word = &gate.kind;
+    let found = headline(word);
     let meant = suggest::kind(&word.value);
     let lead = if meant.len() == 1 { ("the kind is called ", "") } else { ("did you mean ", "?") };
     let rewritten = |kind: &str| Edit::new(word.span, sources.quoted_as(word.span, kind));
@@ -72,7 +97,16 @@ fn report(word: &Spanned<String>, sources: &Sources) -> Diagnostic {
     let found = nearest
         .iter()
         .fold(found, |found, kind| found.suggest(format!("the nearest kind is `{kind}`"), [rewritten(kind)]));
-    found.helps(habit.map(|habit| habit.text)).note(kinds())
+    // Two types are those of a request and its reply.
+    let is_exchange = gate.payload.as_ref().is_some_and(|payload| payload.value.contains("->"));
+    let asking = ["req", "rep"].into_iter().filter(|kind| is_exchange && meant.is_empty() && nearest != Some(kind));
+    let found = asking.fold(found, |found, kind| {
+        found.suggest(format!("two types are those of a request and its reply: write `{kind}`"), [rewritten(kind)])
+    });
+    match is_exchange {
+        true => found.note(kinds()),
+        false => found.helps(habit.map(|habit| habit.text)).note(kinds()),
+    }
 }
 
 #[cfg(test)]

@@ -6,6 +6,9 @@ use crate::model::{ComponentModel, ConnectionModel, GateModel, Model};
 use crate::source::Sources;
 use std::collections::{HashMap, HashSet};
 
+/// Maximum length of the text between two declarations that is searched, in bytes.
+const MOST_BETWEEN: usize = 4_096;
+
 /// Suggests to remove the second component, or the first, if the other one has all its gates.
 pub(super) fn suggest(
     found: Diagnostic,
@@ -13,6 +16,15 @@ pub(super) fn suggest(
     sources: &Sources,
     [first, second]: [&ComponentModel; 2],
 ) -> Diagnostic {
+    let between = first.span.end.min(second.span.end) as usize..first.span.start.max(second.span.start) as usize;
+    let between = sources.file(first.span.file).text().get(between).filter(|text| text.len() < MOST_BETWEEN);
+    let is_condition = |line: &str| ["#if", "#else", "#elif"].iter().any(|word| line.trim_start().starts_with(word));
+    let found = match between.and_then(|text| text.lines().find(|line| is_condition(line))) {
+        Some(line) => found
+            .help("keep one of the two; the programs of a component are chosen in the launch file, by `profiles`")
+            .note(format!("`{}` is a comment in YAML: both declarations are read", line.trim())),
+        None => found,
+    };
     let ways = [[first, second], [second, first]];
     let Some((copy, edits)) =
         ways.into_iter().find_map(|[kept, copy]| Some((copy, merged(model, sources, kept, copy)?)))

@@ -183,10 +183,10 @@ const ORDINALS: [(&str, &str); 9] = [
 ];
 
 fn wrong_start<'m>(renames: &Renames<'m>, noun: Noun, name: &'m Spanned<String>, first: char) -> Diagnostic {
-    let headline = format!("a {} name must start with a letter", noun.word());
+    let headline = format!("a {} name must start with a letter or `_`", noun.word());
     let start = if first == '-' { "starts with a hyphen" } else { "starts with a digit" };
     let ways = alternatives(&name.value);
-    let found = START.at(headline, name.span, start).otherwise("a name starts with a letter or `_`");
+    let found = START.at(headline, name.span, start).otherwise("choose another name");
     let edits = |way: &str| renames.edits(noun, name, way);
     let mut found = found.choose_all(("write ", ""), ways.iter().map(|way| (way.as_str(), edits(way))));
     found.doubt();
@@ -197,12 +197,15 @@ fn wrong_start<'m>(renames: &Renames<'m>, noun: Noun, name: &'m Spanned<String>,
 fn alternatives(name: &str) -> Vec<String> {
     let digits: String = name.chars().take_while(char::is_ascii_digit).collect();
     let ordinal = ORDINALS.iter().find(|(short, _)| name.starts_with(short));
-    let rest = ordinal.map_or(&name[digits.len()..], |(short, _)| &name[short.len()..]);
+    // Of `2m-radio`, the whole first word.
+    let first = name.find(['_', '-']).filter(|at| *at > 0 && ordinal.is_none()).unwrap_or(digits.len());
+    let rest = ordinal.map_or(&name[first..], |(short, _)| &name[short.len()..]);
     let rest = rest.trim_matches(['_', '-']);
-    let moved = match (rest.is_empty(), digits.is_empty()) {
+    let first = if ordinal.is_some() { digits.as_str() } else { &name[..first] };
+    let moved = match (rest.is_empty(), first.is_empty()) {
         (true, _) => return Vec::new(),
         (false, true) => rest.to_owned(),
-        (false, false) => format!("{rest}_{digits}"),
+        (false, false) => format!("{rest}_{first}"),
     };
     let word = ordinal.map(|(_, word)| format!("{word}_{rest}"));
     word.into_iter().chain([moved]).collect()
@@ -282,7 +285,7 @@ mod tests {
         rule_example(
             &START,
             expect![[r#"
-                error: [SCL0305] a component name must start with a letter
+                error: [SCL0305] a component name must start with a letter or `_`
                  --> topology.yaml:2:11
                   |
                 2 |   - name: 2nd_sensor
@@ -295,14 +298,16 @@ mod tests {
 
     #[test]
     fn other_starts() {
-        let names = ["3sensors", "4", "-left", "1st-row"];
+        let names = ["3sensors", "4", "-left", "1st-row", "2m-radio", "3_axes"];
         let advice = |name: &str| advice(&format!("components:\n  - name: '{name}'\n    gates: []\n"));
         let told: String = names.iter().map(|name| format!("{}\n", advice(name))).collect();
         expect![[r#"
-            SCL0305 a component name must start with a letter [write `sensors_3`]
-            SCL0305 a component name must start with a letter [a name starts with a letter or `_`]
-            SCL0305 a component name must start with a letter [write `left`]
-            SCL0305 a component name must start with a letter [write `first_row` or `row_1`]
+            SCL0305 a component name must start with a letter or `_` [write `sensors_3`]
+            SCL0305 a component name must start with a letter or `_` [choose another name]
+            SCL0305 a component name must start with a letter or `_` [write `left`]
+            SCL0305 a component name must start with a letter or `_` [write `first_row` or `row_1`]
+            SCL0305 a component name must start with a letter or `_` [write `radio_2m`]
+            SCL0305 a component name must start with a letter or `_` [write `axes_3`]
         "#]]
         .assert_eq(&told);
     }

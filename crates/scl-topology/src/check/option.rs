@@ -123,6 +123,14 @@ fn misfit_at(draft: &Draft<'_>, gate: usize, option: &OptionModel, peers: &[usiz
         _ => format!("{} each have their own", listed(&having)),
     };
     let is_moved = (1..=MOST_MOVED).contains(&lacking.len());
+    // At its end, a sender that waits exerts backpressure.
+    let waits = key == "when_full" && option.value.value == "wait" && fits(kind, "backpressure");
+    if waits && is_moved && draft.gates[gate].option("backpressure").is_none() {
+        let here = Edit::new(option.key.span.to(option.value.span), "backpressure: true");
+        let there = lacking.iter().map(|&peer| draft.with_option(peer, key, "wait"));
+        let text = format!("write `backpressure: true` here, and `when_full: wait` at {}", listed(&lacking));
+        found = found.suggest(text, there.chain([here]));
+    }
     if let (true, Some(removed)) = (is_moved, &removed) {
         let value = &option.value.value;
         let there = lacking.iter().map(|&peer| draft.with_option(peer, key, value));
@@ -136,8 +144,32 @@ fn misfit_at(draft: &Draft<'_>, gate: usize, option: &OptionModel, peers: &[usiz
         Some(removed) => found.suggest("remove it", [removed]),
         None => found,
     };
+    found = with_other_kinds(draft, found, gate, peers, key);
     let at_other_end = fits(other, key).then(|| format!("it belongs to the `{}` end of a connection", other.word()));
     Some(found.helps(at_other_end.filter(|_| !is_moved)).note(rule))
+}
+
+/// Suggests the kinds of another pattern that has the option, for a gate and all gates to which it is connected.
+fn with_other_kinds(draft: &Draft<'_>, found: Diagnostic, gate: usize, peers: &[usize], key: &str) -> Diagnostic {
+    // Requests have two types, so they do not become messages.
+    let one_type = |kind: GateKind| !matches!(kind, GateKind::Req | GateKind::Rep);
+    let Some(kind) = draft.gates[gate].kind.filter(|kind| one_type(*kind)) else { return found };
+    let is_way = |other: &GateKind| {
+        *other != kind && one_type(*other) && other.is_source() == kind.is_source() && fits(*other, key)
+    };
+    let Some(way) = GateKind::ALL.into_iter().find(is_way).filter(|_| (1..=MOST_MOVED).contains(&peers.len())) else {
+        return found;
+    };
+    let changed = peers.iter().map(|&peer| draft.with_kind(peer, way.opposite(), None));
+    let edits: Option<Vec<Vec<Edit>>> = std::iter::once(draft.with_kind(gate, way, None)).chain(changed).collect();
+    let Some(edits) = edits else { return found };
+    let peers: Vec<String> = peers.iter().map(|&peer| draft.path(peer)).collect();
+    let (own, others) = (way.word(), way.opposite().word());
+    let text = match peers.as_slice() {
+        [peer] => format!("or make this a `{own}` gate, and `{peer}` a `{others}` gate"),
+        peers => format!("or make this a `{own}` gate, and each of {} a `{others}` gate", listed(peers)),
+    };
+    found.suggest(text, edits.concat())
 }
 
 /// Returns why a kind does not have the option, or `None` if it does.

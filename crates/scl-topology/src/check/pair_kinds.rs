@@ -7,6 +7,9 @@ use super::unconnected::type_text;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::topology::GateKind;
 
+/// Maximum number of gates that are proposed for an end.
+const MOST: usize = 3;
+
 /// SCL0505.
 pub(crate) const SAME_DIRECTION: Rule = Rule {
     code: "SCL0505",
@@ -52,7 +55,7 @@ pub(crate) const OTHER_PATTERN: Rule = Rule {
 };
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
-    let senders = FittingGates::of(draft);
+    let mut unpaired = Vec::new();
     for link in 0..draft.links.len() {
         let [Some(a), Some(b)] = draft.links[link].ends else { continue };
         let (Some(kind_a), Some(kind_b)) = (draft.gates[a].kind, draft.gates[b].kind) else { continue };
@@ -67,10 +70,17 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
         if kind_a != kind_b && (draft.gates[a].is_misfit || draft.gates[b].is_misfit) {
             continue;
         }
-        let partners = [0, 1].map(|end| partners(draft, &senders, [link, end]));
-        problems.push(match kind_a == kind_b {
-            true => same_direction(draft, link, [a, b], kind_a, &partners),
-            false => different_patterns(draft, link, [a, b], [kind_a, kind_b], &partners),
+        unpaired.push((link, [a, b], [kind_a, kind_b]));
+    }
+    if unpaired.is_empty() {
+        return;
+    }
+    let others = FittingGates::of(draft);
+    for (link, gates, kinds) in unpaired {
+        let partners = [0, 1].map(|end| partners(draft, &others, [link, end]));
+        problems.push(match kinds[0] == kinds[1] {
+            true => same_direction(draft, link, gates, kinds[0], &partners),
+            false => different_patterns(draft, link, gates, kinds, &partners),
         });
         partners.into_iter().flatten().for_each(|gate| draft.gates[gate].named = true);
     }
@@ -171,9 +181,10 @@ fn doing(kind: GateKind) -> &'static str {
     }
 }
 
-/// The gates that the other end could be connected to instead of this one: in the same component the gate of its own
-/// name, else the only one that fits; in other components the senders that fit a receiver.
-fn partners(draft: &Draft<'_>, senders: &FittingGates<'_>, [link, end]: [usize; 2]) -> Vec<usize> {
+/// The gates that the other end could be connected to instead of this one: in the same component the gate of its
+/// own name, else the only one that fits; in other components those with which this one is connected, too, and the
+/// senders that fit a receiver.
+fn partners(draft: &Draft<'_>, others: &FittingGates<'_>, [link, end]: [usize; 2]) -> Vec<usize> {
     let [Some(gate), Some(other)] = [draft.links[link].ends[1 - end], draft.links[link].ends[end]] else {
         return Vec::new();
     };
@@ -181,14 +192,22 @@ fn partners(draft: &Draft<'_>, senders: &FittingGates<'_>, [link, end]: [usize; 
     let fits: Vec<usize> = own.filter(|&at| at != gate && at != other && draft.may_connect(gate, at)).collect();
     let name = &draft.gates[gate].model.name.value;
     let namesake = fits.iter().find(|&&at| draft.gates[at].model.name.value == *name);
-    match namesake.or(if fits.len() == 1 { fits.first() } else { None }) {
-        Some(best) => vec![*best],
-        None if draft.gates[gate].model.payload.is_some() => {
-            let is_sender = |at: &usize| draft.gates[*at].kind.is_some_and(GateKind::is_source);
-            senders.for_gate(draft, gate).into_iter().filter(is_sender).filter(|at| *at != other).collect()
-        }
-        None => Vec::new(),
+    if let Some(best) = namesake.or(if fits.len() == 1 { fits.first() } else { None }) {
+        return vec![*best];
     }
+    let is_far = |at: usize| draft.component_name(at) != draft.component_name(gate);
+    let mut found: Vec<usize> = others.peers(other).filter(|&at| is_far(at) && draft.may_connect(gate, at)).collect();
+    if draft.gates[gate].model.payload.is_some() {
+        let is_sender = |at: usize| draft.gates[at].kind.is_some_and(GateKind::is_source);
+        let senders = others.for_gate(draft, gate).into_iter().filter(|&at| is_sender(at) && at != other);
+        for sender in senders {
+            if !found.contains(&sender) {
+                found.push(sender);
+            }
+        }
+    }
+    found.truncate(MOST);
+    found
 }
 
 #[cfg(test)]

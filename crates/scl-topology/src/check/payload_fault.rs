@@ -76,7 +76,7 @@ fn respelt(text: &str) -> Vec<String> {
     let mut names = vec![parts.join(".")];
     // ROS has a folder for messages in each package.
     if let [package, "msg" | "srv" | "action", name] = parts.as_slice() {
-        names.insert(0, format!("{package}.{name}"));
+        names.push(format!("{package}.{name}"));
     }
     names
 }

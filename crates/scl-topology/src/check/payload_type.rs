@@ -70,7 +70,10 @@ fn read_payload(
         let span = if parts.len() == 1 { written.span } else { draft.part(written.span, part, at > 0) };
         match payload_fault::of(part) {
             None => types.push(TypeName { dotted: (*part).to_owned(), span, in_schemas: false }),
-            Some(fault) => problems.push(no_type(draft, part, [span, written.span], fault)),
+            Some(fault) => {
+                let whole = Some(written.span).filter(|_| !parts.iter().any(|part| payload_fault::of(part).is_none()));
+                problems.push(no_type(draft, part, span, whole, fault));
+            }
         }
     }
     if types.len() != parts.len() {
@@ -189,7 +192,14 @@ fn misfit(
             };
             let headline = format!("a `{word}` gate {does}");
             let found = WRONG_NUMBER_OF_TYPES.at(headline, written.span, given);
-            let found = found.suggest(format!("write `{}` alone, if there is no answer", parts[0]), [types(parts[0])]);
+            let at_partner = match partner.and_then(|partner| partner.payload.as_ref()) {
+                Some(Payload::Message(message)) => parts.iter().find(|part| **part == message.dotted()),
+                _ => None,
+            };
+            let found = match at_partner {
+                Some(only) => found.suggest(format!("write `{only}` alone, as at the other end"), [types(only)]),
+                None => found.suggest(format!("write `{}` alone, if there is no answer", parts[0]), [types(parts[0])]),
+            };
             match parts.len() {
                 2 => found.suggest(format!("write `{}`, if there is one", meant.word()), [kind_edit(meant)]),
                 _ => found,
@@ -198,7 +208,8 @@ fn misfit(
     }
 }
 
-fn no_type(draft: &Draft<'_>, text: &str, [span, whole]: [Span; 2], fault: Fault) -> Diagnostic {
+/// The problem of a text at `span`. `whole` is the place of all types, if nothing is lost without them.
+fn no_type(draft: &Draft<'_>, text: &str, span: Span, whole: Option<Span>, fault: Fault) -> Diagnostic {
     let headline = match text {
         "" => "a message type is missing".to_owned(),
         _ => format!("`{text}` cannot be a message type"),
@@ -209,11 +220,14 @@ fn no_type(draft: &Draft<'_>, text: &str, [span, whole]: [Span; 2], fault: Fault
     if !fault.is_certain {
         found.doubt();
     }
-    match fault.is_bytes {
-        true => found.propose(format!("write nothing after the colon: {}", fault.allowed), [Edit::new(whole, "")]),
-        false => found,
+    match whole.filter(|_| fault.is_bytes) {
+        Some(whole) => {
+            found.propose(format!("write nothing after the colon: {}", fault.allowed), [Edit::new(whole, "")])
+        }
+        None if fault.is_bytes => found
+            .help("request and reply are both messages; one without fields, `message Done {}`, says only that it came"),
+        None => found.otherwise(fault.allowed),
     }
-    .otherwise(fault.allowed)
 }
 
 #[cfg(test)]

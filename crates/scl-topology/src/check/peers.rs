@@ -146,9 +146,7 @@ fn several_publishers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) 
     let help = format!("declare a second gate: `- {extra}: sub`");
     let parts = [(name.clone(), &links[..1]), (extra, &links[1..])];
     let parts = parts.map(|(name, links)| Part { name, links: links.iter().map(|&(link, _)| link).collect() });
-    let found = with_peers(&SEVERAL_PUBLISHERS, headline, draft, gate, links, |which, path| {
-        format!("{which} publisher: `{path}`")
-    });
+    let found = with_peers(&SEVERAL_PUBLISHERS, headline, draft, links, "publisher");
     split_gate::suggest(draft, found, gate, &parts, help)
         .help(format!(
             "if `{first_owner}` and `{second_owner}` are two implementations of one component, declare one component and \
@@ -172,9 +170,9 @@ fn several_repliers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) ->
     };
     let parts: Vec<Part> = links.iter().map(part).collect();
     let help = format!("declare one `req` gate for each replier: {}", listed(parts.iter().map(|part| &part.name)));
-    let found =
-        with_peers(&SEVERAL_REPLIERS, headline, draft, gate, links, |which, path| format!("{which} replier: `{path}`"));
+    let found = with_peers(&SEVERAL_REPLIERS, headline, draft, links, "replier");
     split_gate::suggest(draft, found, gate, &parts, help)
+        .help("or keep only one of these connections")
         .note(format!("with {count} repliers it is not defined who answers (ZeroMQ would alternate between them)"))
         .note("many requesters of one replier are allowed")
 }
@@ -192,9 +190,11 @@ fn several_pullers(draft: &Draft<'_>, gate: usize, links: &[(usize, usize)]) -> 
     let pullers = links.iter().map(|&(_, puller)| draft.with_kind(puller, GateKind::Sub, None));
     let published: Option<Vec<Vec<Edit>>> =
         std::iter::once(draft.with_kind(gate, GateKind::Pub, None)).chain(pullers).collect();
-    let found = with_peers(&SEVERAL_PULLERS, headline, draft, gate, links, |which, _| format!("{which} receiver"))
+    let found = with_peers(&SEVERAL_PULLERS, headline, draft, links, "receiver")
         .suggest(format!("if they share the work, write `{shared}`"), [share]);
-    let help = format!("if {each} every message, make the gates `pub` and `sub`");
+    let pullers: Vec<String> = links.iter().map(|&(_, puller)| draft.path(puller)).collect();
+    let kinds = format!("make `{path}` a `pub` gate, and each of {} a `sub` gate", listed(&pullers));
+    let help = format!("if {each} every message, {kinds}");
     match published {
         Some(edits) => found.suggest(help, edits.concat()),
         None => found.help(help),
@@ -207,14 +207,13 @@ fn with_peers(
     rule: &'static Rule,
     headline: String,
     draft: &Draft<'_>,
-    gate: usize,
     links: &[(usize, usize)],
-    label: impl Fn(&str, &str) -> String,
+    noun: &str,
 ) -> Diagnostic {
     let words = ["first", "second", "third", "fourth", "fifth"];
     let word = |at: usize| words.get(at).copied().unwrap_or("another");
-    let text = |at: usize| label(word(at), &draft.path(links[at].1));
-    let place = |at: usize| draft.end_span(links[at].0, gate);
+    let text = |at: usize| format!("{} {noun}", word(at));
+    let place = |at: usize| draft.end_span(links[at].0, links[at].1);
     let others = (0..links.len()).filter(|&at| at != 1);
     rule.at(headline, place(1), text(1)).labels(others.map(|at| (place(at), text(at))))
 }
@@ -246,18 +245,18 @@ mod tests {
         rule_example(
             &SEVERAL_PUBLISHERS,
             expect![[r#"
-            warning: [SCL0511] gate `autopilot.fix` subscribes to several publishers
-              --> topology.yaml:13:18
-               |
-            12 |   - [gps.fix, autopilot.fix]
-               |               ------------- first publisher: `gps.fix`
-            13 |   - [replay.fix, autopilot.fix]
-               |                  ^^^^^^^^^^^^^ second publisher: `replay.fix`
-               |
-               = help: declare a second gate: `- replay_fix: sub`
-               = help: if `gps` and `replay` are two implementations of one component, declare one component and start either program
-               = note: messages of all its publishers arrive at this gate, in the order of arrival
-        "#]],
+                warning: [SCL0511] gate `autopilot.fix` subscribes to several publishers
+                  --> topology.yaml:13:6
+                   |
+                12 |   - [gps.fix, autopilot.fix]
+                   |      ------- first publisher
+                13 |   - [replay.fix, autopilot.fix]
+                   |      ^^^^^^^^^^ second publisher
+                   |
+                   = help: declare a second gate: `- replay_fix: sub`
+                   = help: if `gps` and `replay` are two implementations of one component, declare one component and start either program
+                   = note: messages of all its publishers arrive at this gate, in the order of arrival
+            "#]],
         );
     }
 
@@ -266,18 +265,19 @@ mod tests {
         rule_example(
             &SEVERAL_REPLIERS,
             expect![[r#"
-            error: [SCL0512] gate `ui.commands` asks two repliers
-              --> topology.yaml:13:6
-               |
-            12 |   - [ui.commands, autopilot.commands]
-               |      ----------- first replier: `autopilot.commands`
-            13 |   - [ui.commands, camera.commands]
-               |      ^^^^^^^^^^^ second replier: `camera.commands`
-               |
-               = help: declare one `req` gate for each replier: `autopilot_commands`, `camera_commands`
-               = note: with two repliers it is not defined who answers (ZeroMQ would alternate between them)
-               = note: many requesters of one replier are allowed
-        "#]],
+                error: [SCL0512] gate `ui.commands` asks two repliers
+                  --> topology.yaml:13:19
+                   |
+                12 |   - [ui.commands, autopilot.commands]
+                   |                   ------------------ first replier
+                13 |   - [ui.commands, camera.commands]
+                   |                   ^^^^^^^^^^^^^^^ second replier
+                   |
+                   = help: declare one `req` gate for each replier: `autopilot_commands`, `camera_commands`
+                   = help: or keep only one of these connections
+                   = note: with two repliers it is not defined who answers (ZeroMQ would alternate between them)
+                   = note: many requesters of one replier are allowed
+            "#]],
         );
     }
 
@@ -287,15 +287,15 @@ mod tests {
             &SEVERAL_PULLERS,
             expect![[r#"
                 error: [SCL0513] gate `camera.frames` pushes to two components, so each of them gets only a part of the messages
-                  --> topology.yaml:13:6
+                  --> topology.yaml:13:21
                    |
                 12 |   - [camera.frames, detector.frames]
-                   |      ------------- first receiver
+                   |                     --------------- first receiver
                 13 |   - [camera.frames, recorder.frames]
-                   |      ^^^^^^^^^^^^^ second receiver
+                   |                     ^^^^^^^^^^^^^^^ second receiver
                    |
                    = help: if they share the work, write `frames: {push: , share: true}`
-                   = help: if both need every message, make the gates `pub` and `sub`
+                   = help: if both need every message, make `camera.frames` a `pub` gate, and each of `detector.frames`, `recorder.frames` a `sub` gate
                    = note: many pushers into one `pull` gate are allowed
             "#]],
         );

@@ -29,7 +29,9 @@ fn diagnose(name: &TypeName, has_schemas: bool) -> Option<Diagnostic> {
         let headline = format!("`{dotted}` is not a type of Rust or of the `schemas`");
         let found = NO_TYPE_NAME.at(headline, name.span(), "a type of another language");
         let found = match rust.is_empty() || has_schemas {
-            true => found,
+            true => {
+                found.helps(is_bytes(dotted).then_some("a gate without a type carries bytes: nothing after the colon"))
+            }
             false => found.did_you_mean(dotted, &[rust]),
         };
         return Some(
@@ -42,7 +44,7 @@ fn diagnose(name: &TypeName, has_schemas: bool) -> Option<Diagnostic> {
 }
 
 /// Scalars and other types of no shape in other languages, with the Rust types that correspond to them.
-const SCALARS: [(&str, &str); 33] = [
+const SCALARS: [(&str, &str); 46] = [
     ("double", "f64"),
     ("float", "f32"),
     ("float32", "f32"),
@@ -76,11 +78,29 @@ const SCALARS: [(&str, &str); 33] = [
     ("number", ""),
     ("list", ""),
     ("dict", ""),
+    ("bytes", ""),
+    ("bytearray", ""),
+    ("real", "f32"),
+    ("lreal", "f64"),
+    ("usint", "u8"),
+    ("sint", "i8"),
+    ("udint", "u32"),
+    ("dint", "i32"),
+    ("word", "u16"),
+    ("dword", "u32"),
+    ("decimal", ""),
+    ("integer", "i32"),
+    ("void", ""),
 ];
 
 /// Whether a word is a scalar of another language.
 pub(super) fn is_scalar(word: &str) -> bool {
     SCALARS.iter().any(|(other, _)| *other == word)
+}
+
+/// Whether a word means bytes of any meaning.
+pub(super) fn is_bytes(word: &str) -> bool {
+    matches!(word, "bytes" | "bytearray")
 }
 
 /// Whether a word in small letters is a type of Rust, which every file has in scope.

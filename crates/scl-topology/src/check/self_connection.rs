@@ -102,6 +102,12 @@ fn itself(draft: &Draft<'_>, link: usize, gate: usize, partners: &[usize]) -> Di
         let edit = Edit::new(place, draft.sources.quoted_as(place, &other));
         found.suggest(format!("write `[{path}, {other}]`"), [edit])
     });
+    let others = draft.gates[gate].uses > 2;
+    let removed = removal(draft.sources.file(model.span.file), model.span).filter(|_| others);
+    let found = match removed {
+        Some(removed) => found.suggest("remove this connection", [removed]),
+        None => found,
+    };
     found.otherwise("the two ends must be different gates")
 }
 

@@ -89,6 +89,23 @@ fn what_belongs_together_is_changed_together() {
             .replace("b.x", "node.x"),
         file("x: pub", "x: sub", "[a.x, b.x]; [ghost.y, b.x]")
             .replace("components:", "components:\n#  - name: ghost\n#    gates: [y: pub]"),
+        file("x: {pub: T}", "w: {pub: T}", "[a.x, b.w]; [b.w, c.in]")
+            .replace("connections:", "  - name: c\n    gates:\n      - in: {sub: T}\nconnections:"),
+        file("x: {sub: T, backpressure: true}", "x: {pub: T}", "[a.x, b.x]"),
+        file("x: {pub: T, share: true}", "x: {sub: T}; w: {sub: T}", "[a.x, b.x]; [a.x, b.w]"),
+        file("x: {req: T -> U, share: true}", "x: {rep: T -> U}", "[a.x, b.x]"),
+        file("x: {pub: T -> U}", "x: {sub: U}", "[a.x, b.x]"),
+        file("x: {pub: T}; w: pub", "x: a/x; w: sub", "[a.w, b.w]"),
+        file("x: {pub: T}", "x: {sub: T}", "[a.left.x, b.x]").replace("name: a", "name: a_left"),
+        file("x: {pub: T}", "x: {sub: T}", "[a.x, a.x]; [a.x, b.x]"),
+        file("x: {dealer: T -> U}", "x: {rep: T -> U}", "[a.x, b.x]"),
+        file("x: {pub: T}", "x: {sub: T}; w: {sub: T}", "[a.x, [b.x, b.w]]"),
+        file("x: {req: T -> None}", "x: {rep: T -> None}", "[a.x, b.x]"),
+        file("x: {push: T, when_full: wait}", "x: {pull: T}", "[a.x, b.x]"),
+        file("{topic: x, type: p.T}", "x: {sub: p.T}", "[a.x, b.x]"),
+        file("x: {pub: T, .codec = raw}", "x: {sub: T, codec: raw}", "[a.x, b.x]"),
+        file("x: {pub: T}", "x: {sub: T}", "[a.x, b.x]")
+            .replace("  - name: b", "#else\n  - name: a\n    gates: []\n#endif\n  - name: b"),
     ];
     let told: String = cases.iter().map(|yaml| format!("{}\n", advice(yaml))).collect();
     expect![[r#"
@@ -96,9 +113,9 @@ fn what_belongs_together_is_changed_together() {
         SCL0503 a connection end is written `component.gate` [write a connection for each gate: `[a.x, b.x]`]
         SCL0503 a connection end is written `component.gate` [write a connection for each gate: `[a.x_1, b.all]`, `[a.x_2, b.all]`]
         SCL0503 a connection end is written `component.gate` [write a connection for each gate, without `*`]
-        SCL0513 gate `a.x` pushes to two components, so each of them gets only a part of the messages [if they share the work, write `x: {push: T, backpressure: true, share: true}` | if both need every message, make the gates `pub` and `sub`]
+        SCL0513 gate `a.x` pushes to two components, so each of them gets only a part of the messages [if they share the work, write `x: {push: T, backpressure: true, share: true}` | if both need every message, make `a.x` a `pub` gate, and each of `b.x`, `b.w` a `sub` gate]
         SCL0215 `share` must be `true` or `false` [write `share: true`]
-        SCL0512 gate `a.x` asks two repliers [declare one `req` gate for each replier: `b_x`, `b_w`]
+        SCL0512 gate `a.x` asks two repliers [declare one `req` gate for each replier: `b_x`, `b_w` | or keep only one of these connections]
         SCL0601 2 connections of `a.x` use different message types at their two ends [give `a` one gate for each type: `t` and `u` | write `T` at `b.u`, `b.v`]
         SCL0302 component `a` declares gate `x` twice [remove one of the two]
         SCL0302 component `a` declares gate `x` twice [remove the first one, which has `queue: 1` | remove the second one, which has `queue: 2` | or give one of them another name]
@@ -114,6 +131,23 @@ fn what_belongs_together_is_changed_together() {
         SCL0506 a `pub` gate cannot be connected to a `req` gate [make `a.x` a `rep` gate | make `b.x` a `sub` gate]
         SCL0501 unknown component `node` [did you mean `b_node`? | or rename the component `b_node` to `node`]
         SCL0501 unknown component `ghost` [make comments of its connections, too | or declare the component `ghost` with the gate `y` (pub), or remove the connection]
+        SCL0505 both ends of this connection publish [a `pub` gate connects to a `sub` gate | connect `a.x` to `c.in` (sub) | make `a.x` a `sub` gate]
+        SCL0408 option `backpressure` is not available on a `sub` gate [write `backpressure: true` at `b.x` | remove it]
+        SCL0408 option `share` is not available on a `pub` gate [remove it | or make this a `push` gate, and each of `b.x`, `b.w` a `pull` gate]
+        SCL0408 option `share` is not available on a `req` gate [remove it]
+        SCL0404 a `pub` gate sends one type and gets no answer [write `U` alone, as at the other end]
+        SCL0401 unknown gate kind `a/x` [write `x: {sub: T}`, and add the connection `[a.x, b.x]`]
+        SCL0503 a connection end is written `component.gate` [write `a_left.x`]
+        SCL0507 gate `a.x` is connected to itself [remove this connection]
+        SCL0401 unknown gate kind `dealer` [two types are those of a request and its reply: write `req`]
+        SCL0211 an end of a connection is one gate; this is a list [write one connection for each pair:
+        - [a.x, b.x]
+        - [a.x, b.w]]
+        SCL0403 `None` cannot be a message type [request and reply are both messages; one without fields, `message Done {}`, says only that it came]
+        SCL0408 option `when_full` is not available on a `push` gate [write `backpressure: true` here, and `when_full: wait` at `b.x` | remove it]
+        SCL0210 a gate is written as `name: kind` [write `- x: {pub: p.T}`]
+        SCL0210 `=` stands where the `:` after `.codec` is expected [write `codec: raw`]
+        SCL0301 component `a` is declared twice [keep one of the two; the programs of a component are chosen in the launch file, by `profiles` | if they are one component, remove the second one; otherwise give it another name]
     "#]].assert_eq(&told);
 }
 

@@ -171,16 +171,22 @@ fn no_peer(draft: &Draft<'_>, gate: usize, kind: GateKind, fitting: &FittingGate
 }
 
 /// Suggests the connections to gates that fit, and the mark of a gate that is meant to be unconnected.
-fn with_ways(
-    draft: &Draft<'_>,
-    found: Diagnostic,
-    gate: usize,
-    kind: GateKind,
-    fitting: &FittingGates<'_>,
-) -> Diagnostic {
+fn with_ways(draft: &Draft<'_>, found: Diagnostic, gate: usize, kind: GateKind, fit: &FittingGates<'_>) -> Diagnostic {
     // A receiver or requester that has a peer already expects no other.
     let is_free = |at: &usize| kind == GateKind::Sub || kind == GateKind::Req || !draft.gates[*at].named;
-    let fitting: Vec<usize> = fitting.for_gate(draft, gate).into_iter().filter(is_free).collect();
+    let fitting: Vec<usize> = fit.for_gate(draft, gate).into_iter().filter(is_free).collect();
+    let found = match in_comment(draft, gate) {
+        Some(edit) => found.suggest("if it belongs to the comment above it, make it a comment, too", [edit]),
+        None => found,
+    };
+    let misled = fitting.iter().filter(|_| kind == GateKind::Sub);
+    let misled = misled.filter_map(|&other| Some((other, fit.misled(draft, other, gate)?)));
+    let found = misled.fold(found, |found, (other, (link, twin))| {
+        let place = draft.end_span(link, twin);
+        let (own, twin) = (draft.path(gate), draft.path(twin));
+        let help = format!("write `{own}` in place of `{twin}` in the connection with `{}`", draft.path(other));
+        found.suggest(help, [Edit::new(place, draft.sources.quoted_as(place, &own))]).label(place, "this may be meant")
+    });
     let found = fitting.iter().fold(found, |found, &other| {
         let pair = match kind.is_source() {
             true => format!("[{}, {}]", draft.path(gate), draft.path(other)),
@@ -199,8 +205,20 @@ fn with_ways(
     found.suggest("or write `unconnected: ok`, if that is intended", [mark])
 }
 
+/// The change that makes a comment of a gate right below `# gates:`, which belongs to a component in the comment.
+fn in_comment(draft: &Draft<'_>, gate: usize) -> Option<Edit> {
+    let place = draft.gates[gate].model.span;
+    let file = draft.sources.file(place.file);
+    let line = file.line_range(place.start as usize);
+    let above = file.text().get(..line.start)?.lines().next_back()?.trim();
+    let dash = file.text().get(line.start..place.start as usize)?.strip_suffix("- ")?.len() + line.start;
+    let is_alone = file.text().get(place.end as usize..line.end)?.trim().is_empty();
+    let is_gates = above.starts_with('#') && above.trim_start_matches(['#', ' ']) == "gates:";
+    (is_alone && is_gates).then(|| Edit::new(file.span(dash..dash), "# "))
+}
+
 /// The change that adds a line below the last connection, if each has a line of its own.
-fn new_connection(draft: &Draft<'_>, pair: &str) -> Option<Edit> {
+pub(super) fn new_connection(draft: &Draft<'_>, pair: &str) -> Option<Edit> {
     let last = draft.model.connections.last()?.span;
     let file = draft.sources.file(last.file);
     let line = file.line_range(last.start as usize);
@@ -220,8 +238,52 @@ pub(super) fn type_text(draft: &Draft<'_>, gate: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::{LONELY_COMPONENT, NO_RECEIVER, NO_REPLIER, NO_REQUESTER, NO_SENDER};
-    use crate::check::testing::rule_example;
+    use crate::check::testing::{example, rule_example};
     use expect_test::expect;
+
+    #[test]
+    fn the_gate_that_may_be_meant() {
+        let gates = "components:\n  - name: a\n    gates:\n      - x_1: {pub: T}\n      - x_2: {pub: T}\n  \
+                     - name: b\n    gates:\n      - x: {sub: T}\n";
+        let connections = "connections:\n  - [a.x_1, b.x]\n  - [a.x_2, b.x]\n";
+        let twin = "  - name: c\n    gates:\n      - x: {sub: T}\n";
+        example(
+            "SCL0702",
+            &format!("{gates}{twin}{connections}"),
+            expect![[r#"
+            warning: [SCL0702] gate `c.x` is not connected; it will never receive a message
+              --> topology.yaml:11:9
+               |
+            11 |       - x: {sub: T}
+               |         ^
+            ...
+            14 |   - [a.x_2, b.x]
+               |             --- this may be meant
+               |
+               = help: write `c.x` in place of `b.x` in the connection with `a.x_2`
+               = help: add the connection `[a.x_1, c.x]`
+               = help: add the connection `[a.x_2, c.x]`
+               = help: or write `unconnected: ok`, if that is intended
+        "#]],
+        );
+        let in_comment = "  # - name: c\n  #   gates:\n      - y: {sub: T}\n";
+        example(
+            "SCL0702",
+            &format!("{gates}{in_comment}{connections}"),
+            expect![[r#"
+            warning: [SCL0702] gate `b.y` is not connected; it will never receive a message
+              --> topology.yaml:11:9
+               |
+            11 |       - y: {sub: T}
+               |         ^
+               |
+               = help: if it belongs to the comment above it, make it a comment, too
+               = help: add the connection `[a.x_1, b.y]`
+               = help: add the connection `[a.x_2, b.y]`
+               = help: or write `unconnected: ok`, if that is intended
+        "#]],
+        );
+    }
 
     #[test]
     fn publisher_without_subscribers() {

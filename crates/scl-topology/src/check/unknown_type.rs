@@ -1,13 +1,14 @@
 //! What is said about types that no schema declares.
 
 use super::draft::Draft;
-use super::rust_path::is_scalar;
+use super::rust_path::{is_bytes, is_scalar};
 use super::schema_names::{Known, Unknown};
 use super::schema_package::{by_mistake, retyped, with_places, wrong_package};
 use crate::diagnostic::{Diagnostic, Rule};
 use crate::source::Span;
 use crate::topology::Payload;
 use scl_text::list::listed;
+use scl_text::suggest::bare;
 use std::collections::{HashMap, HashSet};
 
 /// What the reports of a file need.
@@ -74,11 +75,19 @@ impl<'r> Report<'r> {
             found.doubt();
         }
         let is_value = is_enum || is_built_in || is_scalar(dotted);
+        let found = match is_bytes(dotted) && group.iter().all(|one| self.is_only_type(one)) {
+            true => found.suggest("write nothing after the colon: a gate without a type carries bytes", all("")),
+            false => found,
+        };
         let found = match partner.filter(|(message, _)| !meant.contains(message)) {
             Some((message, peer)) => found.suggest(format!("write `{message}`, as at `{peer}`"), all(message)),
-            None => match if is_value && meant.is_empty() { self.only_unused() } else { None } {
-                Some(unused) => found.suggest(format!("write `{unused}`, which no gate carries yet"), all(unused)),
-                None => found,
+            None if !is_value || !meant.is_empty() => found,
+            None => match (self.namesake(first), self.only_unused()) {
+                (Some(name), _) => found.suggest(format!("write `{name}`, which has the name of the gate"), all(name)),
+                (None, Some(unused)) => {
+                    found.suggest(format!("write `{unused}`, which no gate carries yet"), all(unused))
+                }
+                (None, None) => found,
             },
         };
         let is_path = !self.known.has_root(dotted) && !is_scalar(dotted) && !is_enum;
@@ -102,6 +111,19 @@ impl<'r> Report<'r> {
         let [only] = meant else { return None };
         let entry = self.draft.model.schemas.get(*self.known.all.get(only)?)?;
         Some((entry.span, format!("declares `{only}`")))
+    }
+
+    /// Whether a type is the only one of its gate.
+    fn is_only_type(&self, unknown: &Unknown<'_>) -> bool {
+        let written = self.draft.gates[unknown.gate].model.payload.as_ref();
+        written.is_some_and(|written| written.value.trim() == unknown.name.dotted())
+    }
+
+    /// The message with the name of the gate.
+    fn namesake(&self, unknown: &Unknown<'_>) -> Option<&str> {
+        let gate = bare(&self.draft.gates[unknown.gate].model.name.value);
+        let last = |name: &str| bare(name.rsplit('.').next().unwrap_or(name));
+        self.known.all.keys().find(|name| last(name) == gate).copied()
     }
 
     /// The message that no gate carries, if there is only one.
@@ -144,6 +166,7 @@ mod tests {
             ["double", "", "uav.Command"],
             ["uva.Status", "uva.Status", "uva.Command"],
             ["Status", "Status", "Command"],
+            ["bytes", "bytes", "uav.Command"],
         ];
         let told = |types: [&str; 3]| format!("{}: {}\n", types.join(", "), told(types));
         expect![[r#"
@@ -158,6 +181,7 @@ mod tests {
             double, , uav.Command: unknown message type `double` [write `uav.Status`, which no gate carries yet]
             uva.Status, uva.Status, uva.Command: the `schemas` declare these types in the package `uav`, not `uva` [write the other package: `uav.Command`, `uav.Status`]
             Status, Status, Command: the `schemas` declare these types in the package `uav` [write their package: `uav.Command`, `uav.Status`]
+            bytes, bytes, uav.Command: unknown message type `bytes` [write nothing after the colon: a gate without a type carries bytes | write `uav.Status`, which no gate carries yet]
         "#]].assert_eq(&cases.map(told).concat());
     }
 }

@@ -2,8 +2,7 @@
 
 use super::draft::Draft;
 use super::end::End;
-use crate::diagnostic::{Diagnostic, Edit};
-use crate::source::Span;
+use crate::diagnostic::{Diagnostic, Edit, separator};
 use scl_text::list::listed;
 
 /// Maximum number of connections that a proposal writes.
@@ -18,7 +17,7 @@ pub(super) fn written_out(draft: &mut Draft<'_>, found: Diagnostic, [link, end]:
         pairs.iter().map(|[a, b]| format!("[{}, {}]", draft.path(*a), draft.path(*b))).collect();
     pairs.into_iter().flatten().for_each(|gate| draft.gates[gate].named = true);
     let place = draft.links[link].model.span;
-    match separator(draft, place).filter(|_| (1..=MOST).contains(&connections.len())) {
+    match separator(draft.sources.file(place.file), place).filter(|_| (1..=MOST).contains(&connections.len())) {
         Some(separator) => {
             let help = format!("write a connection for each gate: {}", listed(&connections));
             found.suggest(help, [Edit::new(place, connections.join(&separator))])
@@ -77,15 +76,4 @@ fn matches(pattern: &str, name: &str) -> bool {
         }
         None => false,
     })
-}
-
-/// What stands between two connections, at the place of one.
-fn separator(draft: &Draft<'_>, place: Span) -> Option<String> {
-    let file = draft.sources.file(place.file);
-    let line = file.line_range(place.start as usize);
-    let head = file.text().get(line.start..place.start as usize)?;
-    match head.strip_suffix("- ") {
-        Some(indent) if indent.trim().is_empty() => Some(format!("\n{indent}- ")),
-        _ => head.trim_end().ends_with(['[', ',']).then(|| ", ".to_owned()),
-    }
 }

@@ -45,6 +45,16 @@ pub fn new_list(source: &SourceFile, below: &str, within: Span, key: &str, item:
     Some((format!("add `{section}`"), Edit::new(span, format!("{section}\n"))))
 }
 
+/// What stands between two items of the list that has an item here. `None` if the item shares its line with a key.
+pub fn separator(source: &SourceFile, item: Span) -> Option<String> {
+    let line = source.line_range(item.start as usize);
+    let head = source.text().get(line.start..item.start as usize)?;
+    match head.strip_suffix("- ") {
+        Some(indent) if indent.trim().is_empty() => Some(format!("\n{indent}- ")),
+        _ => head.trim_end().ends_with(['[', ',']).then(|| ", ".to_owned()),
+    }
+}
+
 /// Whether a path needs no quotes in a list.
 fn is_plain(item: &str) -> bool {
     let is_letter = |letter: char| letter.is_alphanumeric() || matches!(letter, '_' | '-' | '.' | '/');

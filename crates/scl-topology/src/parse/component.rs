@@ -193,6 +193,7 @@ impl Reader<'_> {
             self.has_stray_connections = true;
             self.read_connections(field);
         }
+        self.model.components_unread |= field.key == "components";
         let owner = &component.name.value;
         let problem = shape::level::in_component(field, owner, self.source)
             .unwrap_or_else(|| shape::unknown_key::of_component(field, owner, self.last_connection, self.source));

@@ -68,6 +68,10 @@ impl Reader<'_> {
                 None => items.iter().for_each(|item| self.remember_broken_ends(item)),
             };
         };
+        if let Some(problem) = shape::ends::branched(span, [first, second], self.source) {
+            self.report(problem);
+            return self.remember_broken_ends(item);
+        }
         match (self.end(first), self.end(second)) {
             (Some(first), Some(second)) => {
                 self.model.connections.push(ConnectionModel { ends: [first, second], span });

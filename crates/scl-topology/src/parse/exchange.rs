@@ -1,7 +1,8 @@
 //! The two types of a `req` or `rep` gate in the notation of other languages.
 
 /// Words that stand before or between two types.
-const WORDS: [&str; 10] = ["returns", "return", "to", "and", "stream", "rpc", "yields", "gives", "then", "into"];
+const WORDS: [&str; 11] =
+    ["returns", "return", "to", "and", "stream", "repeated", "rpc", "yields", "gives", "then", "into"];
 
 /// Two types with something else than `->` between them.
 pub(super) struct Odd {
@@ -9,6 +10,8 @@ pub(super) struct Odd {
     pub(super) mark: String,
     /// The types with `->` between them, in the most likely order first.
     pub(super) ways: Vec<String>,
+    /// The reply is marked as a stream of replies.
+    pub(super) is_stream: bool,
 }
 
 /// Something between two types that stands for `->`: `A => B`, `A -&gt; B`, `(A) returns (B)`, `A, B`. In `B f(A)` and
@@ -20,8 +23,7 @@ pub(super) fn odd_arrow(payload: &str) -> Option<Odd> {
     if is_right && text == payload || is_generic {
         return None;
     }
-    let words = text.split(|letter: char| !is_part(letter)).map(|word| word.trim_matches([':', '/']));
-    let words: Vec<&str> = words.filter(|word| !word.is_empty() && !WORDS.contains(word)).collect();
+    let words: Vec<&str> = words_of(&text).filter(|word| !WORDS.contains(word)).collect();
     let [request, reply] = match words.as_slice() {
         [request, reply] => [*request, *reply],
         [only] => glued(only)?,
@@ -39,7 +41,13 @@ pub(super) fn odd_arrow(payload: &str) -> Option<Odd> {
     if is_call || matches!(mark.as_str(), "<-" | "<=" | "<--" | "←" | "⇐") {
         ways.insert(0, format!("{reply} -> {request}"));
     }
-    Some(Odd { mark, ways })
+    let is_stream = words_of(&text).any(|word| matches!(word, "stream" | "repeated"));
+    Some(Odd { mark, ways, is_stream })
+}
+
+fn words_of(text: &str) -> impl Iterator<Item = &str> {
+    let words = text.split(|letter: char| !is_part(letter)).map(|word| word.trim_matches([':', '/']));
+    words.filter(|word| !word.is_empty())
 }
 
 /// `rover.Command/rover.Status`: two names with a dot each.
@@ -80,6 +88,7 @@ mod tests {
         for text in texts {
             let meant = odd_arrow(text).map(|odd| odd.ways.join(", ").replace("a.", ""));
             assert_eq!(meant.as_deref(), Some("A -> B"), "{text}");
+            assert_eq!(odd_arrow(text).map(|odd| odd.is_stream), Some(text.contains("stream")), "{text}");
         }
         for text in ["A -> B", "A", "a.A", "Map<K, V>", "a::A", "pkg/msg/A", "A -> B -> C", "A ->", ""] {
             assert!(odd_arrow(text).is_none(), "{text}");

@@ -52,8 +52,8 @@ impl Reader<'_> {
         }
         let fields = self.fields(entries, "this gate");
         component.gates_unread |= fields.damaged;
-        if let Some([name, kind]) = shape::gate::long_form(&fields) {
-            self.report(shape::gate::written_long(item, &fields, self.source));
+        if let Some([name, kind]) = shape::long_gate::parts(&fields) {
+            self.report(shape::long_gate::diagnose(item, &fields, self.source));
             let gate = name.zip(kind).map(|(name, kind)| bare_gate(name, kind, item.span));
             return component.gates.extend(gate.map(|gate| self.read_long_gate(gate, &fields)));
         }
@@ -88,7 +88,8 @@ impl Reader<'_> {
     /// `{name: measurements, kind: pub, type: Fix, queue: 4}`: type and options.
     fn read_long_gate(&mut self, mut gate: GateModel, fields: &Fields<'_>) -> GateModel {
         let is_type = |field: &&Field<'_>| habits::of_key(habits::GATE, field.key).is_some_and(|habit| habit.is_type());
-        let of_type = fields.list.iter().filter(|_| fields.get("kind").is_some()).find(is_type);
+        let of_type = fields.list.iter().filter(|_| !gate.kind.value.is_empty() && fields.get("kind").is_some());
+        let of_type = of_type.clone().find(is_type);
         gate.payload = of_type.and_then(|field| scalar(field.value));
         for option in fields.list.iter().filter(|field| is_option(field.key)) {
             gate.options.extend(self.option(*option, GateKind::of(&gate.kind.value)));

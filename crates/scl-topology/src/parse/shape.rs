@@ -4,6 +4,7 @@ pub(super) mod ends;
 pub(super) mod gate;
 mod habit;
 pub(super) mod level;
+pub(super) mod long_gate;
 pub(super) mod missing;
 mod moved;
 pub(super) mod nameless;

@@ -63,8 +63,9 @@ pub(super) fn glued_keys<'n>(fields: &Fields<'n>) -> Vec<(Field<'n>, &'n str, &'
         if !field.value.is_null() || word.len() == field.key.len() || !field.key_node.is_plain() {
             return None;
         }
-        match is_kind(word) || is_option(word) {
-            true => Some(word),
+        let bare = word.trim_start_matches(['.', '-', '$']);
+        match is_kind(bare) || is_option(bare) {
+            true => Some(bare),
             false if !field.key.contains('=') => None,
             false => habits::of_key(habits::GATE, word)?.ways.first().copied().filter(|way| is_option(way)),
         }

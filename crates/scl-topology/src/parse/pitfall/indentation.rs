@@ -54,7 +54,7 @@ pub(in crate::parse) fn find(error: &SyntaxError, text: &str, source: &SourceFil
         if !scan::scan(text.get(line.start..error.at)?).open_brackets.is_empty() {
             return None;
         }
-        return Some(list_without_key(first, key, source));
+        return Some(list_without_key(first, key, text, source));
     }
     let item = above.iter().rev().find(|level| level.is_dash && first.is_dash);
     if let Some(item) = item.filter(|item| item.indent < first.indent) {
@@ -283,11 +283,24 @@ fn has_value(level: &Level, text: &str, source: &SourceFile) -> bool {
 }
 
 /// A list below a line that has a value already.
-fn list_without_key(item: &Level, above: &Level, source: &SourceFile) -> Diagnostic {
+fn list_without_key(item: &Level, above: &Level, text: &str, source: &SourceFile) -> Diagnostic {
     let span = source.span(item.word.clone());
-    RULE.at("this list belongs to no key", span, "indented deeper than the line above")
-        .label(source.span(above.word.clone()), "this key has a value already")
-        .help("a list stands below its own key, which has nothing after its colon")
+    let problem = RULE.at("this list belongs to no key", span, "indented deeper than the line above");
+    let problem = problem.label(source.span(above.word.clone()), "this key has a value already");
+    let line = source.line_range(item.word.start);
+    let below = source.line_below(line.end);
+    let (written, key) = (&text[line.clone()], &text[below.clone()]);
+    let is_key = key.trim_end().ends_with(':') && key.len() - key.trim_start().len() == above.indent;
+    // Right below a name, it may be the last one of the list above.
+    let is_first =
+        text[..line.start].trim_end().lines().next_back().is_some_and(|above| above.trim().starts_with("- "));
+    match is_key && !is_first && written.contains(": ") {
+        true => problem.suggest(
+            format!("move it below `{}`", key.trim()),
+            [Edit::new(source.span(line), key), Edit::new(source.span(below), written)],
+        ),
+        false => problem.help("a list stands below its own key, which has nothing after its colon"),
+    }
 }
 
 fn diagnose(

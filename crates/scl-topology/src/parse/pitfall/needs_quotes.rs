@@ -28,6 +28,10 @@ pub(in crate::parse) const KEY: &str = "doc";
 /// Characters that cannot start a text without quotes.
 const RESERVED: &str = "[]{}*&!|>%@`,?#";
 
+/// Quotes that a text may stand in, also those of word processors, with the ones that close it.
+const QUOTES: [(char, char); 8] =
+    [('"', '"'), ('\'', '\''), ('`', '`'), ('“', '”'), ('„', '“'), ('‘', '’'), ('«', '»'), ('»', '«')];
+
 /// Maximum length of a text that a help repeats, in characters.
 const MOST_SHOWN: usize = 160;
 
@@ -199,14 +203,14 @@ fn end_of_quoted(written: &str, quote: char) -> Option<usize> {
 
 /// A text, perhaps in the wrong quotes, in the right ones.
 pub(in crate::parse) fn quoted(written: &str) -> String {
-    let is_code = written.starts_with('`') && written.matches('`').count() == 2;
-    let quote = written.chars().next().filter(|first| matches!(first, '"' | '\'') || is_code);
-    let inner = quote.and_then(|quote| {
-        let inner = written[1..].strip_suffix(quote)?;
-        Some(match quote {
-            '`' => inner.to_owned(),
+    let inner = written.chars().next().and_then(|quote| {
+        let (_, end) = QUOTES.iter().find(|(start, _)| *start == quote)?;
+        let inner = written[quote.len_utf8()..].strip_suffix(*end)?;
+        let is_whole = matches!(quote, '"' | '\'') || !inner.contains([quote, *end]);
+        is_whole.then(|| match quote {
             '"' => inner.replace("\\\"", "\"").replace("\\\\", "\\"),
-            _ => inner.replace("\\'", "'").replace("''", "'"),
+            '\'' => inner.replace("\\'", "'").replace("''", "'"),
+            _ => inner.to_owned(),
         })
     });
     let text = inner.unwrap_or_else(|| written.to_owned());
@@ -259,6 +263,9 @@ mod tests {
             ("%d", "%d"),
             ("- item", "- item"),
             ("`Steers`", "Steers"),
+            ("“Controller: steers”", "Controller: steers"),
+            ("„Controller: steers“", "Controller: steers"),
+            ("“Controller”: “steers”", "“Controller”: “steers”"),
         ] {
             let block = format!("components:\n  - name: a\n    doc: {written}\n    gates: []\nconnections: []\n");
             let flow = format!("components:\n  - {{name: a, doc: {written}, gates: []}}\nconnections: []\n");

@@ -63,6 +63,8 @@ fn marks_of_other_notations() {
         queue: ${DEPTH}: SCL0131 `${DEPTH}` is a placeholder, and this file is read as it is [write the value itself here, or check the file in which the tool has filled it in]
         queue: $(arg depth): SCL0131 `$(arg depth)` is a placeholder, and this file is read as it is [write the value itself here, or check the file in which the tool has filled it in]; SCL0131 `$(arg depth)` is a placeholder, and this file is read as it is [write the value itself here, or check the file in which the tool has filled it in]
         [sensor.value, #user: SCL0102 this `#` starts a comment, so `]` behind it closes nothing [if `user.value` belongs to the list, remove `#`]
+        [&sensor.value: SCL0111 `&` before a name is not supported in a topology [write `sensor.value`, without `&`]
+        connections:\n  - [sensor.value[0], user.value]\n: SCL0131 `value[0]` is not a name: names have no brackets [write `value0` | write `value_0` | write `value-0`]
     "#]].assert_eq(&all(&[
         ("connections:", "[connections]"),
         ("connections:", "[links]"),
@@ -76,6 +78,8 @@ fn marks_of_other_notations() {
         ("queue: 1", "queue: ${DEPTH}"),
         ("queue: 1", "queue: $(arg depth)"),
         ("[sensor.value, user", "[sensor.value, #user"),
+        ("[sensor.value", "[&sensor.value"),
+        ("connections:\n", "connections:\n  - [sensor.value[0], user.value]\n"),
     ]));
 }
 
@@ -88,6 +92,11 @@ fn lines_of_a_text() {
         \"C:\\Users\\rover\": SCL0130 `\U` in double quotes starts an escape [!write `'C:\Users\rover'`: in single quotes, a backslash has no meaning]
           this is the user\n  - name: user: SCL0125 this line is neither a key nor a list item [if it is a comment, write `# this is the user`]
         and the rest\nconnections:: SCL0125 this line is neither a key nor a list item [if it is a comment, write `# and the rest`]
+        34    Rovers and more\nconnections:: SCL0125 this line is neither a key nor a list item [if it is a comment, write `# 34    Rovers and more`]
+        doc：Reads: SCL0127 `：` (U+FF1A) is a fullwidth colon, not `:` [!write `doc: Reads the bus.`]
+        “Bus: reads it.”: SCL0130 a text with `: ` in it needs quotes [!put the whole text in quotes: `doc: "Bus: reads it."`]
+        components:\n  (* the bus *)\n: SCL0131 `(*` starts a comment in Structured Text and Pascal; in YAML, `#` does [!write `# the bus`]
+              - value: {pub: A.V}\n    gates:\n: SCL0105 this list belongs to no key [move it below `gates:`]
     "#]].assert_eq(&all(&[
         ("Reads the bus.", "|\n    Reads the bus: often.\n    And more."),
         ("Reads the bus.", "> Reads the bus.\n      And more."),
@@ -95,7 +104,23 @@ fn lines_of_a_text() {
         ("rover", "\"C:\\Users\\rover\""),
         ("  - name: user", "  this is the user\n  - name: user"),
         ("connections:", "and the rest\nconnections:"),
+        ("connections:", "34    Rovers and more\nconnections:"),
+        ("doc: Reads", "doc：Reads"),
+        ("Reads the bus.", "“Bus: reads it.”"),
+        ("components:\n", "components:\n  (* the bus *)\n"),
+        ("    gates:\n      - value: {pub: A.V}\n", "      - value: {pub: A.V}\n    gates:\n"),
     ]));
+}
+
+#[test]
+fn elements_of_arrays() {
+    let array = SOUND.replace("- state: {pub: A.S}", "- phase[2]: {pub: A.S}");
+    let used = array.replace("sensor.state", "sensor.phase[1]");
+    let outside = array.replace("sensor.state", "sensor.phase[2]");
+    expect![[r#"
+        SCL0131 `phase[2]` is not a name: names have no brackets [declare each of them, and use these names: `phase_0`, `phase_1` | write `phase2`, and the same on line 14 | write `phase_2`, and the same on line 14 | write `phase-2`, and the same on line 14]
+        SCL0131 `phase[2]` is not a name: names have no brackets [write `phase2`, and the same on line 14 | write `phase_2`, and the same on line 14 | write `phase-2`, and the same on line 14]
+    "#]].assert_eq(&[used, outside].map(|text| format!("{}\n", advice(&text))).concat());
 }
 
 #[test]

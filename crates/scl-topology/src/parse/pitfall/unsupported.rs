@@ -2,6 +2,7 @@
 //! tag. SCL0114: more than one document. SCL0118: a directive, such as `%YAML 1.1`.
 
 mod merged;
+mod not_an_anchor;
 mod written_out;
 
 use super::needs_quotes;
@@ -40,7 +41,8 @@ const EXPLAINED: usize = 20;
 pub(super) fn check_anchors(tree: &Tree, source: &SourceFile, problems: &mut Diagnostics) {
     for (number, anchor) in tree.anchors.iter().enumerate() {
         let root = tree.root.as_ref().filter(|_| number < EXPLAINED);
-        problems.push(text_of(anchor, source).unwrap_or_else(|| diagnose_anchor(anchor, root, source)));
+        let other = not_an_anchor::text(anchor, source).or_else(|| not_an_anchor::reference(anchor, source));
+        problems.push(other.unwrap_or_else(|| diagnose_anchor(anchor, root, source)));
     }
 }
 
@@ -61,16 +63,6 @@ pub(super) fn check_aliases(tree: &Tree, source: &SourceFile, problems: &mut Dia
             .help("write the values out")
             .note(format!("together they may expand to at most {MOST_REPEATED} values"))
     }));
-}
-
-/// `doc: *bold* words`, where `*` or `&` is part of a text.
-fn text_of(anchor: &Anchor, source: &SourceFile) -> Option<Diagnostic> {
-    let start = match (anchor.definition, anchor.aliases.as_slice()) {
-        (Some(definition), []) => definition,
-        (None, [alias]) => *alias,
-        _ => return None,
-    };
-    needs_quotes::at_start(start, source)
 }
 
 fn diagnose_anchor(anchor: &Anchor, root: Option<&Node>, source: &SourceFile) -> Diagnostic {

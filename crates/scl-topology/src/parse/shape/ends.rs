@@ -1,8 +1,8 @@
 //! SCL0211: a connection that is not a pair of ends.
 
 use crate::confusable;
-use crate::diagnostic::{Diagnostic, Edit, Rule, Severity, removal};
-use crate::parse::{scalar, shape_word, with_dash};
+use crate::diagnostic::{Diagnostic, Edit, Rule, Severity, removal, separator};
+use crate::parse::{scalar, shape_word};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
 
@@ -144,25 +144,16 @@ fn with_connections<E: AsRef<str>>(
     pairs: &[(E, E)],
     source: &SourceFile,
 ) -> Diagnostic {
-    if source.snippet(span).contains('#') {
+    let Some(separator) = separator(source, span).filter(|_| !source.snippet(span).contains('#')) else {
         return problem;
-    }
+    };
     let pairs: Vec<String> =
         pairs.iter().map(|(one, other)| format!("[{}, {}]", one.as_ref(), other.as_ref())).collect();
     let text = match pairs.as_slice() {
         [only] => format!("write `{only}`"),
         pairs => format!("write one connection for each pair:\n- {}", pairs.join("\n- ")),
     };
-    problem.suggest(text, [Edit::new(span, pairs.join(&separator(span, source)))])
-}
-
-/// What stands between two items of the list that has an item here.
-pub(in crate::parse) fn separator(item: Span, source: &SourceFile) -> String {
-    let dash = with_dash(item, source);
-    match dash.start == item.start {
-        true => ", ".to_owned(),
-        false => format!("\n{}- ", " ".repeat(source.column(dash.start))),
-    }
+    problem.suggest(text, [Edit::new(span, pairs.join(&separator))])
 }
 
 /// `[sensor.measurements controller.sensor]`: two ends with no comma, or with something else, between them.
@@ -286,6 +277,24 @@ pub(in crate::parse) fn end_is_not_text(node: &Node) -> Diagnostic {
         Some(end) => problem.propose(format!("write `{end}`"), [Edit::new(node.span, end)]),
         None => problem,
     }
+}
+
+/// `[a.b, [c.d, e.f]]`, where one end is a list of gates, and the problem with the connections that are meant.
+pub(in crate::parse) fn branched(span: Span, ends: [&Node; 2], source: &SourceFile) -> Option<Diagnostic> {
+    let gates = |node: &Node| -> Option<Vec<String>> {
+        let NodeKind::Sequence { items } = &node.kind else { return scalar(node).map(|end| vec![end.value]) };
+        let names: Vec<String> = items.iter().map(|item| scalar(item).map(|name| name.value)).collect::<Option<_>>()?;
+        names.iter().all(|name| name.contains('.')).then_some(names)
+    };
+    let [first, second] = [gates(ends[0])?, gates(ends[1])?];
+    let list = ends.into_iter().find(|end| matches!(end.kind, NodeKind::Sequence { .. }))?;
+    let pairs: Vec<(&String, &String)> =
+        first.iter().flat_map(|one| second.iter().map(move |other| (one, other))).take(MOST_PAIRS + 1).collect();
+    let problem = RULE.at("an end of a connection is one gate; this is a list", list.span, "");
+    Some(match (1..=MOST_PAIRS).contains(&pairs.len()) {
+        true => with_connections(problem, span, &pairs, source),
+        false => problem.help(FORM),
+    })
 }
 
 /// The end that a value stands for: `a.b`, `{a: b}`, `{component: a, gate: b}` or `[a, b]`.

@@ -10,7 +10,7 @@ use crate::parse::exchange::Odd;
 use crate::parse::field::{Field, Fields};
 use crate::parse::scalar;
 use crate::parse::words::{is_kind, is_option};
-use crate::source::{SourceFile, Span, Spanned};
+use crate::source::{SourceFile, Span};
 use crate::suggest;
 use crate::topology::GateKind;
 use crate::yaml::{Node, NodeKind};
@@ -92,6 +92,16 @@ pub(in crate::parse) fn odd_arrow(kind: Field<'_>, types: Span, odd: &Odd) -> Di
     };
     let ways: Vec<String> = odd.ways.iter().map(|meant| format!("{}: {meant}", kind.key)).collect();
     let edits = odd.ways.iter().map(|meant| Edit::new(types, meant));
+    if odd.is_stream {
+        let problem = RULE.at("a request has one reply, not a stream of them", types, "");
+        let single = ways
+            .iter()
+            .zip(edits)
+            .fold(problem, |problem, (way, edit)| problem.suggest(format!("write `{way}`, if one is enough"), [edit]));
+        return single
+            .help("for several at once, name a message with a `repeated` field of them")
+            .help("for one after the other, use a `pub` gate or a `push` gate beside the request");
+    }
     RULE.at(message, types, "expected the request, `->` and the reply")
         .choose(("write ", ""), ways.iter().map(String::as_str).zip(edits))
 }
@@ -190,7 +200,7 @@ pub(in crate::parse) fn kind_and_type(gate: Field<'_>, value: &str) -> Option<Di
 }
 
 /// The kind that a word is, also in the words of other tools.
-fn known_kind(word: &str) -> Option<&'static str> {
+pub(super) fn known_kind(word: &str) -> Option<&'static str> {
     match suggest::kind(word).as_slice() {
         [kind] => Some(kind),
         _ => GateKind::of(word).map(GateKind::word),
@@ -243,43 +253,6 @@ pub(in crate::parse) fn kind_as_key(gate: Field<'_>, fields: &Fields<'_>, source
     Some(problem.propose(format!("write `{}: {{{}}}`", gate.key, written.trim_end()), edits))
 }
 
-/// Name and kind of `{name: measurements, kind: pub}`; none if the item is written otherwise.
-pub(in crate::parse) fn long_form(fields: &Fields<'_>) -> Option<[Option<Spanned<String>>; 2]> {
-    let name = fields.get("name")?;
-    let kind = fields.get("kind").or_else(|| fields.get("type"))?;
-    Some([scalar(name.value), scalar(kind.value)])
-}
-
-/// `- name: measurements` with `kind: pub` beside it.
-pub(in crate::parse) fn written_long(item: &Node, fields: &Fields<'_>, source: &SourceFile) -> Diagnostic {
-    const FORM: &str = "a gate is written `name: kind`, or `name: {kind: type, option: value}`";
-    let value = |key: &str| fields.get(key).and_then(|field| field.value.text());
-    let at = fields.list.first().map_or(item.span, |field| field.key_span);
-    let problem = RULE.at("a gate is written as `name: kind`", at, "the name itself is the key").note(kinds());
-    let (Some(name), Some(kind)) = (value("name"), value("kind").or(value("type"))) else { return problem.help(FORM) };
-    let is_type = |field: &&Field<'_>| habits::of_key(habits::GATE, field.key).is_some_and(|habit| habit.is_type());
-    let of_type = fields.list.iter().filter(|_| value("kind").is_some()).find(is_type);
-    let is_other = |field: &&Field<'_>| !matches!(field.key, "name" | "kind") && !is_type(field);
-    let options: String = fields
-        .list
-        .iter()
-        .filter(is_other)
-        .map(|field| format!(", {}: {}", field.key, source.snippet(field.value.span)))
-        .collect();
-    let payload = of_type.and_then(|field| field.value.text()).unwrap_or("");
-    if source.snippet(item.span).contains('#') || options.contains('\n') {
-        return problem.help(FORM);
-    }
-    let kind = known_kind(kind).unwrap_or(kind);
-    let gate = match (payload, options.as_str()) {
-        ("", "") => format!("{name}: {kind}"),
-        _ => format!("{name}: {{{kind}: {payload}{options}}}"),
-    };
-    let is_flow = source.snippet(item.span).starts_with('{');
-    let written = if is_flow { format!("{{{gate}}}") } else { gate.clone() };
-    problem.propose(format!("write `- {gate}`"), [Edit::new(item.span, written)]).otherwise(FORM)
-}
-
 /// Two names in one list item; there is at least one other.
 pub(in crate::parse) fn several_in_one_item(
     first: Field<'_>,
@@ -326,7 +299,7 @@ pub(in crate::parse) fn is_list(item: &Node) -> Diagnostic {
     problem.suggest(format!("write `- {gate}`"), [Edit::new(item.span, gate)])
 }
 
-fn kinds() -> String {
+pub(super) fn kinds() -> String {
     format!("kinds: {}", quoted_list(GateKind::ALL.map(GateKind::word)))
 }
 

@@ -68,6 +68,11 @@ pub(in crate::parse) fn in_component(field: Field<'_>, component: &str, source: 
     if SECTIONS.contains(&key) {
         let message = format!("`{key}` belongs at the top level, not inside component `{component}`");
         let problem = problem(message, field.key_span, source);
+        if key == "components" {
+            return Some(
+                problem.help("components are not nested: each of them is an item of the one list `components`"),
+            );
+        }
         let whole = field.key_span.to(field.value.span);
         let edits = shift::outdented(whole, source.column(whole.start), true, source).filter(|edits| !edits.is_empty());
         return Some(match edits {

@@ -1,8 +1,8 @@
 //! `inputs: {image: camera.image}` of a component: gates and connections in one, as other tools write them.
 
-use super::ends::{separator, with_dot};
+use super::ends::with_dot;
 use super::reference::is_type;
-use crate::diagnostic::{Diagnostic, Edit};
+use crate::diagnostic::{Diagnostic, Edit, separator};
 use crate::habits::Habit;
 use crate::parse::field::Field;
 use crate::source::{SourceFile, Span};
@@ -29,11 +29,10 @@ pub(super) fn with_gates(
     let gates = format!("gates: [{}]", gates.join(", "));
     let pairs: Vec<String> = ports.iter().filter_map(|port| port.pair(component)).collect();
     let gates_edit = Edit::new(whole, gates.clone());
-    match last {
+    match last.and_then(|last| Some((last, separator(source, last)?))) {
         _ if pairs.is_empty() => problem.suggest(format!("write `{gates}`"), [gates_edit]),
         None => problem.help(format!("write `{gates}`, and in `connections` {}", quoted_list(&pairs))),
-        Some(last) => {
-            let separator = separator(last, source);
+        Some((last, separator)) => {
             let end = match separator.starts_with('\n') {
                 true => source.line_range(last.end as usize).end,
                 false => last.end as usize,

@@ -14,7 +14,8 @@ const MARKS: [(&str, &str); 5] = [
 ];
 
 /// What opens and closes a comment, and where.
-const PAIRS: [(&str, &str, &str); 2] = [("/*", "*/", "C"), ("<!--", "-->", "XML and HTML")];
+const PAIRS: [(&str, &str, &str); 3] =
+    [("/*", "*/", "C"), ("<!--", "-->", "XML and HTML"), ("(*", "*)", "Structured Text and Pascal")];
 
 /// Marks that also follow a value in the same line.
 const TRAILING: [&str; 4] = ["//", ";", "--", "%"];

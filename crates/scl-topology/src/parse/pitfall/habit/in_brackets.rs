@@ -2,7 +2,11 @@
 
 use super::{Found, Way, line_list, lines};
 use crate::source::SourceFile;
+use scl_text::list::quoted_list;
 use std::ops::Range;
+
+/// Maximum number of elements of an array that are declared one by one.
+const MOST_ELEMENTS: usize = 16;
 
 /// Names with a number in brackets, as `imu[0].accel`.
 pub(super) fn indexes(text: &str, source: &SourceFile) -> Option<Found> {
@@ -29,14 +33,40 @@ pub(super) fn indexes(text: &str, source: &SourceFile) -> Option<Found> {
         help: format!("write `{name}{mark}{number}`{more}"),
         changes: found.iter().map(|at| (at.clone(), format!("{mark}{}", &text[at.start + 1..at.end - 1]))).collect(),
     };
+    let each = elements(&found, text, source);
     Some(Found {
         message: format!("`{}` is not a name: names have no brackets", &text[start..first.end]),
         at: first,
         label: "there are no arrays",
-        ways: vec![way(""), way("_"), way("-")],
+        ways: each.into_iter().chain([way(""), way("_"), way("-")]).collect(),
         is_certain: true,
         otherwise: Some("each component and each gate has a name of its own"),
     })
+}
+
+/// `- phase[3]: pub`, an array whose elements have connections: a declaration of each element.
+fn elements(found: &[Range<usize>], text: &str, source: &SourceFile) -> Option<Way> {
+    let number = |at: &Range<usize>| text[at.start + 1..at.end - 1].parse::<usize>().ok();
+    let is_declaration = |at: &&Range<usize>| text[at.end..].starts_with(':');
+    let array = found.iter().find(is_declaration)?;
+    let count = number(array).filter(|count| (2..=MOST_ELEMENTS).contains(count))?;
+    let name = text[..array.start].rsplit(' ').next()?;
+    let is_element = |at: &Range<usize>| {
+        text[..at.start].ends_with(&format!(".{name}")) && number(at).is_some_and(|number| number < count)
+    };
+    if found.len() < 2 || !found.iter().all(|at| at == array || is_element(at)) {
+        return None;
+    }
+    let line = source.line_range(array.start);
+    let (head, tail) = (&text[line.start..array.start], &text[array.end..line.end]);
+    let entries: Vec<String> = (0..count).map(|at| format!("{head}_{at}{tail}")).collect();
+    let names: Vec<String> = (0..count).map(|at| format!("{name}_{at}")).collect();
+    let help = format!("declare each of them, and use these names: {}", quoted_list(&names));
+    let changes = found.iter().map(|at| match at == array {
+        true => (line.clone(), entries.join("\n")),
+        false => (at.clone(), format!("_{}", &text[at.start + 1..at.end - 1])),
+    });
+    Some(Way { help, changes: changes.collect() })
 }
 
 /// Which other lines have the same mistake.

@@ -3,7 +3,7 @@
 use super::{Way, line_list, lines, reads_further};
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::parse::dialect::Dialect;
-use crate::parse::pitfall::{indentation, needs_quotes, unexpected};
+use crate::parse::pitfall::{indentation, look_alike, needs_quotes, unexpected};
 use crate::source::SourceFile;
 use crate::yaml::SyntaxError;
 
@@ -112,12 +112,15 @@ fn key_of_text(line: &str) -> Option<usize> {
     is_text.then(|| line.len() - key.len())
 }
 
-/// Whether a line has only words in it, at least two, of which the first is none of the format.
+/// Whether a line has only words in it, at least two, of which the first is none of the format. A number may stand
+/// before them: the page on which a copied file was printed.
 fn is_prose(line: &str, dialect: &Dialect) -> bool {
-    let mut words = line.split_whitespace();
+    let mut words = line.split_whitespace().skip_while(|word| word.bytes().all(|byte| byte.is_ascii_digit()));
     let first = words.next().filter(|word| word.starts_with(char::is_alphabetic));
     let is_plain = !line.contains([':', '#', '[', ']', '{', '}', '=', '<', '>', '|', '"']);
-    first.is_some_and(|word| (dialect.word)(word).is_none()) && words.next().is_some() && is_plain
+    // `doc：The rover` is a key with a colon of another script.
+    let is_key = look_alike::marks(line).any(|(_, _, mark)| mark == ":");
+    first.is_some_and(|word| (dialect.word)(word).is_none()) && words.next().is_some() && is_plain && !is_key
 }
 
 /// The lines above a place that have something in them, the nearest first.

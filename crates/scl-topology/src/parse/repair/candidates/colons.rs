@@ -27,12 +27,19 @@ pub(super) fn second(tokens: &[Token], text: &str, edits: &mut Vec<Edit>) {
     for window in tokens.windows(5) {
         let [key, colon, word, second, value] = window else { continue };
         let classes = [colon, word, second, value].map(|token| token.class);
-        if classes != [Class::Colon, Class::Word, Class::Colon, Class::Word] || word.open.is_empty() {
+        if classes != [Class::Colon, Class::Word, Class::Colon, Class::Word] {
             continue;
         }
         let all = word.range.start..value.range.end;
         let kind = Kind::SecondColon(all.clone());
         let gap = second.range.start..value.range.start;
+        // `priority: fifo: 80`
+        if text[value.range.clone()].bytes().all(|byte| byte.is_ascii_digit()) {
+            edits.push(edit(kind.clone(), gap.clone(), ":", 2));
+        }
+        if word.open.is_empty() {
+            continue;
+        }
         if matches!(&text[key.range.clone()], "req" | "rep") {
             edits.push(edit(kind.clone(), gap.clone(), " -> ", 1));
         }
