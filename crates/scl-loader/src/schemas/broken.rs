@@ -5,7 +5,7 @@ use super::disk::SchemaFile;
 use super::explain::{Explained, explain};
 use super::mistake::Mistake;
 use super::place::Texts;
-use miette::Diagnostic as _;
+use miette::{Diagnostic as _, LabeledSpan};
 use scl_topology::diagnostic::Diagnostic;
 use scl_topology::external::SCHEMA;
 use scl_topology::source::Spanned;
@@ -38,16 +38,26 @@ impl Texts<'_> {
         let shown = file.map(|file| self.folders.relative(&file.path).display().to_string());
         let name = shown.as_deref().or(error.file()).unwrap_or(&schema.value);
         let message = format!("the schema file `{name}` does not compile: {wrong}");
-        let found = error.labels().and_then(|mut labels| labels.next());
-        let problem = match (file, error.labels()) {
-            (Some(file), Some(_)) => {
-                let at = found.as_ref().map_or((file.text.len(), 0), |label| (label.offset(), label.len()));
-                let label = found.as_ref().and_then(|label| label.label().map(in_backticks)).unwrap_or_default();
+        let mut labels = error.labels().map(Iterator::collect::<Vec<_>>);
+        // The compiler names the first of two declarations first; the second is more likely the wrong one.
+        let is_first = |labels: &[LabeledSpan]| labels.first()?.label().map(|label| label.starts_with("first "));
+        if let Some(labels) = labels.as_mut().filter(|labels| is_first(labels) == Some(true)) {
+            labels.reverse();
+        }
+        let problem = match (file, labels) {
+            (Some(file), Some(labels)) => {
+                let text = |label: &LabeledSpan| label.label().map(in_backticks).unwrap_or_default();
+                let at = labels.first().map_or((file.text.len(), 0), |label| (label.offset(), label.len()));
+                let label = labels.first().map(text).unwrap_or_default();
+                let others = labels.iter().skip(1).map(|label| {
+                    (self.span(file, label.offset()..label.offset().saturating_add(label.len())), text(label))
+                });
+                let others: Vec<_> = others.collect();
                 let span = self.span(file, at.0..at.0.saturating_add(at.1));
                 let Explained { help, places } =
                     explain(&error.to_string(), &file.text, at.0, &file.path, self.folders);
                 let places = places.into_iter().map(|place| (self.span(file, place), "and here")).collect::<Vec<_>>();
-                SCHEMA.at(message, span, label).labels(places).label(schema.span, BECAUSE).helps(help)
+                SCHEMA.at(message, span, label).labels(others).labels(places).label(schema.span, BECAUSE).helps(help)
             }
             _ => SCHEMA.at(message, schema.span, "named here"),
         };

@@ -67,7 +67,7 @@ fn compile_entries(
         problems.extend(elsewhere(schema));
         let refused = named
             .twice(schema, folders)
-            .or_else(|| refuse(schema, folders, request.max_size))
+            .or_else(|| refuse(schema, folders, request.max_size, sources))
             .or_else(|| misplaced(schema, folders, sources, || imported.get_or_init(|| of_entries(folders))));
         let wrong = match (refused, folders.name_of_entry(&schema.value)) {
             (None, Some(name)) => match no_panic(|| compiler.open_file(&name)) {

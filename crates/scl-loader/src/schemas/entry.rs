@@ -5,7 +5,8 @@ use super::folders::{Folders, Found};
 use super::outline::{Outline, outline};
 use crate::read::{Unreadable, read_text};
 use crate::unreadable::{file_names, similar_file};
-use scl_topology::diagnostic::{Diagnostic, Diagnostics};
+use scl_text::list::quoted_list;
+use scl_topology::diagnostic::{Diagnostic, Diagnostics, Edit, removal, separator};
 use scl_topology::external::{SCHEMA, SCHEMA_ELSEWHERE, SCHEMA_TWICE};
 use scl_topology::model::Model;
 use scl_topology::source::{Sources, Span, Spanned};
@@ -106,7 +107,12 @@ pub(super) fn misplaced<'i>(
 }
 
 /// Reports an entry that names no readable file, in SCL's own words: the compiler calls it "not included".
-pub(super) fn refuse(schema: &Spanned<String>, folders: &Folders, max_size: u64) -> Option<Diagnostic> {
+pub(super) fn refuse(
+    schema: &Spanned<String>,
+    folders: &Folders,
+    max_size: u64,
+    sources: &Sources,
+) -> Option<Diagnostic> {
     let name = &schema.value;
     let path = folders.path(Path::new(name));
     let beside = |other: String| Path::new(name).with_file_name(other).display().to_string();
@@ -128,15 +134,62 @@ pub(super) fn refuse(schema: &Spanned<String>, folders: &Folders, max_size: u64)
         }
     };
     let problem = SCHEMA.at(headline, schema.span, label_of(&path));
-    let problem = problem.did_you_mean(name, near.map(beside).as_slice());
+    let problem = match name.contains('*') {
+        true => with_files_of_pattern(problem, schema, &path, sources),
+        false => match near.is_none().then(|| renamed(&path)).flatten().map(beside) {
+            Some(other) => {
+                let edit = Edit::new(schema.span, other.clone());
+                problem.suggest(format!("did you mean `{other}`?"), [edit])
+            }
+            None => problem.did_you_mean(name, near.map(beside).as_slice()),
+        },
+    };
+    if name.starts_with("google/protobuf/") {
+        let text = "remove it: protobuf's own schemas are imported without an entry here";
+        return Some(match removal(sources.file(schema.span.file), schema.span) {
+            Some(removed) => problem.suggest(text, [removed]),
+            None => problem.help(text),
+        });
+    }
     Some(match is_schema(&path) {
         true => problem.note("schemas are looked for beside the topology file"),
         false => problem.note("`schemas` names the `.proto` files that declare the messages"),
     })
 }
 
+/// The only schema in the folder with the name of this one as a part of its own, or the only schema.
+fn renamed(path: &Path) -> Option<String> {
+    let stem = path.file_stem()?.to_str()?;
+    let files: Vec<String> = schemas_in(path.parent()?).collect();
+    let mut longer = files.iter().filter(|file| file.contains(stem));
+    match (longer.next(), longer.next(), files.as_slice()) {
+        (Some(one), None, _) | (None, _, [one]) => Some(one.clone()),
+        _ => None,
+    }
+}
+
 /// Maximum number of files of a folder that a message names.
 const MOST_INSIDE: usize = 3;
+
+/// Maximum number of files that are written in the place of a pattern.
+const MOST_OF_PATTERN: usize = 10;
+
+/// Adds what to write in the place of `messages/*.proto`.
+fn with_files_of_pattern(problem: Diagnostic, schema: &Spanned<String>, path: &Path, sources: &Sources) -> Diagnostic {
+    let Some(folder) = path.parent().filter(|_| schema.value.ends_with("*.proto")) else { return problem };
+    let before = schema.value.trim_end_matches("*.proto");
+    let mut files: Vec<String> = schemas_in(folder).map(|file| format!("{before}{file}")).collect();
+    files.sort_unstable();
+    let allowed = "each schema is named, without patterns";
+    let separator = separator(sources.file(schema.span.file), schema.span);
+    match separator.filter(|_| (1..=MOST_OF_PATTERN).contains(&files.len())) {
+        Some(separator) => {
+            let edit = Edit::new(schema.span, files.join(&separator));
+            problem.suggest(format!("name each of them: {}", quoted_list(&files)), [edit])
+        }
+        None => problem.help(allowed),
+    }
+}
 
 fn is_schema(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == "proto")

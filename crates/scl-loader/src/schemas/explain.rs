@@ -26,6 +26,10 @@ pub(super) fn explain(error: &str, text: &str, at: usize, path: &Path, folders: 
     if error == "the first value for proto3 enums must be 0" {
         return Explained { help: first_value(text, at), ..Explained::default() };
     }
+    if error.starts_with("field number '") && error.ends_with("' is already used") {
+        let help = "give one of the two a number that no other field of the message has".to_owned();
+        return Explained { help: Some(help), ..Explained::default() };
+    }
     let name = error.strip_prefix("name '").and_then(|rest| rest.strip_suffix("' is not defined"));
     let Some(name) = name.map(|name| name.trim_start_matches('.')) else { return Explained::default() };
     let help = scalar(name)
