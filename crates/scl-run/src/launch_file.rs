@@ -19,6 +19,7 @@ mod likely;
 mod likely_key;
 mod names;
 mod outdented;
+mod path;
 mod placeholder;
 mod profile;
 mod reader;

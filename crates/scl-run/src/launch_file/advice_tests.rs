@@ -1,5 +1,6 @@
 //! What is proposed for the habits of other tools, and for what no program can have been meant to get.
 
+mod paths;
 mod shapes;
 
 use super::super::system_names::SystemNames;

@@ -1,8 +1,8 @@
 //! Commands: their words, and what no program can have been meant to get.
 
 use super::super::command_line;
-use super::expanded::{OPERATORS, is_variable};
-use super::reader::{Keys, Reader, wrong};
+use super::expanded::OPERATORS;
+use super::reader::{Keys, Reader};
 use super::rules::WRONG_VALUE;
 use super::value::{text, texts};
 use super::words::{flow_list, flow_word};
@@ -89,6 +89,9 @@ impl Reader<'_> {
         // What a shell or a program on another host gets is its own language.
         if words.iter().any(|word| word == "-c") || program.rsplit('/').next() == Some("ssh") {
             return None;
+        }
+        if let Some(problem) = self.escaped_path(first, program) {
+            return Some(problem);
         }
         if first.is_plain() && program.contains(' ') {
             let message = format!("`{program}` is a single word of this list, so it is the name of the program");
@@ -203,22 +206,6 @@ impl Reader<'_> {
                 format!("\n{}-{}", " ".repeat(column), " ".repeat(dash.saturating_sub(column + 1).max(1)))
             }
         }
-    }
-
-    /// Reports a path that starts like one of the shell.
-    pub(super) fn check_path(&mut self, field: Option<Field<'_>>) {
-        let Some((field, path)) = field.and_then(|field| Some((field, field.value.text()?))) else { return };
-        let is_of_shell = path.starts_with("~/") || path == "~" || field.value.is_plain() && is_variable(path);
-        let problem = match is_of_shell {
-            true => {
-                let message =
-                    format!("`{}` is a path as it is written: no shell replaces a part of `{path}`", field.key);
-                let problem = wrong(&WRONG_VALUE, message, field);
-                Some(problem.help("a path is absolute, or relative to the folder of the launch file"))
-            }
-            false => self.wrong_characters(field.value, path),
-        };
-        problem.into_iter().for_each(|problem| self.report(problem));
     }
 }
 

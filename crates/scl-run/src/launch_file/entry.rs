@@ -244,6 +244,8 @@ impl Reader<'_> {
             let problem = match (command, only_in) {
                 (Some(command), _) => wrong(&WRONG_VALUE, message, command),
                 (None, None) => MISSING.at(message, entry.key_span, ""),
+                // An unknown name is the only mistake that is told.
+                (None, Some(_)) if self.is_unknown(entry.key) => return Vec::new(),
                 (None, Some((profile, _))) => {
                     let message = format!("`{name}` needs a `command` or a `replay` in profile `{profile}`");
                     MISSING.at(message, entry.key_span, "").note(format!("`components` has no entry `{name}`"))

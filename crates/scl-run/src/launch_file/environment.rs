@@ -74,6 +74,18 @@ impl Reader<'_> {
             };
             self.report(problem);
         }
+        let own = [format!("${name}"), format!("${{{name}}}")];
+        if value.is_some_and(|value| own.iter().any(|own| value.contains(own.as_str()))) {
+            let message = format!(
+                "values are passed on as written: `{name}` does not get its old value in place of `{}`",
+                own[0]
+            );
+            let problem = wrong(&WRONG_VALUE, message, field);
+            self.report(problem.help(format!(
+                "a command as one text is run by a shell, which knows the old value: `command: {name}={} exec ...`",
+                value.unwrap_or_default()
+            )));
+        }
         Some((name.to_owned(), value?.to_owned()))
     }
 

@@ -154,7 +154,7 @@ pub(super) const TOP: &[Key] = &[
 pub(super) const COMPONENT: &[Key] = &[
     Key {
         name: "alive_within",
-        also: &["watchdog", "watchdog_sec", "watchdog_timeout", "heartbeat", "alive"],
+        also: &["watchdog", "watchdog_sec", "watchdog_timeout", "wdt", "wdt_timeout", "heartbeat", "alive"],
         form: Form::Duration,
         default: "no limit",
         meaning: "Longest time between two signs of life. See [Readiness and watchdog](#readiness-and-watchdog).",

@@ -147,10 +147,11 @@ fn word(key: &str, text: &str, words: &'static [&'static str]) -> Likely {
     }
 }
 
-/// The processors of `2`, `2-3`, `0-3,6` or `0 2`.
+/// The processors of `2`, `2-3`, `2:3`, `0-3,6` or `0 2`.
 fn range(text: &str) -> Option<Vec<usize>> {
     let mut numbers = Vec::new();
-    let text = text.replace(" - ", "-").replace("..", "-");
+    let text =
+        [" - ", " to ", "...", "..", ":"].into_iter().fold(text.to_owned(), |text, mark| text.replace(mark, "-"));
     for part in text.trim_matches(['[', ']', '{', '}']).split([',', ' ', ';']).filter(|part| !part.is_empty()) {
         let part = part.strip_prefix("cpu").or_else(|| part.strip_prefix("core")).unwrap_or(part);
         let (first, last) = part.split_once('-').unwrap_or((part, part));

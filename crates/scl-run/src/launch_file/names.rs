@@ -41,6 +41,11 @@ impl Reader<'_> {
         }
     }
 
+    /// Whether there is a topology, and it does not have this component.
+    pub(super) fn is_unknown(&self, name: &str) -> bool {
+        self.known.is_some_and(|known| !known.components.iter().any(|known| known == name))
+    }
+
     /// Reports the unknown components, each once.
     pub(super) fn report_unknown_names(&mut self) {
         let found = std::mem::take(&mut self.unknown).found;
@@ -73,6 +78,10 @@ impl Reader<'_> {
                     let unused: Vec<&str> = unused().take(4).collect();
                     if unused.len() < 4 { self.offer(problem, &name, &places, &unused) } else { problem }
                 }
+            };
+            let problem = match near.is_empty() && self.known.is_some() && unused().next().is_none() {
+                true => problem.note("a launch file starts the components of the topology, and nothing else"),
+                false => problem,
             };
             let problem = problem.note(format!("{source} has the components {}", quoted_list(&known)));
             self.report(problem);

@@ -43,7 +43,8 @@ impl Reader<'_> {
                 true => format!("indent `{key}` by {column} spaces, below `{owner}`"),
                 false => format!("indent the keys by {column} spaces, below `{owner}`"),
             };
-            let edits: Option<Vec<Vec<Edit>>> = keys.iter().map(|entry| self.indented_to(column, entry)).collect();
+            let edits: Option<Vec<Vec<Edit>>> =
+                keys.iter().map(|(key, value)| self.indented_to(column, key, value)).collect();
             self.report(match edits {
                 Some(edits) => problem.propose(text, edits.concat()),
                 None => problem.help(text),
@@ -58,7 +59,7 @@ impl Reader<'_> {
     }
 
     /// Moves the lines of an entry, which starts its line, to a column further right.
-    fn indented_to(&self, column: usize, (key, value): &(Node, Node)) -> Option<Vec<Edit>> {
+    pub(super) fn indented_to(&self, column: usize, key: &Node, value: &Node) -> Option<Vec<Edit>> {
         let text = self.source.text();
         let indent = self.column(key);
         let line = (key.span.start as usize).checked_sub(indent)?;

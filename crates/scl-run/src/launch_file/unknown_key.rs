@@ -180,6 +180,10 @@ impl Reader<'_> {
             let environment = find(keys::COMPONENT).filter(|key| key.name == "environment");
             return match environment {
                 Some(key) => self.at_the_top(problem, field, key.name),
+                None if keys::TOP.iter().any(|key| key.name == field.key) => {
+                    let problem = self.at_the_top(problem, field, field.key);
+                    problem.help("or into the entries of components, if it is not the same for all")
+                }
                 None => problem.help(format!("`{}` belongs into the entries of components", field.key)),
             };
         }

@@ -38,6 +38,8 @@ fn other_shapes_are_understood() {
         "components: {a: {command: ./a}, b: {command: ./b}}\ntransports:\n  a.images: shm\n  board: {address: 127.0.0.1, components: [a, b]}\ngateway: {port: 80}\n",
         "components: {a: {command: ./a}, b: {command: ./b, machine: two}}\nhosts:\n  one: {address: 127.0.0.1, components: [a]}\n  two: {address: 127.0.0.2}\n",
         "components: {a: {command: ./a}, b: {command: ./b}}\nhosts:\n  one: {address: 192.0.2.1, components: [a, b], insecure: true}\n  two: {address: 192.0.2.2, components: [b]}\ngateway: {port: 80}\n",
+        "components: {a: {command: ./a}, b: {command: ./b}}\nprofiles:\n  a:\n    command: [./a, -v]\n  b:\n    command: ./b\n",
+        "components: {a: {command: ./a}, b: {command: ./b}}\nprofiles: {a: {command: ./x}}\n",
     ];
     let all = texts.map(|text| format!("# {text}{}", told(text)));
     let all = all.join("");
@@ -162,6 +164,7 @@ fn other_shapes_are_understood() {
           did you mean `b`?
             ?> components: {a: {command: ./a, opens: [b]}, b: {command: ./b, opens: b}}
           (components are listed here, not gates)
+          (a launch file starts the components of the topology, and nothing else)
           (the topology has the components `a`, `b`)
         `opens` is a list of components like `[sensor, controller]`, or `any`, not `b`
           write `opens: [b]`
@@ -331,5 +334,20 @@ fn other_shapes_are_understood() {
         component `b` is on two hosts, `one` and `two`
           remove it from `one`
             ?> one: {address: 192.0.2.1, components: [a], insecure: true}
+        # components: {a: {command: ./a}, b: {command: ./b}}
+        profiles:
+          a:
+            command: [./a, -v]
+          b:
+            command: ./b
+        `profiles` has the entry of component `a` in place of a profile
+          write the name of the profile above, like `simulation:`, and indent the entries
+            ?> simulation: | a: | command: [./a, -v] | b: | command: ./b
+          (`profiles` is a mapping from names of profiles to their entries of components)
+        # components: {a: {command: ./a}, b: {command: ./b}}
+        profiles: {a: {command: ./x}}
+        `profiles` has the entry of component `a` in place of a profile
+          write the name of the profile before it: `{simulation: {...}}`
+          (`profiles` is a mapping from names of profiles to their entries of components)
     "##]].assert_eq(&all);
 }

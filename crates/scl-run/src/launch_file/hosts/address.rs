@@ -55,7 +55,7 @@ impl Reader<'_> {
             let form = keys::form_of("address").description();
             let problem = wrong(&WRONG_VALUE, format!("`address` is {form}, not {}", shown(field.value)), field);
             let problem = self.with_template(problem, field.value);
-            let meant = text.replace('_', "-");
+            let meant = without_zeros(text).unwrap_or_else(|| text.replace('_', "-"));
             let problem = match dotted(text) {
                 Some(dotted) => self.whole(problem, field, format!("address: {dotted}")),
                 None if is_address(&meant) && !text.is_empty() => {
@@ -78,6 +78,13 @@ impl Reader<'_> {
 
 fn is_address(text: &str) -> bool {
     text.parse::<IpAddr>().is_ok() || is_dns_name(text)
+}
+
+/// `192.168.001.010`, of which no reader knows whether `010` is ten or eight, without the zeros.
+fn without_zeros(text: &str) -> Option<String> {
+    let numbers: Option<Vec<u8>> = text.split('.').map(|part| part.parse().ok()).collect();
+    let numbers = numbers.filter(|numbers| numbers.len() == 4)?;
+    Some(numbers.iter().map(u8::to_string).collect::<Vec<_>>().join("."))
 }
 
 /// Whether this is a DNS name. Names whose last label is a number are rejected: they are mistyped IPv4 addresses.

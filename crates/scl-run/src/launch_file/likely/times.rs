@@ -109,7 +109,7 @@ fn time_or_seconds(text: &str) -> Option<String> {
 
 pub(super) fn delay_range(text: &str) -> Likely {
     let text = text.trim_matches(['[', ']', '(', ')']);
-    let separators = ["...", "..", "…", " to ", "–", "-", "/", ";"];
+    let separators = ["...", "..=", "..", "…", " to ", "–", "-", "/", ";"];
     let Some((first, last)) = separators.iter().find_map(|separator| text.split_once(separator)) else {
         let is_number = text.parse::<f64>().is_ok();
         let meant = time_or_seconds(text);
@@ -130,7 +130,8 @@ pub(super) fn delay_range(text: &str) -> Likely {
 pub(in super::super) fn limit_of_restarts(text: &str) -> Likely {
     let digits = text.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(text.len());
     let (count, rest) = text.split_at(digits);
-    if count.is_empty() {
+    // Zero may mean no restart, or no limit.
+    if count.bytes().all(|digit| digit == b'0') {
         return Likely::default();
     }
     let noise = ["times", "restarts", "within", "in", "per", "every", "an", "a", "one", "x", "/", ",", ";", ":", "@"];
