@@ -53,8 +53,12 @@ pub(super) fn check<'m>(draft: &Draft<'m>, faults: &mut Vec<(Fault<'m>, Vec<End>
     for (first, second) in repeated(model.components.iter().map(|component| &component.name)) {
         let headline = format!("component `{}` is declared twice", second.value);
         let mut found = report(&COMPONENT, headline, first, second);
+        // Both are searched in the whole file, so only for the first ones.
         let of = |name: &Name| model.components.iter().find(|component| std::ptr::eq(&component.name, name));
-        if let (true, Some(first), Some(declared)) = (searches > 0, of(first), of(second)) {
+        if searches > 0
+            && let Some(first) = of(first)
+            && let Some(declared) = of(second)
+        {
             let fits = |fault: &Fault<'m>, ends: &[End]| match fault {
                 Fault::Component(_) => ends.iter().take(SEARCHED).all(|&[link, end]| {
                     let gate = draft.links[link].model.ends[end].value.split_once('.').map(|(_, gate)| gate);
@@ -78,7 +82,10 @@ pub(super) fn check<'m>(draft: &Draft<'m>, faults: &mut Vec<(Fault<'m>, Vec<End>
             let headline = format!("component `{owner}` declares gate `{}` twice", second.value);
             let mut found = report(&GATE, headline, first, second);
             let of = |name: &Name| gates.iter().position(|gate| std::ptr::eq(&gate.name, name));
-            if let (true, Some(one), Some(two)) = (searches > 0, of(first), of(second)) {
+            if searches > 0
+                && let Some(one) = of(first)
+                && let Some(two) = of(second)
+            {
                 let [one, two] = [one, two].map(|at| component.gates[at]);
                 let fits = |fault: &Fault<'m>, ends: &[End]| match fault {
                     Fault::Gate(other, _) => {
