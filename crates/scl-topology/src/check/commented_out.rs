@@ -34,15 +34,16 @@ fn name_in(line: &str) -> Option<&str> {
 pub(super) fn with_connections(draft: &Draft<'_>, ends: &[End]) -> Option<Vec<Edit>> {
     let mut links: Vec<usize> = ends.iter().map(|[link, _]| *link).collect();
     links.dedup();
-    let comment = |link: usize| {
-        let place = draft.links[link].model.span;
-        let file = draft.sources.file(place.file);
-        let line = file.line_range(place.start as usize);
-        let head = file.text().get(line.start..place.start as usize)?.strip_suffix("- ")?;
-        let tail = file.text().get(place.end as usize..line.end)?.trim_start();
-        let dash = Span { start: place.start - 2, end: place.start - 2, ..place };
-        let is_alone = head.trim().is_empty() && (tail.is_empty() || tail.starts_with('#'));
-        is_alone.then(|| Edit::new(dash, "# "))
-    };
-    links.into_iter().map(comment).collect()
+    links.into_iter().map(|link| as_comment(draft, draft.links[link].model.span)).collect()
+}
+
+/// The change that makes a comment of a list item, if it has a line of its own.
+pub(super) fn as_comment(draft: &Draft<'_>, item: Span) -> Option<Edit> {
+    let file = draft.sources.file(item.file);
+    let line = file.line_range(item.start as usize);
+    let head = file.text().get(line.start..item.start as usize)?.strip_suffix("- ")?;
+    let tail = file.text().get(item.end as usize..line.end)?.trim_start();
+    let dash = Span { start: item.start - 2, end: item.start - 2, ..item };
+    let is_alone = head.trim().is_empty() && (tail.is_empty() || tail.starts_with('#'));
+    is_alone.then(|| Edit::new(dash, "# "))
 }

@@ -2,6 +2,7 @@
 //! without a replier. SCL0704: a replier without requesters. SCL0705: a component without any connection, which says
 //! more than a warning for each of its gates.
 
+use super::commented_out::as_comment;
 use super::draft::{Draft, DraftComponent};
 use super::fitting_gate::FittingGates;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
@@ -211,10 +212,8 @@ fn in_comment(draft: &Draft<'_>, gate: usize) -> Option<Edit> {
     let file = draft.sources.file(place.file);
     let line = file.line_range(place.start as usize);
     let above = file.text().get(..line.start)?.lines().next_back()?.trim();
-    let dash = file.text().get(line.start..place.start as usize)?.strip_suffix("- ")?.len() + line.start;
-    let is_alone = file.text().get(place.end as usize..line.end)?.trim().is_empty();
     let is_gates = above.starts_with('#') && above.trim_start_matches(['#', ' ']) == "gates:";
-    (is_alone && is_gates).then(|| Edit::new(file.span(dash..dash), "# "))
+    if is_gates { as_comment(draft, place) } else { None }
 }
 
 /// The change that adds a line below the last connection, if each has a line of its own.
