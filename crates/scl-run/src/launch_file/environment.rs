@@ -2,6 +2,7 @@
 
 use super::keys::Form;
 use super::likely::fits;
+use super::placeholder::{Meaning, placeholders};
 use super::reader::{Keys, Reader, wrong};
 use super::rules::{LIKE_A_KEY, WRONG_NAME, WRONG_VALUE};
 use super::value::{shown, text};
@@ -74,19 +75,17 @@ impl Reader<'_> {
             };
             self.report(problem);
         }
-        let own = [format!("${name}"), format!("${{{name}}}")];
-        if value.is_some_and(|value| own.iter().any(|own| value.contains(own.as_str()))) {
-            let message = format!(
-                "values are passed on as written: `{name}` does not get its old value in place of `{}`",
-                own[0]
-            );
+        let value = value?;
+        let is_own = |meaning: &Meaning<'_>| matches!(meaning, Meaning::Shell(other) if *other == name);
+        if placeholders(value).iter().any(|(_, meaning)| is_own(meaning)) {
+            let message =
+                format!("values are passed on as written: `{name}` does not get its old value in place of `${name}`");
             let problem = wrong(&WRONG_VALUE, message, field);
             self.report(problem.help(format!(
-                "a command as one text is run by a shell, which knows the old value: `command: {name}={} exec ...`",
-                value.unwrap_or_default()
+                "a command as one text is run by a shell, which knows the old value: `command: {name}={value} exec ...`"
             )));
         }
-        Some((name.to_owned(), value?.to_owned()))
+        Some((name.to_owned(), value.to_owned()))
     }
 
     /// Proposes what a name with `=` may mean: a variable and its value, or the rest of the value before it, which a

@@ -49,10 +49,12 @@ fn escapes_in_a_path_are_told() {
 #[test]
 fn a_variable_does_not_get_its_old_value() {
     check_entries(
-        &["command: ./a\nenvironment: {PATH: '/opt/bin:$PATH', PS1: '$PS', LD_LIBRARY_PATH: '${LD_LIBRARY_PATH}:b'}"],
+        &[
+            "command: ./a\nenvironment: {PATH: '/opt/bin:$PATH', PS1: '$PS', A: '$AB', LD_LIBRARY_PATH: '${LD_LIBRARY_PATH}:b'}",
+        ],
         &expect![[r#"
             # command: ./a
-            environment: {PATH: '/opt/bin:$PATH', PS1: '$PS', LD_LIBRARY_PATH: '${LD_LIBRARY_PATH}:b'}
+            environment: {PATH: '/opt/bin:$PATH', PS1: '$PS', A: '$AB', LD_LIBRARY_PATH: '${LD_LIBRARY_PATH}:b'}
             values are passed on as written: `PATH` does not get its old value in place of `$PATH`
               a command as one text is run by a shell, which knows the old value: `command: PATH=/opt/bin:$PATH exec ...`
             values are passed on as written: `LD_LIBRARY_PATH` does not get its old value in place of `$LD_LIBRARY_PATH`
