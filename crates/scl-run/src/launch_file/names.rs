@@ -43,7 +43,7 @@ impl Reader<'_> {
 
     /// Whether there is a topology, and it does not have this component.
     pub(super) fn is_unknown(&self, name: &str) -> bool {
-        self.known.is_some_and(|known| !known.components.iter().any(|known| known == name))
+        self.known.is_some() && !self.is_component(name)
     }
 
     /// Reports the unknown components, each once.

@@ -55,9 +55,11 @@ impl Reader<'_> {
             let form = keys::form_of("address").description();
             let problem = wrong(&WRONG_VALUE, format!("`address` is {form}, not {}", shown(field.value)), field);
             let problem = self.with_template(problem, field.value);
-            let meant = without_zeros(text).unwrap_or_else(|| text.replace('_', "-"));
-            let problem = match dotted(text) {
-                Some(dotted) => self.whole(problem, field, format!("address: {dotted}")),
+            let numbers = ipv4(text).map(|address| address.to_string());
+            let has_zeros = text.split(|letter: char| !letter.is_ascii_digit()).any(has_leading_zero);
+            let meant = numbers.clone().unwrap_or_else(|| text.replace('_', "-"));
+            let problem = match numbers.filter(|_| !has_zeros) {
+                Some(address) => self.whole(problem, field, format!("address: {address}")),
                 None if is_address(&meant) && !text.is_empty() => {
                     problem.suggest(format!("write `address: {meant}`"), [Edit::new(field.value.span, meant)])
                 }
@@ -80,13 +82,6 @@ fn is_address(text: &str) -> bool {
     text.parse::<IpAddr>().is_ok() || is_dns_name(text)
 }
 
-/// `192.168.001.010`, of which no reader knows whether `010` is ten or eight, without the zeros.
-fn without_zeros(text: &str) -> Option<String> {
-    let numbers: Option<Vec<u8>> = text.split('.').map(|part| part.parse().ok()).collect();
-    let numbers = numbers.filter(|numbers| numbers.len() == 4)?;
-    Some(numbers.iter().map(u8::to_string).collect::<Vec<_>>().join("."))
-}
-
 /// Whether this is a DNS name. Names whose last label is a number are rejected: they are mistyped IPv4 addresses.
 fn is_dns_name(text: &str) -> bool {
     let is_label = |label: &str| {
@@ -100,11 +95,16 @@ fn is_dns_name(text: &str) -> bool {
     text.len() <= LONGEST && text.split('.').all(is_label) && !last.chars().all(|letter| letter.is_ascii_digit())
 }
 
-/// The IPv4 address whose numbers are separated by something else than one dot each.
-fn dotted(text: &str) -> Option<String> {
-    let numbers: Vec<&str> = text.split(['.', ',', ';', ' ', '…']).filter(|number| !number.is_empty()).collect();
-    let address: Ipv4Addr = numbers.join(".").parse().ok()?;
-    Some(address.to_string())
+/// The IPv4 address whose numbers are separated by something else than one dot each, or have zeros before them.
+fn ipv4(text: &str) -> Option<Ipv4Addr> {
+    let numbers = text.split(['.', ',', ';', ' ', '…']).filter(|number| !number.is_empty());
+    let numbers: Vec<u8> = numbers.map(|number| number.parse().ok()).collect::<Option<_>>()?;
+    Some(Ipv4Addr::from(<[u8; 4]>::try_from(numbers).ok()?))
+}
+
+/// Whether no reader knows if a number is a decimal one: `010` is ten or eight.
+fn has_leading_zero(number: &str) -> bool {
+    number.len() > 1 && number.starts_with('0')
 }
 
 /// Returns the address in a text like `192.0.2.10:7447`, `tcp://192.0.2.10:7447`, `pi@board.local` or `192.0.2.10/24`,

@@ -19,13 +19,9 @@ const MOST_MOVED: usize = 4;
 impl Reader<'_> {
     /// The problem of entries of components that stand where profiles are expected.
     pub(super) fn without_profile(&self, profiles: &[Field<'_>], started: &[String]) -> Option<Diagnostic> {
-        let is_started = |name: &str| started.iter().any(|known| known == name);
-        let is_key = |(key, _): &(Node, Node)| {
-            key.text().is_some_and(|key| keys::COMPONENT.iter().any(|known| known.name == key) && !is_started(key))
-        };
         let is_entry = |field: &Field<'_>| {
-            let entries = field.value.entries().filter(|entries| !entries.is_empty());
-            is_started(field.key) && entries.is_some_and(|entries| entries.iter().all(is_key))
+            let is_started = started.iter().any(|known| known == field.key);
+            is_started && field.value.entries().is_some_and(|entries| are_keys(entries, started))
         };
         let first = profiles.first().filter(|_| profiles.iter().all(is_entry))?;
         let message = format!("`profiles` has the entry of component `{}` in place of a profile", first.key);
@@ -53,14 +49,7 @@ impl Reader<'_> {
         entries: &[(Node, Node)],
         started: &[String],
     ) -> Option<Diagnostic> {
-        let is_key = |(key, _): &(Node, Node)| {
-            let key = key.text().unwrap_or_default();
-            keys::COMPONENT.iter().any(|known| known.name == key) && !started.iter().any(|name| name == key)
-        };
-        if entries.is_empty()
-            || !entries.iter().all(is_key)
-            || entries.iter().any(|(_, value)| value.entries().is_some())
-        {
+        if !are_keys(entries, started) || entries.iter().any(|(_, value)| value.entries().is_some()) {
             return None;
         }
         let (first, last) = (entries.first()?, entries.last()?);
@@ -189,4 +178,13 @@ impl Reader<'_> {
         };
         Some(problem.propose("remove `components:`", [Edit::new(key.span.to(inner.span), text)]))
     }
+}
+
+/// Whether there are entries, and all of them are keys of a component's entry and not components.
+fn are_keys(entries: &[(Node, Node)], started: &[String]) -> bool {
+    let is_key = |(key, _): &(Node, Node)| {
+        let key = key.text().unwrap_or_default();
+        keys::COMPONENT.iter().any(|known| known.name == key) && !started.iter().any(|name| name == key)
+    };
+    !entries.is_empty() && entries.iter().all(is_key)
 }
