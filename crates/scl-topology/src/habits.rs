@@ -2,8 +2,10 @@
 //!
 //! The words of the kinds of gate and of the codecs that other tools have stand in their own tables, as synonyms.
 
+mod table;
 mod values;
 
+pub(crate) use table::Table;
 use values::VALUES;
 
 /// What people write who know another tool.
@@ -22,7 +24,7 @@ const fn habit(words: &'static str, ways: &'static [&'static str], text: &'stati
 }
 
 /// In the place of a section: ROS, dora, Docker Compose, Kubernetes, AUTOSAR, protobuf.
-pub(crate) static SECTIONS: &[Habit] = &[
+pub(crate) static SECTIONS: Table = Table::new(&[
     habit("nodes services modules processes programs tasks agents actors blocks units apps", &["components"], ""),
     habit("links edges wires wiring routes bindings channels connectors", &["connections"], ""),
     habit("name systemname project robot namespace id title", &["system"], ""),
@@ -41,10 +43,10 @@ pub(crate) static SECTIONS: &[Habit] = &[
         &[],
         "how and where programs are started stands in the launch file, not in the topology",
     ),
-];
+]);
 
 /// In the place of a key of a component.
-pub(crate) static COMPONENT: &[Habit] = &[
+pub(crate) static COMPONENT: Table = Table::new(&[
     habit("id component node title label process service module", &["name"], ""),
     habit("ports pins interfaces endpoints sockets io topics channels slots", &["gates"], ""),
     habit("description comment desc summary documentation help note notes brief", &["doc"], ""),
@@ -129,10 +131,10 @@ pub(crate) static COMPONENT: &[Habit] = &[
         &[],
         "a component has only a name, gates and a text; what its program does stands in the program",
     ),
-];
+]);
 
 /// In the place of an option of a gate: ROS, DDS, ZeroMQ, MQTT, Kafka, gRPC, AsyncAPI.
-pub(crate) static GATE: &[Habit] = &[
+pub(crate) static GATE: Table = Table::new(&[
     habit(
         "queuesize depth hwm rcvhwm sndhwm qsize queuelength queuelen queuedepth capacity buffer buffersize bufferlength backlog maxlen historydepth prefetch keeplast fifosize",
         &["queue"],
@@ -223,11 +225,11 @@ pub(crate) static GATE: &[Habit] = &[
         &[],
         "the transport of a connection stands in the launch file, under `transports`",
     ),
-];
+]);
 
 /// Parts of the names that other tools have for options, of which each word may be a part of a longer one:
 /// `max_nb_message`, `rx-buffers`.
-static PARTS: &[Habit] = &[
+static PARTS: Table = Table::new(&[
     habit(
         "queue queued buffer buffers buffered message messages msg msgs sample samples depth backlog mailbox fifo hwm capacity",
         &["queue"],
@@ -239,12 +241,12 @@ static PARTS: &[Habit] = &[
     habit("inflight outstanding concurrent concurrency", &["in_flight"], ""),
     habit("full overflow overrun policy drop discard", &["when_full"], ""),
     habit("latched latch retain retained durability", &["latched"], ""),
-];
+]);
 
 const ACTION: &str = "an action is a `rep` gate for its goal, and a `pub` gate for its feedback";
 
 /// In the place of the kind of a gate, without a kind that is the same.
-pub(crate) static KINDS: &[Habit] = &[
+pub(crate) static KINDS: Table = Table::new(&[
     habit("actionserver", &["rep"], ACTION),
     habit("actionclient", &["req"], ACTION),
     habit("action feedback", &[], ACTION),
@@ -259,10 +261,10 @@ pub(crate) static KINDS: &[Habit] = &[
         "a value that others read is sent by a `pub` gate with `latched: true`; one that others set is a `rep` gate",
     ),
     habit("timer cron signal event", &[], "there are only gates for messages; timers are the program's"),
-];
+]);
 
 /// In the place of a codec: others that do nearly the same.
-pub(crate) static CODECS: &[Habit] = &[
+pub(crate) static CODECS: Table = Table::new(&[
     habit("bincode bitcode borsh ron", &["postcard"], ""),
     habit("bson ubjson smile", &["cbor"], ""),
     habit(
@@ -270,11 +272,15 @@ pub(crate) static CODECS: &[Habit] = &[
         &[],
         "scl has no such codec; a codec of your own is a Rust type, named by its path",
     ),
-];
+]);
 
 impl Habit {
+    fn words(&self) -> impl Iterator<Item = &'static str> {
+        self.words.split(' ')
+    }
+
     fn has(&self, word: &str) -> bool {
-        self.words.split(' ').any(|other| other == word)
+        self.words().any(|other| other == word)
     }
 
     /// Whether the words stand before the type of a gate.
@@ -294,12 +300,6 @@ impl Habit {
     }
 }
 
-/// The habit that a word in the place of a key comes from.
-pub(crate) fn of_key(table: &'static [Habit], word: &str) -> Option<&'static Habit> {
-    let word = compact(word);
-    table.iter().find(|habit| habit.has(&word))
-}
-
 /// The habit that a part of a longer name of an option comes from, the last part first.
 pub(crate) fn of_part(key: &str) -> Option<&'static Habit> {
     let hump = |pair: (char, char)| pair.0.is_lowercase() && pair.1.is_uppercase();
@@ -310,13 +310,13 @@ pub(crate) fn of_part(key: &str) -> Option<&'static Habit> {
         words.push(letter);
         before = letter;
     }
-    words.rsplit(['_', '-', ' ', '.']).find_map(|word| of_key(PARTS, word))
+    words.rsplit(['_', '-', ' ', '.']).find_map(|word| PARTS.find(word))
 }
 
 /// The habit that a value of an option comes from.
 pub(crate) fn of_value(option: &str, word: &str) -> Option<&'static Habit> {
     let (_, table) = VALUES.iter().find(|(key, _)| *key == option)?;
-    of_key(table, word)
+    table.find(word)
 }
 
 /// `true` or `false` in the words of other formats.
@@ -331,15 +331,15 @@ pub(crate) fn compact(word: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{CODECS, COMPONENT, GATE, Habit, KINDS, SECTIONS, VALUES, compact};
+    use super::{CODECS, COMPONENT, GATE, KINDS, PARTS, SECTIONS, Table, VALUES, compact};
     use crate::grammar::{self, Codec, GateKind, OPTIONS, option};
 
     /// Checks the words of a table; `known` are those that mean something at their place.
-    fn check(place: &str, table: &[Habit], known: &[&str], takes: impl Fn(&str) -> bool) {
+    fn check(place: &str, table: &Table, known: &[&str], takes: impl Fn(&str) -> bool) {
         let mut seen: Vec<&str> = Vec::new();
-        for habit in table {
+        for habit in table.habits() {
             assert!(!habit.ways.is_empty() || !habit.text.is_empty(), "{place}: {:?}", habit.words);
-            for word in habit.words.split(' ') {
+            for word in habit.words() {
                 assert_eq!(*word, compact(word), "{place}");
                 assert!(!known.contains(&word), "{place}: `{word}` is right there");
                 assert!(!seen.contains(&word), "{place}: `{word}` twice");
@@ -355,12 +355,13 @@ mod tests {
         let keys = grammar::words(&grammar::COMPONENT_KEYS);
         let options: Vec<&str> = OPTIONS.iter().map(|option| option.key).collect();
         let key = |way: &str| way.split(": ").next().unwrap_or(way).to_owned();
-        check("section", SECTIONS, &sections, |way| sections.contains(&key(way).as_str()));
-        check("component", COMPONENT, &keys, |way| keys.contains(&key(way).as_str()));
-        check("kind", KINDS, &GateKind::ALL.map(GateKind::word), |way| GateKind::of(way).is_some());
-        check("codec", CODECS, &Codec::words().collect::<Vec<_>>(), |way| Codec::of(way).is_some());
-        check("gate", GATE, &options, |way| options.contains(&key(way).as_str()));
-        for (of, table) in VALUES {
+        check("section", &SECTIONS, &sections, |way| sections.contains(&key(way).as_str()));
+        check("component", &COMPONENT, &keys, |way| keys.contains(&key(way).as_str()));
+        check("kind", &KINDS, &GateKind::ALL.map(GateKind::word), |way| GateKind::of(way).is_some());
+        check("codec", &CODECS, &Codec::words().collect::<Vec<_>>(), |way| Codec::of(way).is_some());
+        check("gate", &GATE, &options, |way| options.contains(&key(way).as_str()));
+        check("part", &PARTS, &[], |way| options.contains(&key(way).as_str()));
+        for (of, table) in &VALUES {
             let shape = option(of).unwrap().shape;
             check(of, table, &[], |way| shape.fits(way, true));
         }

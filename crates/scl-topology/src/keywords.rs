@@ -1,5 +1,8 @@
 //! The keywords of other languages whose programs read topology files.
 
+use std::collections::HashSet;
+use std::sync::LazyLock;
+
 /// The keywords of C++23, with the alternative spellings of operators.
 const CPP: &str = "alignas alignof and and_eq asm auto bitand bitor bool break case catch char char8_t char16_t \
                    char32_t class co_await co_return co_yield compl concept const const_cast consteval constexpr \
@@ -15,12 +18,14 @@ const PYTHON: &str = "False None True and as assert async await break class cont
 
 /// Returns true for a keyword of C++.
 pub fn is_cpp(name: &str) -> bool {
-    CPP.split(' ').any(|word| word == name)
+    static WORDS: LazyLock<HashSet<&str>> = LazyLock::new(|| CPP.split(' ').collect());
+    WORDS.contains(name)
 }
 
 /// Returns true for a keyword of Python.
 pub fn is_python(name: &str) -> bool {
-    PYTHON.split(' ').any(|word| word == name)
+    static WORDS: LazyLock<HashSet<&str>> = LazyLock::new(|| PYTHON.split(' ').collect());
+    WORDS.contains(name)
 }
 
 #[cfg(test)]

@@ -69,7 +69,7 @@ fn report(written: &Spanned<String>) -> Diagnostic {
     let label = keyword.map_or_else(String::new, |word| format!("`{word}` is a keyword of Rust"));
     let found = RULE.at(headline, written.span, label);
     let path = written.value.contains('.').then(|| written.value.replace('.', "::")).filter(|path| is_rust_path(path));
-    let habit = habits::of_key(habits::CODECS, &written.value);
+    let habit = habits::CODECS.find(&written.value);
     let found = match habit {
         Some(habit) => habit.ways.iter().fold(found, |found, way| {
             found.suggest(format!("the nearest codec is `{way}`"), [Edit::new(written.span, *way)])

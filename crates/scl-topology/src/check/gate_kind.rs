@@ -91,7 +91,7 @@ fn report(gate: &GateModel, sources: &Sources) -> Diagnostic {
     let meant = suggest::kind(&word.value);
     let lead = if meant.len() == 1 { ("the kind is called ", "") } else { ("did you mean ", "?") };
     let rewritten = |kind: &str| Edit::new(word.span, sources.quoted_as(word.span, kind));
-    let habit = habits::of_key(habits::KINDS, &word.value);
+    let habit = habits::KINDS.find(&word.value);
     let nearest = habit.and_then(|habit| habit.ways.first());
     let found = found.choose(lead, meant.iter().map(|kind| (*kind, rewritten(kind))));
     let found = nearest

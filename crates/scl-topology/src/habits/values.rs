@@ -1,12 +1,12 @@
 //! Values of options in the words of other tools.
 
-use super::{Habit, habit};
+use super::{Table, habit};
 
 /// The values that other tools have, by option.
-pub(super) static VALUES: &[(&str, &[Habit])] = &[
+pub(super) static VALUES: [(&str, Table); 7] = [
     (
         "when_full",
-        &[
+        Table::new(&[
             habit(
                 "block blocking reliable suspend backpressure keepall pause never await true exactlyonce atleastonce",
                 &["wait"],
@@ -22,23 +22,26 @@ pub(super) static VALUES: &[(&str, &[Habit])] = &[
                 &["drop_newest"],
                 "",
             ),
-        ],
+        ]),
     ),
     (
         "undecodable",
-        &[
+        Table::new(&[
             habit("ignore drop discard dropnewest dropoldest continue log warn", &["skip"], ""),
             habit("error raise throw abort stop crash exit panic", &["fail"], ""),
-        ],
+        ]),
     ),
-    ("unconnected", &[habit("true yes allow allowed on 1 optional intended okay ignore", &["ok"], "")]),
+    ("unconnected", Table::new(&[habit("true yes allow allowed on 1 optional intended okay ignore", &["ok"], "")])),
     (
         "latched",
-        &[habit("transientlocal transient persistent retain last", &["true"], ""), habit("volatile", &["false"], "")],
+        Table::new(&[
+            habit("transientlocal transient persistent retain last", &["true"], ""),
+            habit("volatile", &["false"], ""),
+        ]),
     ),
-    ("queue", &[habit(UNLIMITED, &[], "there is no unlimited queue")]),
-    ("max_size", &[habit(UNLIMITED, &[], "a size is always limited")]),
-    ("timeout", &[habit(UNLIMITED, &[], "a call always ends: there is no unlimited timeout")]),
+    ("queue", Table::new(&[habit(UNLIMITED, &[], "there is no unlimited queue")])),
+    ("max_size", Table::new(&[habit(UNLIMITED, &[], "a size is always limited")])),
+    ("timeout", Table::new(&[habit(UNLIMITED, &[], "a call always ends: there is no unlimited timeout")])),
 ];
 
 const UNLIMITED: &str = "unlimited infinite infinity inf none unbounded forever never max all keepall 0 0.0 1 .inf ∞ \

@@ -87,7 +87,7 @@ impl Reader<'_> {
 
     /// `{name: measurements, kind: pub, type: Fix, queue: 4}`: type and options.
     fn read_long_gate(&mut self, mut gate: GateModel, fields: &Fields<'_>) -> GateModel {
-        let is_type = |field: &&Field<'_>| habits::of_key(habits::GATE, field.key).is_some_and(|habit| habit.is_type());
+        let is_type = |field: &&Field<'_>| habits::GATE.find(field.key).is_some_and(|habit| habit.is_type());
         let of_type = fields.list.iter().filter(|_| !gate.kind.value.is_empty() && fields.get("kind").is_some());
         let of_type = of_type.clone().find(is_type);
         gate.payload = of_type.and_then(|field| scalar(field.value));

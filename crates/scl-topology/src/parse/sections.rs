@@ -113,6 +113,6 @@ impl Reader<'_> {
 
 /// Whether an unknown key was probably meant to be this section.
 fn is_misspelt(key: &str, section: &str) -> bool {
-    let is_called = || habits::of_key(habits::SECTIONS, key).is_some_and(|habit| habit.ways == [section]);
+    let is_called = || habits::SECTIONS.find(key).is_some_and(|habit| habit.ways == [section]);
     !SECTIONS.contains(&key) && (is_called() || similar(key, [section]).contains(&section))
 }

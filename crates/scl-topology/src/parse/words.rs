@@ -30,7 +30,7 @@ pub(super) fn is_option(key: &str) -> bool {
 /// Whether this key is an option, or looks more like one than like a kind.
 pub(super) fn is_like_option(key: &str) -> bool {
     let kinds = GateKind::ALL.map(GateKind::word);
-    let is_called = || crate::habits::of_key(crate::habits::GATE, key).is_some_and(|habit| !habit.ways.is_empty());
+    let is_called = || crate::habits::GATE.find(key).is_some_and(|habit| !habit.ways.is_empty());
     is_option(key)
         || suggest::kind(key).is_empty() && is_called()
         || similar(key, kinds).is_empty() && !similar(key, OPTIONS.iter().map(|option| option.key)).is_empty()

@@ -67,7 +67,7 @@ pub(super) fn glued_keys<'n>(fields: &Fields<'n>) -> Vec<(Field<'n>, &'n str, &'
         match is_kind(bare) || is_option(bare) {
             true => Some(bare),
             false if !field.key.contains('=') => None,
-            false => habits::of_key(habits::GATE, word)?.ways.first().copied().filter(|way| is_option(way)),
+            false => habits::GATE.find(word)?.ways.first().copied().filter(|way| is_option(way)),
         }
     };
     fields.list.iter().filter_map(|field| Some((*field, first_word(field.key), known(field)?))).collect()

@@ -233,11 +233,11 @@ pub(in crate::parse) fn kind_as_key(gate: Field<'_>, fields: &Fields<'_>, source
         return None;
     }
     let (field, kind) = fields.list.iter().find_map(|field| {
-        let is_for_kind = habits::of_key(habits::GATE, field.key).is_some_and(|habit| habit.is_kind());
+        let is_for_kind = habits::GATE.find(field.key).is_some_and(|habit| habit.is_kind());
         Some((field, known_kind(field.value.text().filter(|_| is_for_kind)?)?))
     })?;
     let of_type = fields.list.iter().find(|field| {
-        habits::of_key(habits::GATE, field.key).is_some_and(|habit| habit.is_type()) && field.value.text().is_some()
+        habits::GATE.find(field.key).is_some_and(|habit| habit.is_type()) && field.value.text().is_some()
     });
     let message = format!("the kind of gate `{}` is written as a value", gate.key);
     let problem = RULE.at(message, field.key_span, "the kind itself is the key");

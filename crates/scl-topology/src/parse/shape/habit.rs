@@ -3,7 +3,7 @@
 use super::option_value::replacement;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::grammar::{self, GateOption, Shape};
-use crate::habits::{self, Habit};
+use crate::habits::{self, Habit, Table};
 use crate::parse::field::Field;
 use crate::parse::meant::meant;
 use crate::source::{SourceFile, Span};
@@ -111,7 +111,7 @@ fn shape(key: &str) -> Option<Shape> {
 pub(super) fn with_lifted(
     problem: Diagnostic,
     field: Field<'_>,
-    table: &'static [Habit],
+    table: &'static Table,
     is_known: impl Fn(&str) -> bool,
     source: &SourceFile,
 ) -> Diagnostic {
@@ -122,7 +122,7 @@ pub(super) fn with_lifted(
     let mut lifted: Vec<String> = Vec::new();
     for (key_node, value) in entries {
         let Some(word) = key_node.text() else { return problem };
-        let habit = habits::of_key(table, word).and_then(|habit| habit.ways.first()).map(|way| split(way).0);
+        let habit = table.find(word).and_then(|habit| habit.ways.first()).map(|way| split(way).0);
         let Some(known) = Some(word).filter(|word| is_known(word)).or(habit) else { return problem };
         let entry = Field { key: word, key_span: key_node.span, key_node, value };
         let value = converted(known, entry).unwrap_or_else(|| source.snippet(value.span).to_owned());

@@ -48,7 +48,7 @@ pub(in crate::parse) fn diagnose(item: &Node, fields: &Fields<'_>, source: &Sour
     let (Some(name), Some(kind), Some([name_entry, kind_entry])) = (value(0), value(1), &found) else {
         return problem.help(FORM);
     };
-    let is_type = |field: &&Field<'_>| habits::of_key(habits::GATE, field.key).is_some_and(|habit| habit.is_type());
+    let is_type = |field: &&Field<'_>| habits::GATE.find(field.key).is_some_and(|habit| habit.is_type());
     let of_type = fields.list.iter().filter(|_| kind_entry.key != "type").find(is_type);
     let is_own = |field: &&Field<'_>| [name_entry, kind_entry].iter().any(|entry| entry.key_span == field.key_span);
     let is_other = |field: &&Field<'_>| !is_own(field) && !is_type(field);

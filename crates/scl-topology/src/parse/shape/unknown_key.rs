@@ -37,9 +37,9 @@ pub(in crate::parse) fn section(field: Field<'_>, source: &SourceFile) -> Diagno
         return problem.help(text);
     }
     let is_section = |key: &str| SECTIONS.contains(&key);
-    let problem = with_lifted(problem, field, habits::SECTIONS, is_section, source);
+    let problem = with_lifted(problem, field, &habits::SECTIONS, is_section, source);
     let (problem, is_spelling) = with_spelling(problem, field, SECTIONS);
-    match habits::of_key(habits::SECTIONS, field.key) {
+    match habits::SECTIONS.find(field.key) {
         _ if is_spelling => problem,
         Some(habit) => with_habit(problem, habit, field, |_| true),
         None => problem.did_you_mean(field.key, &similar(field.key, SECTIONS)),
@@ -84,7 +84,7 @@ pub(in crate::parse) fn of_component(
     let problem = OF_COMPONENT.at(message, field.key_span, "not a key of a component");
     let problem = own_key(problem, field.key);
     let (problem, is_spelling) = with_spelling(problem, field, COMPONENT_KEYS);
-    match habits::of_key(habits::COMPONENT, field.key) {
+    match habits::COMPONENT.find(field.key) {
         _ if is_spelling => problem,
         Some(habit) => match with_gates(problem, habit, field, component, last, source) {
             problem if problem.proposals().next().is_some() => problem.otherwise(habit.text),
@@ -103,7 +103,7 @@ pub(in crate::parse) fn is_misnamed(key: &str) -> bool {
 
 /// Whether other tools use the word for a name.
 fn is_called_name(key: &str) -> bool {
-    habits::of_key(habits::COMPONENT, key).is_some_and(|habit| habit.ways == ["name"])
+    habits::COMPONENT.find(key).is_some_and(|habit| habit.ways == ["name"])
 }
 
 /// The key that was probably meant to be `name`.
@@ -146,12 +146,12 @@ const SIMILAR_KEY: (&str, &str) = ("a key with a similar name exists: ", "");
 pub(in crate::parse) fn of_gate(field: Field<'_>, kind: Field<'_>, path: &str, source: &SourceFile) -> Diagnostic {
     let message = format!("unknown key `{}` in gate `{path}`", field.key);
     let problem = own_key(OF_GATE.at(message, field.key_span, ""), field.key);
-    let problem = with_lifted(problem, field, habits::GATE, |key| option(key).is_some(), source);
+    let problem = with_lifted(problem, field, &habits::GATE, |key| option(key).is_some(), source);
     let problem = with_type(problem, field, kind, source);
     let kind = kind.key;
     let fits = |key: &&str| only_of(key, kind).is_empty();
     let (problem, is_spelling) = with_spelling(problem, field, OPTIONS.iter().map(|option| option.key).filter(fits));
-    let problem = match habits::of_key(habits::GATE, field.key) {
+    let problem = match habits::GATE.find(field.key) {
         _ if is_spelling && field.value.text().is_none_or(|text| !is_whole_number(text)) => problem,
         Some(habit) => with_habit(problem, habit, field, |key| only_of(key, kind).is_empty()),
         None => match habits::of_part(field.key) {
@@ -168,7 +168,7 @@ pub(in crate::parse) fn of_gate(field: Field<'_>, kind: Field<'_>, path: &str, s
 
 /// `{pub: , type: Fix}`: the type belongs after the kind.
 fn with_type(problem: Diagnostic, field: Field<'_>, kind: Field<'_>, source: &SourceFile) -> Diagnostic {
-    let is_type = habits::of_key(habits::GATE, field.key).is_some_and(|habit| habit.is_type());
+    let is_type = habits::GATE.find(field.key).is_some_and(|habit| habit.is_type());
     let entry = field.key_span.to(field.value.span);
     match (scalar(field.value), removal(source, entry)) {
         (Some(name), Some(removed)) if is_type && kind.value.is_null() => problem
@@ -180,7 +180,7 @@ fn with_type(problem: Diagnostic, field: Field<'_>, kind: Field<'_>, source: &So
 /// The option that another tool calls by the name of this key, with its value if that is another one, if only other
 /// kinds of gates have it.
 pub(in crate::parse) fn misplaced(field: Field<'_>, kind: GateKind) -> Option<(String, Option<String>)> {
-    let ways = habits::of_key(habits::GATE, field.key)?.ways.iter().map(|way| split(way));
+    let ways = habits::GATE.find(field.key)?.ways.iter().map(|way| split(way));
     let fits = |key: &str| option(key).is_none_or(|option| option.fits(kind));
     let (key, value) = ways.clone().next().filter(|_| !ways.clone().any(|(key, _)| fits(key)))?;
     Some((key.to_owned(), value.map(str::to_owned).or_else(|| converted(key, field))))
