@@ -59,11 +59,10 @@ pub(in crate::parse) fn not_a_mapping(item: &Node, source: &SourceFile) -> Diagn
     match &item.kind {
         NodeKind::Scalar { text, .. } if !text.contains('\n') => {
             let name = text.trim();
-            let indent = " ".repeat(source.column(item.span.start));
             let head = shift::head(item.span.start, source);
             let component = match head.contains(['[', ',']) {
                 true => format!("{{name: {name}, gates: []}}"),
-                false => format!("name: {name}\n{indent}gates: []"),
+                false => format!("name: {name}\n{}gates: []", " ".repeat(source.column(item.span.start))),
             };
             let text = format!("write `- name: {name}`, and below it `gates:`");
             problem.suggest(text, [Edit::new(item.span, component)]).otherwise(FORM)
