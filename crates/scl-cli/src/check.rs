@@ -37,6 +37,7 @@ Examples:
   generate | scl check -            standard input
 
 A file is a launch file if its name starts or ends with `launch`, as in `sim.launch.yaml`.
+Of a file with more than 1000 problems the first ones are shown, errors before warnings.
 Text goes to standard error, everything else to standard output.
 Exit code: 0 clean or only warnings, 1 errors, 2 a file could not be read.")]
 pub(crate) struct CheckArguments {

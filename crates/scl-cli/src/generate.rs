@@ -1,7 +1,7 @@
 //! `scl generate`: code and configuration for other languages.
 
 use crate::exit::COULD_NOT_DO;
-use crate::load::{MaxSize, load_file, show_diagnostics};
+use crate::load::{MaxSize, load_file, show_diagnostics, show_problems};
 use clap::{Args, ValueEnum};
 use scl_generate::{Component, File, Format, Outcome, OutputError, System, Target, is_current, write};
 use scl_plan::SystemPlan;
@@ -80,7 +80,7 @@ pub(crate) fn generate(arguments: &GenerateArguments) -> Result<ExitCode, Proble
         return Err(Problem::new(text));
     }
     let loaded = load_file(&arguments.file, arguments.max_size);
-    show_diagnostics(&loaded, loaded.diagnostics.iter().filter(|it| it.severity != Severity::Lint));
+    show_problems(&loaded, Severity::Warning);
     let Some(mut system) = System::of(&loaded) else {
         return Ok(ExitCode::from(if loaded.file.is_some() { 1 } else { COULD_NOT_DO }));
     };

@@ -6,7 +6,7 @@ use clap::Args;
 use scl_loader::{Loaded, Request, load, load_bytes};
 use scl_terminal::print_err;
 use scl_text::size;
-use scl_topology::diagnostic::{Diagnostic, Severity, render, render_styled};
+use scl_topology::diagnostic::{Diagnostic, MOST_LISTED, Severity, limit, render, render_styled};
 use scl_topology::external::UNREADABLE_FILE;
 use std::io::{self, Read};
 use std::path::Path;
@@ -95,6 +95,15 @@ pub(crate) fn show_diagnostics<'d>(loaded: &Loaded, shown: impl IntoIterator<Ite
     shown.into_iter().for_each(|it| print_err(&format!("{}\n\n", render(it, &loaded.sources))));
 }
 
+/// Shows those problems of a file that are at least as bad as `worst`, up to the limit of all commands.
+pub(crate) fn show_problems(loaded: &Loaded, worst: Severity) {
+    let Some(path) = loaded.file.map(|file| loaded.sources.file(file).path()) else {
+        return show_diagnostics(loaded, &loaded.diagnostics);
+    };
+    let shown = loaded.diagnostics.iter().filter(|it| it.severity <= worst).cloned().collect();
+    show_diagnostics(loaded, &limit(shown, MOST_LISTED, path));
+}
+
 /// Shows the errors, and returns the exit code of a command that needs a topology without errors: 1, or 2 if the file
 /// could not be read.
 pub(crate) fn unsound(loaded: &Loaded) -> ExitCode {
@@ -104,5 +113,5 @@ pub(crate) fn unsound(loaded: &Loaded) -> ExitCode {
 
 /// Shows only the errors, for commands that cannot continue with them.
 pub(crate) fn show_errors(loaded: &Loaded) {
-    show_diagnostics(loaded, loaded.diagnostics.iter().filter(|it| it.severity == Severity::Error));
+    show_problems(loaded, Severity::Error);
 }

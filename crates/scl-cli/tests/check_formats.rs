@@ -120,3 +120,32 @@ fn sarif_of_nothing_is_a_log_without_results() {
     assert_eq!(code, Some(0));
     assert_eq!(serde_json::from_str::<Value>(&text).unwrap()["runs"][0]["results"], json!([]));
 }
+
+#[test]
+fn of_many_problems_the_first_are_told() {
+    let gates: String = (0..1_200).map(|at| format!("      - x{at}: {{pub: T, queu: 1}}\n")).collect();
+    let text = format!("components:\n  - name: a\n    gates:\n{gates}");
+    let system = System::of_files(&[("topology.yaml", &text)]);
+    let rest = "202 more problems in topology.yaml are not shown";
+    let lines = |format| {
+        let (code, text) = output(&system, &["--format", format]);
+        assert_eq!(code, Some(1), "{format}");
+        text.lines().map(|line| serde_json::from_str::<Value>(line).unwrap()).collect::<Vec<_>>()
+    };
+    let json = lines("json");
+    assert_eq!(json.len(), 1_001);
+    assert_eq!((&json[1_000]["code"], &json[1_000]["message"]), (&json!("SCL0008"), &json!(rest)));
+    let cargo: Vec<Value> = lines("cargo").into_iter().filter(|it| it["reason"] == "compiler-message").collect();
+    assert_eq!(cargo.len(), 1_001);
+    assert!(cargo[1_000]["message"]["rendered"].as_str().unwrap().contains(rest));
+    let sarif: Value = serde_json::from_str(&output(&system, &["--format", "sarif"]).1).unwrap();
+    let results = sarif["runs"][0]["results"].as_array().unwrap();
+    assert_eq!((results.len(), &results[1_000]["ruleId"]), (1_001, &json!("SCL0008")));
+    for command in ["check", "graph", "generate --for c"] {
+        let output = system.scl(&command.split(' ').collect::<Vec<_>>()).output().unwrap();
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert!(text.contains("error: [SCL0008]") && text.contains(" not shown"), "{command}: {text}");
+        assert_eq!(output.status.code(), Some(1), "{command}");
+        assert_eq!(text.contains("topology.yaml: 1200 errors, 2 warnings"), command == "check", "{command}");
+    }
+}

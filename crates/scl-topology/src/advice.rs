@@ -7,7 +7,7 @@ mod compare;
 mod edit;
 mod extent;
 
-use crate::diagnostic::{Diagnostic, Edit, Severity};
+use crate::diagnostic::{Diagnostic, Edit, MOST_LISTED, Severity, first};
 use crate::source::SourceFile;
 use compare::{Change, passes};
 
@@ -21,6 +21,9 @@ const MOST_TRIES: usize = 20;
 /// Maximum size of all these copies in bytes; one copy may always be checked.
 const MOST_BYTES: usize = 1 << 20;
 
+/// Maximum number of problems of a file whose advice is tried: to compare more costs as much as to find them.
+const MOST_COMPARED: usize = 10_000;
+
 /// The result of checking a text.
 pub struct Judged {
     /// Its problems, sorted by position.
@@ -32,12 +35,15 @@ pub struct Judged {
 /// Applies every proposal of the `found` problems to a copy of the file, has the copy checked by `judge`, and removes
 /// the proposals that leave their problem or add another.
 ///
-/// At most 20 copies of together 1 MiB are checked. If there are more proposals, many are tried at once, and those that
-/// could not be tried are removed. Lints are off, so their proposals are kept untried, and none of them is sure.
+/// At most 20 copies of together 1 MiB are checked. If there are more proposals, many are tried at once. Those that
+/// could not be tried are removed: among them those of problems after the first [`MOST_LISTED`], which no tool shows,
+/// and all of a file with more than 10,000 problems. Lints are off, so their proposals are kept untried, and none of
+/// them is sure.
 pub fn try_advice(found: &mut Judged, source: &SourceFile, judge: impl FnMut(&str) -> Judged) {
     let text = source.text();
     let tries = tries(text);
-    let candidates = candidates(&found.problems);
+    let shown = shown(&found.problems);
+    let candidates = candidates(&found.problems, &shown);
     let mut trial = Trial { before: found, source, tries, judge };
     let mut passed = vec![false; candidates.len()];
     match candidates.len() <= tries {
@@ -45,8 +51,9 @@ pub fn try_advice(found: &mut Judged, source: &SourceFile, judge: impl FnMut(&st
         false => trial.try_many(&candidates, &mut passed),
     }
     let mut results = passed.into_iter();
-    for problem in found.problems.iter_mut().filter(|problem| is_tried(problem)) {
-        problem.keep_proposals(|| results.next().unwrap_or(false));
+    for (number, problem) in found.problems.iter_mut().enumerate().filter(|(_, problem)| is_tried(problem)) {
+        let is_shown = shown.binary_search(&number).is_ok();
+        problem.keep_proposals(|| is_shown && results.next().unwrap_or(false));
     }
 }
 
@@ -59,17 +66,27 @@ fn is_tried(problem: &Diagnostic) -> bool {
     problem.severity != Severity::Lint
 }
 
+/// The numbers of the problems whose advice is tried, in ascending order.
+fn shown(problems: &[Diagnostic]) -> Vec<usize> {
+    if problems.len() > MOST_COMPARED {
+        return Vec::new();
+    }
+    let tried = problems.iter().enumerate().filter(|(_, problem)| is_tried(problem));
+    let (numbers, problems): (Vec<usize>, Vec<&Diagnostic>) = tried.unzip();
+    let shown = numbers.into_iter().zip(first(&problems, MOST_LISTED)).filter(|(_, is_shown)| *is_shown);
+    shown.map(|(number, _)| number).collect()
+}
+
 /// One proposal, and the number of its problem.
 struct Candidate<'p> {
     problem: usize,
     edits: &'p [Edit],
 }
 
-fn candidates(problems: &[Diagnostic]) -> Vec<Candidate<'_>> {
-    let tried = problems.iter().enumerate().filter(|(_, problem)| is_tried(problem));
-    tried
-        .flat_map(|(at, problem)| problem.proposals().map(move |way| Candidate { problem: at, edits: &way.edits }))
-        .collect()
+fn candidates<'p>(problems: &'p [Diagnostic], shown: &[usize]) -> Vec<Candidate<'p>> {
+    let ways =
+        |&problem: &usize| problems[problem].proposals().map(move |way| Candidate { problem, edits: &way.edits });
+    shown.iter().flat_map(ways).collect()
 }
 
 struct Trial<'t, J> {

@@ -12,8 +12,8 @@ use crate::source::Span;
 use std::borrow::Cow;
 
 pub use help::{Edit, Help, Proposal, removal};
-pub(crate) use limit::RULE as TOO_MANY;
-pub use limit::{MOST_SHOWN, limit};
+pub use limit::{MOST_LISTED, MOST_SHOWN, limit};
+pub(crate) use limit::{RULE as TOO_MANY, first};
 pub use list_edit::{appended, new_list, separator};
 pub use render::{render, render_headless, render_styled};
 pub use rule::{Rule, Severity};

@@ -1,6 +1,6 @@
 //! Whatever the text: no panic, every problem can be shown, and the time grows with the text and no faster.
 
-use scl_topology::diagnostic::{Diagnostic, Diagnostics, limit, render};
+use scl_topology::diagnostic::{Diagnostic, Diagnostics, MOST_SHOWN, limit, render};
 use scl_topology::model::Model;
 use scl_topology::parse::parse;
 use scl_topology::source::Sources;
@@ -14,7 +14,7 @@ fn run(text: &str) -> (Model, Vec<Diagnostic>) {
     let mut problems = Diagnostics::new();
     let model = parse(&sources, file, &mut problems);
     let problems = problems.into_sorted();
-    for problem in limit(problems.clone(), "topology.yaml") {
+    for problem in limit(problems.clone(), MOST_SHOWN, "topology.yaml") {
         assert!(render(&problem, &sources).contains(problem.code()));
     }
     (model, problems)

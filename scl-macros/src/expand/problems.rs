@@ -7,17 +7,17 @@ use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 use scl_loader::BUG;
 use scl_topology::check::UNKNOWN_COMPONENT;
-use scl_topology::diagnostic::{Diagnostic, Severity, limit, render_headless};
+use scl_topology::diagnostic::{Diagnostic, MOST_SHOWN, Severity, limit, render_headless};
 use scl_topology::source::Sources;
 use scl_topology::suggest::similar;
 use syn::Ident;
 
-/// Every error and warning, up to the limit that all tools share. Lints are not shown.
+/// The errors and warnings, up to the limit of the macro. Lints are not shown.
 pub(super) fn expand_problems(context: &Context<'_>) -> TokenStream {
     let mut problems: Vec<Diagnostic> = context.loaded.diagnostics.clone();
     problems.retain(|problem| problem.severity != Severity::Lint);
     problems.extend(unknown_components(context));
-    let problems = limit(problems, &context.path);
+    let problems = limit(problems, MOST_SHOWN, &context.path);
     let (errors, warnings): (Vec<_>, Vec<_>) = problems.iter().partition(|problem| problem.severity == Severity::Error);
     let spans = FileSpans::of(context);
     let text = |problem: &&Diagnostic| render_headless(problem, &context.loaded.sources);

@@ -9,10 +9,12 @@ use super::source::Source;
 use crate::exit::COULD_NOT_DO;
 #[cfg(feature = "generate")]
 use crate::generate::Language;
+use crate::load::shown_path;
 #[cfg(feature = "generate")]
 use clap::ValueEnum;
 use scl_loader::Loaded;
-use scl_topology::diagnostic::{Diagnostic, Severity};
+use scl_topology::diagnostic::{Diagnostic, MOST_LISTED, Severity, limit};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// A file that was checked.
@@ -21,8 +23,10 @@ pub(super) struct Checked {
     pub(super) path: PathBuf,
     /// The loaded file, after the fixes if `--fix` has written any.
     pub(super) loaded: Loaded,
-    /// The diagnostics to show.
+    /// The diagnostics to show: the first ones if there are many.
     pub(super) shown: Vec<Diagnostic>,
+    /// How many there are of each severity.
+    numbers: BTreeMap<Severity, usize>,
     /// What `scl generate` would refuse in languages that `--for` does not name, one line for each.
     pub(super) notes: Vec<String>,
     /// The result of `--fix`; `None` without it, or if the file could not be read.
@@ -36,8 +40,12 @@ pub(super) fn check_file(path: &Path, arguments: &CheckArguments) -> Checked {
     let outcome = arguments.fix.then(|| fix_file(&source, &mut loaded, arguments.dry_run)).flatten();
     let all = std::mem::take(&mut loaded.diagnostics).into_iter().chain(refusals(&loaded, arguments));
     let all = all.map(|it| deny(it, &arguments.deny));
-    let shown = all.filter(|it| arguments.lints || it.severity != Severity::Lint).collect();
-    Checked { path: path.to_path_buf(), notes: other_refusals(&loaded, arguments), loaded, shown, outcome }
+    let all: Vec<Diagnostic> = all.filter(|it| arguments.lints || it.severity != Severity::Lint).collect();
+    let mut numbers = BTreeMap::new();
+    all.iter().for_each(|it| *numbers.entry(it.severity).or_default() += 1);
+    let shown = limit(all, MOST_LISTED, &shown_path(path));
+    let notes = other_refusals(&loaded, arguments);
+    Checked { path: path.to_path_buf(), notes, loaded, shown, numbers, outcome }
 }
 
 /// Returns the name clashes for which `scl generate` would refuse a topology without errors, in the languages given
@@ -83,7 +91,7 @@ impl Checked {
     }
 
     pub(super) fn number_of(&self, severity: Severity) -> usize {
-        self.shown.iter().filter(|it| it.severity == severity).count()
+        self.numbers.get(&severity).copied().unwrap_or_default()
     }
 
     /// Returns the paths of the file, its schemas and their imports, including schemas that do not exist yet.

@@ -52,6 +52,7 @@ pub(super) fn passes(before: &Judged, change: &Change<'_>, after: &Judged, copy:
         return false;
     }
     let reads_further = before.extent.is_cut_off || after.extent.unread < before.extent.unread;
+    let may_reveal = reads_further && !change.is_removal();
     let changed = changed(change.edits, is_crlf(copy), copy);
     let block = if change.is_indentation() { section(&changed, copy) } else { block(&changed, copy) };
     let own = || change.problems.iter().map(|number| &before.problems[*number]);
@@ -64,7 +65,7 @@ pub(super) fn passes(before: &Judged, change: &Change<'_>, after: &Judged, copy:
             at => !(block.start..end).contains(&at),
         };
         let mut labels = problem.primary.iter().chain(&problem.secondary);
-        !change.is_removal() && reads_further && problem.primary.is_some() && labels.all(is_elsewhere)
+        may_reveal && problem.primary.is_some() && labels.all(is_elsewhere)
     };
     // A change that solves an error may leave the file with a warning.
     let worst = own().map(|problem| problem.severity).max().unwrap_or(Severity::Error);

@@ -7,33 +7,48 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0008",
     severity: Severity::Error,
     title: "too many problems",
-    explanation: "The macro shows only the first 20 problems, errors first. `scl check` shows all of them. Fixing the \
-                  first ones often resolves many others.",
+    explanation: "The macro shows only the first 20 problems of a file, errors first, and `scl check` the first 1000. \
+                  Fixing the first ones often resolves many others.",
     example: "",
 };
 
-/// Maximum number of problems that the macro shows.
+/// Maximum number of problems of a file that the macro shows.
 pub const MOST_SHOWN: usize = 20;
 
-/// Returns at most [`MOST_SHOWN`] problems in the order given, with warnings left out before errors, followed by one
-/// that says how many are not shown. `path` is the file as messages name it.
-pub fn limit(problems: Vec<Diagnostic>, path: &str) -> Vec<Diagnostic> {
+/// Maximum number of problems of a file that `scl check` shows.
+pub const MOST_LISTED: usize = 1_000;
+
+/// Returns at most `most` problems in the order given, with warnings left out before errors, followed by one that says
+/// how many are not shown. `path` is the file as messages name it.
+pub fn limit(problems: Vec<Diagnostic>, most: usize, path: &str) -> Vec<Diagnostic> {
     let total = problems.len();
     let errors = problems.iter().filter(|problem| problem.severity == Severity::Error).count();
-    let (mut errors_left, mut others_left) = (errors.min(MOST_SHOWN), MOST_SHOWN.saturating_sub(errors));
-    let mut shown: Vec<Diagnostic> = problems
-        .into_iter()
-        .filter(|problem| {
-            let left = if problem.severity == Severity::Error { &mut errors_left } else { &mut others_left };
-            let is_shown = *left > 0;
-            *left = left.saturating_sub(1);
-            is_shown
-        })
-        .collect();
+    let first = first(&problems.iter().collect::<Vec<_>>(), most);
+    let shown = problems.into_iter().zip(first).filter(|(_, is_shown)| *is_shown);
+    let mut shown: Vec<Diagnostic> = shown.map(|(problem, _)| problem).collect();
     if total > shown.len() {
-        shown.push(missing(total - shown.len(), errors > MOST_SHOWN, path));
+        let help = match (most < MOST_LISTED, total <= MOST_LISTED) {
+            (true, true) => format!("run `scl check {path}` to see all of them"),
+            (true, false) => format!("run `scl check {path}` to see more of them"),
+            _ => "correct the first ones and check again: that often resolves many others".to_owned(),
+        };
+        shown.push(missing(total - shown.len(), errors > most, path).help(help));
     }
     shown
+}
+
+/// Tells which problems are shown if there is room for `most` of them.
+pub(crate) fn first(problems: &[&Diagnostic], most: usize) -> Vec<bool> {
+    let is_error = |problem: &&&Diagnostic| problem.severity == Severity::Error;
+    let errors = problems.iter().filter(is_error).count();
+    let (mut errors_left, mut others_left) = (errors.min(most), most.saturating_sub(errors));
+    let is_first = |problem: &&Diagnostic| {
+        let left = if is_error(&problem) { &mut errors_left } else { &mut others_left };
+        let is_first = *left > 0;
+        *left = left.saturating_sub(1);
+        is_first
+    };
+    problems.iter().map(is_first).collect()
 }
 
 /// The problem that says how many are not shown. A warning if no error is among them, so that the file stays usable.
@@ -42,7 +57,7 @@ fn missing(count: usize, has_errors: bool, path: &str) -> Diagnostic {
         1 => format!("1 more problem in {path} is not shown"),
         _ => format!("{count} more problems in {path} are not shown"),
     };
-    let mut problem = RULE.without_place(message).help(format!("run `scl check {path}` to see all of them"));
+    let mut problem = RULE.without_place(message);
     if !has_errors {
         problem.severity = Severity::Warning;
     }
@@ -51,7 +66,7 @@ fn missing(count: usize, has_errors: bool, path: &str) -> Diagnostic {
 
 #[cfg(test)]
 mod tests {
-    use super::limit;
+    use super::{MOST_LISTED, MOST_SHOWN, limit};
     use crate::diagnostic::{Diagnostic, Severity};
     use crate::external::{FILE_NOT_FOUND, PATH_OF_ONE_MACHINE};
 
@@ -64,7 +79,7 @@ mod tests {
     #[test]
     fn errors_are_shown_before_warnings() {
         let last = |warnings, errors| {
-            let shown = limit(problems(warnings, errors), "topology.yaml");
+            let shown = limit(problems(warnings, errors), MOST_SHOWN, "topology.yaml");
             let kept = |code| shown.iter().filter(|problem| problem.code() == code).count();
             let last = shown.last().map(|problem| (problem.severity, problem.message.clone()));
             (kept("SCL0006"), kept("SCL0001"), last.filter(|_| kept("SCL0008") > 0))
@@ -73,5 +88,19 @@ mod tests {
         assert_eq!(last(3, 17), (3, 17, None));
         assert_eq!(last(4, 17), (3, 17, Some((Severity::Warning, missing("1 more problem in topology.yaml is")))));
         assert_eq!(last(5, 52), (0, 20, Some((Severity::Error, missing("37 more problems in topology.yaml are")))));
+    }
+
+    #[test]
+    fn the_rest_is_where_it_can_be_seen() {
+        let help = |errors, most| {
+            let shown = limit(problems(0, errors), most, "topology.yaml");
+            shown.last().and_then(|problem| problem.shown_helps().next().map(|help| help.text().into_owned()))
+        };
+        let check = |what| Some(format!("run `scl check topology.yaml` to see {what} of them"));
+        assert_eq!(help(MOST_LISTED, MOST_SHOWN), check("all"));
+        assert_eq!(help(MOST_LISTED + 1, MOST_SHOWN), check("more"));
+        assert_eq!(help(MOST_LISTED, MOST_LISTED), None);
+        let first = "correct the first ones and check again: that often resolves many others";
+        assert_eq!(help(MOST_LISTED + 1, MOST_LISTED), Some(first.to_owned()));
     }
 }

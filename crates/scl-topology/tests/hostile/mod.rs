@@ -48,11 +48,25 @@ pub(crate) fn filled(size: usize) -> Vec<(&'static str, String)> {
         ("tabs", fill("components:\n", "\t- name: a\n")),
         ("invisible characters", fill("components:\n", "  - name: a\u{200b}b\n")),
         ("wrong indentation", fill("components:\n", "  - name: a\n     gates:\n   - x: pub\n")),
+        ("unknown options", fill(GATES_OF_A, "      - x: {sub: T, quue: 1}\n")),
+        ("arrays", fill(GATES_OF_A, "      - x[3]: pub\n")),
+        ("gates with a topic", fill(GATES_OF_A, "      - {topic: x, type: a.B}\n")),
+        ("conditions of a template", fill("components:\n", "#if\n  - name: a\n    gates: [x: pub]\n")),
+        ("components without gates on one line", format!("{}]", fill("components: [", "{name: a}, "))),
+        ("kinds of others on one line", on_one_line(size, "{x: {publisher: T, depth: 3, best_effort: yes}}")),
+        ("pairs in one word on one line", format!("{}]", fill("components: []\nconnections: [", "a.b -> c.d, "))),
         ("documents", fill("components:\n", "---\n")),
         ("conflict markers", fill("components:\n", "<<<<<<< a\n=======\n>>>>>>> b\n")),
         ("comments", fill("components: []\n", "# comment\n")),
         ("comments for the checker", fill("components: []\n", "# scl: allow(SCL0799)\n")),
     ]
+}
+
+const GATES_OF_A: &str = "components:\n  - name: a\n    gates:\n";
+
+fn on_one_line(size: usize, gate: &str) -> String {
+    let gates = format!("{gate}, ").repeat(size / (gate.len() + 2));
+    format!("components: [{{name: a, gates: [{gates}]}}]\n")
 }
 
 fn aliases(size: usize) -> String {
