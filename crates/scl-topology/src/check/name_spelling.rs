@@ -73,8 +73,8 @@ fn wrong_character<'m>(renames: &Renames<'m>, noun: Noun, name: &'m Spanned<Stri
         true => found,
         false => found.propose(format!("write `{mended}`"), renames.edits(noun, name, &mended)),
     };
-    // A path or a pattern is rather something else than a misspelt name.
-    let is_spelling = name.value.chars().all(|letter| is_allowed(letter) || matches!(letter, ' ' | '.'));
+    // A path or a pattern is rather something else than a misspelt name, and a dot may stand for another letter.
+    let is_spelling = name.value.chars().all(|letter| is_allowed(letter) || letter == ' ');
     if !is_spelling {
         found.doubt();
     }
