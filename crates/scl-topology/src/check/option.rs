@@ -68,6 +68,10 @@ fn report(draft: &Draft<'_>, gate: usize, row: &GateOption, option: &OptionModel
     let headline = format!("`{}` must be {}", row.key, range.rule);
     let key = row.key;
     let mut found = VALUE.at(headline, option.value.span, "").notes(range.reason);
+    if key == "queue" && !range.is_too_large {
+        let text = "`queue: 1` keeps one message, and is the shortest queue";
+        found = found.suggest(text, [Edit::new(option.value.span, "1")]);
+    }
     if let Some(largest) = row.shape.largest() {
         // In other tools, 0 and -1 mean that there is no limit.
         let text = match range.is_too_large {
@@ -205,6 +209,7 @@ mod tests {
                 4 |       - measurements: {sub: Measurement, queue: 0}
                   |                                                 ^
                   |
+                  = help: `queue: 1` keeps one message, and is the shortest queue
                   = help: there is no unlimited `queue`; the largest is `queue: 1000000`
                   = help: without it, the default is 100
             "#]],
@@ -236,7 +241,7 @@ mod tests {
         let told: String = gates.iter().map(|gate| format!("{gate}: {}\n", advice(gate))).collect();
         expect![[r#"
             sub: T, queue: 1: 
-            sub: T, queue: -3: SCL0409 `queue` must be at least 1 [there is no unlimited `queue`; the largest is `queue: 1000000` | without it, the default is 100]
+            sub: T, queue: -3: SCL0409 `queue` must be at least 1 [`queue: 1` keeps one message, and is the shortest queue | there is no unlimited `queue`; the largest is `queue: 1000000` | without it, the default is 100]
             sub: T, queue: 1000000: 
             sub: T, queue: 1000001: SCL0409 `queue` must be at most 1000000 [the largest is `queue: 1000000` | without it, the default is 100]
             sub: T, queue: 99999999999999999999: SCL0409 `queue` must be at most 1000000 [the largest is `queue: 1000000` | without it, the default is 100]
