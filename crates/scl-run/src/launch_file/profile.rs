@@ -7,6 +7,7 @@ use super::LaunchFile;
 use super::entry::{Entry, LaunchComponent, Opens};
 use super::keys;
 use super::reader::{Keys, Reader};
+use super::rules::WRONG_SHAPE;
 use scl_terminal::{Problem, quoted_list};
 use scl_topology::parse::Field;
 
@@ -85,6 +86,11 @@ fn apply(entry: &Entry, components: &mut Vec<LaunchComponent>) {
     component.settings = entry.settings.clone().over(&component.settings);
 }
 
+/// Whether one of the entries declares a profile of this name.
+fn is_profile(profiles: &[Field<'_>], name: &str) -> bool {
+    profiles.iter().any(|profile| profile.key == name && profile.value.entries().is_some())
+}
+
 impl Reader<'_> {
     /// Reads all profiles, whether or not they are used. A component that is not in `components` needs a command.
     pub(super) fn read_profiles(&mut self, top: &Keys<'_, '_>) -> Vec<Profile> {
@@ -96,7 +102,22 @@ impl Reader<'_> {
             self.report(problem);
             return Vec::new();
         }
+        let (chosen, profiles): (Vec<Field<'_>>, Vec<Field<'_>>) =
+            profiles.iter().partition(|field| field.value.text().is_some_and(|name| is_profile(&profiles, name)));
+        chosen.into_iter().for_each(|field| self.report_chosen(field));
         profiles.into_iter().filter_map(|profile| self.read_profile(profile, &started)).collect()
+    }
+
+    /// Reports `active: simulation` among the profiles, where `simulation` is one of them.
+    fn report_chosen(&mut self, field: Field<'_>) {
+        let name = field.value.text().unwrap_or_default();
+        let message = format!("`{}` does not choose profile `{name}`", field.key);
+        let problem = WRONG_SHAPE.at(message, field.key_span, "a profile would be declared here");
+        let problem = match self.remove_entry(field) {
+            Some(edit) => problem.suggest(format!("remove `{}`", field.key), [edit]),
+            None => problem,
+        };
+        self.report(problem.note(format!("a profile is chosen at the start: `scl run --profile {name}`")));
     }
 
     fn read_profile(&mut self, field: Field<'_>, started: &[String]) -> Option<Profile> {

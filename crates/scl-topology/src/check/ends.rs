@@ -106,6 +106,7 @@ mod tests {
             ("gps_unit.fix, log.fix", "SCL0502 component `log` has no gate `fix` [did you mean `pilot.fix`?]"),
             ("gps_unit.fix, nothing.fix", "SCL0501 unknown component `nothing` [did you mean `pilot`?]"),
             ("gps_uint.fix, pilot.fix", "SCL0501 unknown component `gps_uint` [did you mean `gps_unit`?]"),
+            ("GPS_UNIT.FIX, pilot.fix", "SCL0501 unknown component `GPS_UNIT` [did you mean `gps_unit.fix`?]"),
         ];
         for (pair, expected) in cases {
             assert_eq!(advice(&file(&format!("{raw}; {pair}"))), expected, "{pair}");

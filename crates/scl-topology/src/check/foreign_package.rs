@@ -31,6 +31,9 @@ pub(crate) const RULE: Rule = Rule {
 /// Words that begin a path that can only be one of Rust.
 const RUST: [&str; 6] = ["crate", "self", "super", "std", "core", "alloc"];
 
+/// The usual first parts of packages in Java.
+const DOMAINS: [&str; 10] = ["com", "org", "net", "io", "edu", "gov", "dev", "de", "fr", "uk"];
+
 pub(super) fn check(draft: &Draft<'_>, facts: &Facts, problems: &mut Diagnostics) {
     let Some(schemas) = &facts.messages else { return };
     let foreign: Vec<(usize, usize, &TypeName)> = foreign(draft).collect();
@@ -50,7 +53,8 @@ pub(super) fn check(draft: &Draft<'_>, facts: &Facts, problems: &mut Diagnostics
         if let Some(path) = unlisted.get(name.dotted()) {
             of_file.entry(path).or_default().push(unknown(Vec::new()));
         } else {
-            let meant = known.in_other_package(name.dotted()).filter(|meant| !used.contains(meant));
+            let is_meant = |meant: &&str| is_in_domain(name.dotted(), meant) || !used.contains(meant);
+            let meant = known.in_other_package(name.dotted()).filter(is_meant);
             of_package.extend(meant.map(|meant| unknown(vec![meant])));
         }
     }
@@ -76,16 +80,27 @@ fn foreign<'d>(draft: &'d Draft<'_>) -> impl Iterator<Item = (usize, usize, &'d 
     })
 }
 
+/// Whether a type is a message below the name of a domain, as its package is called in Java: `com.example.nav.Fix`.
+fn is_in_domain(written: &str, meant: &str) -> bool {
+    let domain = written.strip_suffix(meant).and_then(|domain| domain.strip_suffix('.'));
+    domain.and_then(|domain| domain.split('.').next()).is_some_and(|top| DOMAINS.contains(&top))
+}
+
 /// One type with the name of a message. If gates carry other messages of the package, that may be by chance.
 fn in_other_package(draft: &Draft<'_>, group: &[Unknown<'_>], used: &HashSet<&str>) -> Option<Diagnostic> {
     let first = group.first()?;
     let meant = first.meant.first()?;
-    if meant.rsplit_once('.').is_some_and(|(package, _)| used.contains(package)) {
+    let is_in_domain = is_in_domain(first.name.dotted(), meant);
+    if !is_in_domain && meant.rsplit_once('.').is_some_and(|(package, _)| used.contains(package)) {
         return None;
     }
     let headline = format!("the `schemas` declare `{meant}`, but not `{}`", first.name.dotted());
     let found = with_places(RULE.at(headline, first.name.span(), "not in the `schemas`"), group);
-    Some(found.suggest(format!("write `{meant}`, which no gate carries yet"), retyped(draft, group, meant)))
+    let text = match is_in_domain {
+        true => format!("write `{meant}`: the package is that of the `.proto` file, not of another language"),
+        false => format!("write `{meant}`, which no gate carries yet"),
+    };
+    Some(found.suggest(text, retyped(draft, group, meant)))
 }
 
 fn not_listed(draft: &Draft<'_>, path: &str, group: &[Unknown<'_>]) -> Option<Diagnostic> {
@@ -141,6 +156,8 @@ mod tests {
             ["drone.Measurement", "uav.Status"],
             ["crate.Measurement", "crate.drone.Status"],
             ["drone.Measurement", "copter.Status"],
+            ["com.example.uav.Measurement", "uav.Status"],
+            ["messages.uav.Measurement", "uav.Status"],
         ];
         expect![[r#"
             ["drone.Measurement", "drone.Status"]: the `schemas` declare these types in the package `uav`, not `drone` [write the other package: `uav.Measurement`, `uav.Status`]
@@ -149,6 +166,8 @@ mod tests {
             ["drone.Measurement", "uav.Status"]: 
             ["crate.Measurement", "crate.drone.Status"]: 
             ["drone.Measurement", "copter.Status"]: the `schemas` declare `uav.Measurement`, but not `drone.Measurement` [write `uav.Measurement`, which no gate carries yet]; the `schemas` declare `uav.Status`, but not `copter.Status` [write `uav.Status`, which no gate carries yet]
+            ["com.example.uav.Measurement", "uav.Status"]: the `schemas` declare `uav.Measurement`, but not `com.example.uav.Measurement` [write `uav.Measurement`: the package is that of the `.proto` file, not of another language]
+            ["messages.uav.Measurement", "uav.Status"]: 
         "#]].assert_eq(&cases.map(told).concat());
     }
 }

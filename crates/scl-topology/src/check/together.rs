@@ -104,6 +104,7 @@ fn what_belongs_together_is_changed_together() {
         file("x: {push: T, when_full: wait}", "x: {pull: T}", "[a.x, b.x]"),
         file("{topic: x, type: p.T}", "x: {sub: p.T}", "[a.x, b.x]"),
         file("x: {pub: T, .codec = raw}", "x: {sub: T, codec: raw}", "[a.x, b.x]"),
+        file("x: {pub: T}", "x: {sub: T, queue => 5}", "[a.x, b.x]"),
         file("x: {pub: T}", "x: {sub: T}", "[a.x, b.x]")
             .replace("  - name: b", "#else\n  - name: a\n    gates: []\n#endif\n  - name: b"),
     ];
@@ -147,6 +148,7 @@ fn what_belongs_together_is_changed_together() {
         SCL0408 option `when_full` is not available on a `push` gate [write `backpressure: true` here, and `when_full: wait` at `b.x` | remove it]
         SCL0210 a gate is written as `name: kind` [write `- x: {pub: p.T}`]
         SCL0210 `=` stands where the `:` after `.codec` is expected [write `codec: raw`]
+        SCL0210 `=>` stands where the `:` after `queue` is expected [write `queue: 5`]
         SCL0301 component `a` is declared twice [keep one of the two; the programs of a component are chosen in the launch file, by `profiles` | if they are one component, remove the second one; otherwise give it another name]
     "#]].assert_eq(&told);
 }

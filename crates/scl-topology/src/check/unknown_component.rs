@@ -5,6 +5,7 @@ use super::draft::Draft;
 use super::end::{End, with_places};
 use super::named::is_well_formed;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
+use crate::habits::compact;
 use crate::rust_name::{component_type, gate_field};
 use crate::source::Span;
 use crate::suggest::{MOST, nearest, similar};
@@ -135,7 +136,15 @@ fn with_ways(
     places: &[Span],
 ) -> Diagnostic {
     let is_verbatim = places.iter().all(|place| draft.sources.snippet(*place) == component);
-    let changed = |name: &str| places.iter().map(|place| Edit::new(*place, name)).collect::<Vec<_>>();
+    let changed = |name: &str| {
+        let ends = ends.iter().zip(places);
+        let whole = |end: &End| Some((draft.links[end[0]].model.ends[end[1]].span, respelt(draft, name, *end)?));
+        let edit = |(end, place): (&End, &Span)| match whole(end) {
+            Some((written, path)) => Edit::new(written, draft.sources.quoted_as(written, &path)),
+            None => Edit::new(*place, name),
+        };
+        ends.map(edit).collect::<Vec<_>>()
+    };
     let (&[only], true) = (meant.names.as_slice(), is_verbatim) else {
         let ways = meant.names.iter().map(|name| (*name, changed(name)));
         let mut found = found.choose_all(("did you mean ", "?"), ways);
@@ -155,7 +164,9 @@ fn with_ways(
             found.suggest(format!("or write `{only}` in the connections"), changed(only))
         }
         renamed => {
-            let mut found = found.choose_all(("did you mean ", "?"), [(only, changed(only))]);
+            let path = if let [end] = ends { respelt(draft, only, *end) } else { None };
+            let word = path.as_deref().unwrap_or(only);
+            let mut found = found.choose_all(("did you mean ", "?"), [(word, changed(only))]);
             // The declaration may be misspelt as well, unless a connection names it.
             if !(has_uses && meant.is_similar && meant.is_open) {
                 found.doubt();
@@ -166,6 +177,18 @@ fn with_ways(
             }
         }
     }
+}
+
+/// The end that is meant if its gate is written differently, too: `sensor.fix` for `SENSOR.FIX`.
+fn respelt(draft: &Draft<'_>, component: &str, end: End) -> Option<String> {
+    if gate_of(draft, component, end).is_some() {
+        return None;
+    }
+    let word = compact(gate_name(draft, end));
+    let gates = &draft.components[draft.component(component)?].gates;
+    let mut same = gates.iter().filter(|gate| compact(&draft.gates[**gate].model.name.value) == word);
+    let (gate, others) = (*same.next()?, same.next());
+    others.is_none().then(|| draft.path(gate))
 }
 
 /// Reports ends whose two names are in the wrong order.

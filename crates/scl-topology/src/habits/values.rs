@@ -44,6 +44,6 @@ pub(super) static VALUES: [(&str, Table); 7] = [
     ("timeout", Table::new(&[habit(UNLIMITED, &[], "a call always ends: there is no unlimited timeout")])),
 ];
 
-const UNLIMITED: &str = "unlimited infinite infinity inf none unbounded forever never max all keepall 0 0.0 1 .inf ∞ \
-                         false off no disabled notimeout nolimit maxdelay waitforever kforever oswaitforever \
+const UNLIMITED: &str = "unlimited infinite infinity :infinity inf none unbounded forever never max all keepall 0 0.0 \
+                         1 .inf ∞ false off no disabled notimeout nolimit maxdelay waitforever kforever oswaitforever \
                          portmaxdelay tmofevr duration::max";

@@ -40,6 +40,7 @@ fn other_shapes_are_understood() {
         "components: {a: {command: ./a}, b: {command: ./b}}\nhosts:\n  one: {address: 192.0.2.1, components: [a, b], insecure: true}\n  two: {address: 192.0.2.2, components: [b]}\ngateway: {port: 80}\n",
         "components: {a: {command: ./a}, b: {command: ./b}}\nprofiles:\n  a:\n    command: [./a, -v]\n  b:\n    command: ./b\n",
         "components: {a: {command: ./a}, b: {command: ./b}}\nprofiles: {a: {command: ./x}}\n",
+        "components: {a: {command: ./a}, b: {command: ./b}}\nprofiles:\n  active: debug\n  debug: {a: {cpu: 1}}\n",
     ];
     let all = texts.map(|text| format!("# {text}{}", told(text)));
     let all = all.join("");
@@ -349,5 +350,13 @@ fn other_shapes_are_understood() {
         `profiles` has the entry of component `a` in place of a profile
           write the name of the profile before it: `{simulation: {...}}`
           (`profiles` is a mapping from names of profiles to their entries of components)
+        # components: {a: {command: ./a}, b: {command: ./b}}
+        profiles:
+          active: debug
+          debug: {a: {cpu: 1}}
+        `active` does not choose profile `debug`
+          remove `active`
+            ?> 
+          (a profile is chosen at the start: `scl run --profile debug`)
     "##]].assert_eq(&all);
 }

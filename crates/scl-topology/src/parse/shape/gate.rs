@@ -55,15 +55,20 @@ pub(in crate::parse) fn equals_sign(name: &str, kind: &str, at: Span) -> Diagnos
         .propose(format!("write `- {name}: {kind}`"), [Edit::new(at, format!("{name}: {kind}"))])
 }
 
+/// What stands between a key and its value in other languages: `=`, `:=`, `=>`.
+const MARKS: [char; 3] = ['=', ':', '>'];
+
 /// `{pub Type}`, `{pub: Type, queue=4}`: keys with the word at their start, and the key that is meant by it.
 pub(in crate::parse) fn keys_without_colon(glued: &[(Field<'_>, &str, &str)]) -> Option<Diagnostic> {
     let (first, word, _) = glued.first()?;
-    let message = match first.key.contains('=') {
-        true => format!("`=` stands where the `:` after `{word}` is expected"),
+    let rest = first.key[word.len()..].trim_start();
+    let mark = &rest[..rest.find(|letter: char| !MARKS.contains(&letter)).unwrap_or(rest.len())];
+    let message = match mark.contains('=') {
+        true => format!("`{mark}` stands where the `:` after `{word}` is expected"),
         false => format!("missing `:` after `{word}`"),
     };
     let entries = glued.iter().map(|(field, word, key)| {
-        let value = field.key[word.len()..].trim_matches([' ', '=', ':']);
+        let value = field.key[word.len()..].trim_start_matches([' ', '=', ':', '>']).trim_end_matches([' ', '=', ':']);
         (field.key_span, format!("{key}: {value}"))
     });
     let entries: Vec<(Span, String)> = entries.collect();
