@@ -95,11 +95,9 @@ pub(crate) fn show_diagnostics<'d>(loaded: &Loaded, shown: impl IntoIterator<Ite
     shown.into_iter().for_each(|it| print_err(&format!("{}\n\n", render(it, &loaded.sources))));
 }
 
-/// Shows those problems of a file that are at least as bad as `worst`, up to the limit of all commands.
+/// Shows those problems of a topology file that are at least as bad as `worst`: the first ones if there are many.
 pub(crate) fn show_problems(loaded: &Loaded, worst: Severity) {
-    let Some(path) = loaded.file.map(|file| loaded.sources.file(file).path()) else {
-        return show_diagnostics(loaded, &loaded.diagnostics);
-    };
+    let path = loaded.file.map_or("", |file| loaded.sources.file(file).path());
     let shown = loaded.diagnostics.iter().filter(|it| it.severity <= worst).cloned().collect();
     show_diagnostics(loaded, &limit(shown, MOST_LISTED, path));
 }

@@ -72,9 +72,8 @@ fn shown(problems: &[Diagnostic]) -> Vec<usize> {
         return Vec::new();
     }
     let tried = problems.iter().enumerate().filter(|(_, problem)| is_tried(problem));
-    let (numbers, problems): (Vec<usize>, Vec<&Diagnostic>) = tried.unzip();
-    let shown = numbers.into_iter().zip(first(&problems, MOST_LISTED)).filter(|(_, is_shown)| *is_shown);
-    shown.map(|(number, _)| number).collect()
+    let is_shown = first(tried.clone().map(|(_, problem)| problem), MOST_LISTED);
+    tried.zip(is_shown).filter(|(_, is_shown)| *is_shown).map(|((number, _), _)| number).collect()
 }
 
 /// One proposal, and the number of its problem.

@@ -22,33 +22,36 @@ pub const MOST_LISTED: usize = 1_000;
 /// how many are not shown. `path` is the file as messages name it.
 pub fn limit(problems: Vec<Diagnostic>, most: usize, path: &str) -> Vec<Diagnostic> {
     let total = problems.len();
-    let errors = problems.iter().filter(|problem| problem.severity == Severity::Error).count();
-    let first = first(&problems.iter().collect::<Vec<_>>(), most);
-    let shown = problems.into_iter().zip(first).filter(|(_, is_shown)| *is_shown);
-    let mut shown: Vec<Diagnostic> = shown.map(|(problem, _)| problem).collect();
-    if total > shown.len() {
+    let is_first = first(problems.iter(), most);
+    let (shown, hidden): (Vec<_>, Vec<_>) = problems.into_iter().zip(is_first).partition(|(_, is_first)| *is_first);
+    let mut shown: Vec<Diagnostic> = shown.into_iter().map(|(problem, _)| problem).collect();
+    if !hidden.is_empty() {
         let help = match (most < MOST_LISTED, total <= MOST_LISTED) {
             (true, true) => format!("run `scl check {path}` to see all of them"),
             (true, false) => format!("run `scl check {path}` to see more of them"),
             _ => "correct the first ones and check again: that often resolves many others".to_owned(),
         };
-        shown.push(missing(total - shown.len(), errors > most, path).help(help));
+        let has_errors = hidden.iter().any(|(problem, _)| is_error(problem));
+        shown.push(missing(hidden.len(), has_errors, path).help(help));
     }
     shown
 }
 
 /// Tells which problems are shown if there is room for `most` of them.
-pub(crate) fn first(problems: &[&Diagnostic], most: usize) -> Vec<bool> {
-    let is_error = |problem: &&&Diagnostic| problem.severity == Severity::Error;
-    let errors = problems.iter().filter(is_error).count();
+pub(crate) fn first<'p>(problems: impl Iterator<Item = &'p Diagnostic> + Clone, most: usize) -> Vec<bool> {
+    let errors = problems.clone().filter(|problem| is_error(problem)).count();
     let (mut errors_left, mut others_left) = (errors.min(most), most.saturating_sub(errors));
-    let is_first = |problem: &&Diagnostic| {
-        let left = if is_error(&problem) { &mut errors_left } else { &mut others_left };
+    let is_first = |problem: &Diagnostic| {
+        let left = if is_error(problem) { &mut errors_left } else { &mut others_left };
         let is_first = *left > 0;
         *left = left.saturating_sub(1);
         is_first
     };
-    problems.iter().map(is_first).collect()
+    problems.map(is_first).collect()
+}
+
+fn is_error(problem: &Diagnostic) -> bool {
+    problem.severity == Severity::Error
 }
 
 /// The problem that says how many are not shown. A warning if no error is among them, so that the file stays usable.
