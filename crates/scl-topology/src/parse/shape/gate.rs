@@ -67,8 +67,9 @@ pub(in crate::parse) fn keys_without_colon(glued: &[(Field<'_>, &str, &str)]) ->
         true => format!("`{mark}` stands where the `:` after `{word}` is expected"),
         false => format!("missing `:` after `{word}`"),
     };
+    let is_before_value = |letter: char| letter == ' ' || MARKS.contains(&letter);
     let entries = glued.iter().map(|(field, word, key)| {
-        let value = field.key[word.len()..].trim_start_matches([' ', '=', ':', '>']).trim_end_matches([' ', '=', ':']);
+        let value = field.key[word.len()..].trim_start_matches(is_before_value).trim_end_matches([' ', '=', ':']);
         (field.key_span, format!("{key}: {value}"))
     });
     let entries: Vec<(Span, String)> = entries.collect();
