@@ -21,6 +21,7 @@ mod fitting_gate;
 mod foreign_package;
 mod gate_kind;
 mod inference;
+mod instances;
 mod island;
 mod keyword;
 mod merge;
@@ -231,6 +232,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     shared_socket::check(&draft, connection_room, problems);
 
     misread::tell_once(problems);
+    instances::tell_once(model, problems);
     repeated::tell_once(problems);
     control::apply(model, sources, problems);
     if problems.has_errors() { None } else { finish::finish(&draft, system, &codec, connection_room) }

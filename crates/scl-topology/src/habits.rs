@@ -26,6 +26,7 @@ const fn habit(words: &'static str, ways: &'static [&'static str], text: &'stati
 /// In the place of a section: ROS, dora, Docker Compose, Kubernetes, AUTOSAR, protobuf.
 pub(crate) static SECTIONS: Table = Table::new(&[
     habit("nodes services modules processes programs tasks agents actors blocks units apps", &["components"], ""),
+    habit("classes templates prototypes componenttypes componentclasses definitions defs", &["kinds"], ""),
     habit("links edges wires wiring routes bindings channels connectors", &["connections"], ""),
     habit("name systemname project robot namespace id title", &["system"], ""),
     habit(
@@ -124,10 +125,15 @@ pub(crate) static COMPONENT: Table = Table::new(&[
     habit(
         "count replicas instances scale number",
         &[],
-        "each program that runs is a component of its own, with a name of its own",
+        "each program that runs is a component with a name of its own; components of one `kind` share their gates",
     ),
     habit(
-        "type kind class stacksize stack period rate frequency language",
+        "type class template extends inherits instanceof is a",
+        &["kind"],
+        "`kind` gives a component the gates of one of the `kinds`",
+    ),
+    habit(
+        "stacksize stack period rate frequency language",
         &[],
         "a component has only a name, gates and a text; what its program does stands in the program",
     ),

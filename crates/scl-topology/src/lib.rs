@@ -70,6 +70,7 @@ pub mod fingerprint;
 pub mod grammar;
 mod habits;
 pub mod keywords;
+mod kinds;
 pub mod model;
 pub mod parse;
 pub mod resolve;

@@ -1,6 +1,8 @@
-//! The topology as written: every leaf with its place, nothing resolved, nothing rejected yet.
+//! The topology as written: every leaf with its place, nothing rejected yet, and nothing resolved but kinds.
 //!
-//! The parser creates it and leaves out malformed parts; the checks read it. For a broken file, the macro still
+//! The parser creates it and leaves out malformed parts; the checks read it. A component of a kind has the gates of the
+//! kind, and `each motor.state` is a connection of each component of the kind, so that the checks see components,
+//! gates and pairs only. For a broken file, the macro still
 //! generates the structs that it can read from the model, so that completion in editors keeps working.
 
 use crate::source::{Span, Spanned};
@@ -16,6 +18,10 @@ pub struct Model {
     pub schema_roots: Vec<Spanned<String>>,
     /// `codec:`.
     pub codec: Option<Spanned<String>>,
+    /// `kinds:`, in file order.
+    pub kinds: Vec<ComponentModel>,
+    /// Some kinds could not be read, and a problem says so. A kind that seems to be unknown may be one of them.
+    pub kinds_unread: bool,
     /// `components:`, in file order.
     pub components: Vec<ComponentModel>,
     /// `connections:`, in file order.
@@ -36,17 +42,23 @@ pub struct Model {
     pub cut_off: bool,
 }
 
-/// One entry of `components`.
+/// One entry of `components`, or of `kinds`.
 #[derive(Debug, Clone)]
 pub struct ComponentModel {
     /// `name:`.
     pub name: Spanned<String>,
-    /// `doc:`.
+    /// `doc:`, of the component or else of its kind.
     pub doc: Option<Spanned<String>>,
-    /// `optional: true`.
-    pub optional: bool,
-    /// `gates:`, in file order.
+    /// `optional:`, of the component or else of its kind.
+    pub optional: Option<bool>,
+    /// `kind:`.
+    pub kind: Option<Spanned<String>>,
+    /// The number of its kind in [`Model::kinds`], if that is declared: then `gates` are those of the kind.
+    pub of: Option<usize>,
+    /// `gates:`, in file order: of the component, or of its kind.
     pub gates: Vec<GateModel>,
+    /// The entry `gates` of the component itself, from the key to the last gate.
+    pub gates_entry: Option<Span>,
     /// Some gates could not be read, and a problem says so. A gate that seems to be unknown may be one of them.
     pub gates_unread: bool,
     /// The whole entry, without the dash before it.
@@ -86,8 +98,10 @@ pub struct OptionModel {
 /// One entry of `connections`.
 #[derive(Debug, Clone)]
 pub struct ConnectionModel {
-    /// The two ends as written, for example `sensor.measurements`.
+    /// The two ends, for example `sensor.measurements`. Where `each motor.state` is written, `left_motor.state`.
     pub ends: [Spanned<String>; 2],
+    /// The kind of each end that is written `each kind.gate`.
+    pub each: [Option<String>; 2],
     /// The whole pair.
     pub span: Span,
 }
@@ -99,4 +113,17 @@ pub struct ControlModel {
     pub text: Spanned<String>,
     /// The line that it is about, from 1: its own, or, if nothing else stands there, the next that is not a comment.
     pub line: u32,
+}
+
+impl Model {
+    /// What declares gates: the kinds, and the components that are of no kind.
+    pub fn owners(&self) -> impl Iterator<Item = &ComponentModel> {
+        self.kinds.iter().chain(self.components.iter().filter(|component| component.of.is_none()))
+    }
+}
+
+impl ConnectionModel {
+    pub(crate) fn new(ends: [Spanned<String>; 2], span: Span) -> Self {
+        Self { ends, each: [None, None], span }
+    }
 }

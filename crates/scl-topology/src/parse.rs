@@ -8,6 +8,7 @@ mod connection;
 mod control;
 mod dialect;
 mod document;
+mod entry;
 mod exchange;
 mod extension;
 mod field;
@@ -36,16 +37,18 @@ pub(crate) use pitfall::{MISREAD, RULES as PITFALLS};
 pub(crate) use shape::RULES as SHAPES;
 
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit};
+use crate::kinds;
 use crate::model::Model;
 use crate::source::{FileId, SourceFile, Sources, Span, Spanned};
 use crate::yaml::{self, Node, NodeKind};
+use entry::Entry;
 use topology_dialect::TOPOLOGY;
 
-/// Reads a topology file as it is written.
+/// Reads a topology file, and gives the components of a kind the gates and connections of the kind.
 ///
-/// Malformed parts are left out of the model, and each of them is reported in `problems`: all of `SCL01xx` and
-/// `SCL02xx`. After a syntax error, the model holds what precedes it, and only problems of the text itself are
-/// reported, as the others may be its consequences. Takes linear time and does not panic, whatever the text.
+/// Malformed parts are left out of the model, and each of them is reported in `problems`: all of `SCL01xx`,
+/// `SCL02xx` and `SCL13xx`. After a syntax error, the model holds what precedes it, and only problems of the text
+/// itself are reported, as the others may be its consequences. Takes linear time and does not panic, whatever the text.
 ///
 /// ```
 /// use scl_topology::{diagnostic::{Diagnostics, render}, parse::parse, source::Sources};
@@ -64,7 +67,8 @@ pub fn parse(sources: &Sources, file: FileId, problems: &mut Diagnostics) -> Mod
     let mut reader = Reader::new(source);
     reader.read_root(&document);
     reader.read_controls(document.root.as_ref());
-    let Reader { model, problems: found, .. } = reader;
+    let Reader { mut model, problems: mut found, .. } = reader;
+    kinds::expand(&mut model, sources, &mut found);
     // Problems with the shape may follow from a syntax error, so report them only if the whole text could be read.
     match document.is_partial {
         true => found.discard(),
@@ -116,6 +120,8 @@ struct Reader<'s> {
     has_stray_connections: bool,
     /// How many problems may still search the whole file, so that time stays linear.
     searches_left: usize,
+    /// What the items of the list declare that is being read.
+    reads: Entry,
     /// The component that is being read, or else the last one.
     component: Option<Span>,
     /// The last item of the list of connections.
@@ -134,6 +140,7 @@ impl<'s> Reader<'s> {
             model,
             has_stray_connections: false,
             searches_left: MOST_SEARCHES,
+            reads: Entry::Component,
             component: None,
             last_connection: None,
         }

@@ -9,6 +9,10 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ComponentId(pub(crate) u32);
 
+/// The index of a kind of components.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct KindId(pub(crate) u32);
+
 /// The index of a gate, unique in the whole topology.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct GateId(pub(crate) u32);
@@ -88,6 +92,39 @@ impl fmt::Display for Payload {
     }
 }
 
+/// A checked kind of components.
+#[derive(Debug, Clone)]
+pub struct Kind {
+    pub(crate) name: String,
+    pub(crate) rust_name: String,
+    pub(crate) doc: Option<String>,
+    pub(crate) span: Span,
+    pub(crate) components: Vec<ComponentId>,
+}
+
+impl Kind {
+    /// The name in the file.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+    /// The Rust type, for example `Motor`.
+    pub fn rust_name(&self) -> &str {
+        &self.rust_name
+    }
+    /// `doc:`.
+    pub fn doc(&self) -> Option<&str> {
+        self.doc.as_deref()
+    }
+    /// Where its name is written.
+    pub fn span(&self) -> Span {
+        self.span
+    }
+    /// Its components, in file order. Their gates have the same names, kinds, types and options.
+    pub fn components(&self) -> &[ComponentId] {
+        &self.components
+    }
+}
+
 /// A checked component.
 #[derive(Debug, Clone)]
 pub struct Component {
@@ -96,6 +133,7 @@ pub struct Component {
     pub(crate) doc: Option<String>,
     pub(crate) optional: bool,
     pub(crate) span: Span,
+    pub(crate) kind: Option<KindId>,
     pub(crate) gates: Vec<GateId>,
 }
 
@@ -120,9 +158,43 @@ impl Component {
     pub fn span(&self) -> Span {
         self.span
     }
+    /// `kind:`.
+    pub fn kind(&self) -> Option<KindId> {
+        self.kind
+    }
     /// Its gates, in file order.
     pub fn gates(&self) -> &[GateId] {
         &self.gates
+    }
+}
+
+/// What becomes one type in programs: a component of no kind, or all components of a kind.
+#[derive(Debug, Clone, Copy)]
+pub struct ComponentType<'t> {
+    /// The component, or the first one of the kind. All of a kind have the same gates.
+    pub id: ComponentId,
+    /// The component with this id.
+    pub component: &'t Component,
+    /// The kind.
+    pub kind: Option<&'t Kind>,
+}
+
+impl<'t> ComponentType<'t> {
+    /// The name in the file.
+    pub fn name(self) -> &'t str {
+        self.kind.map_or(&self.component.name, |kind| &kind.name)
+    }
+    /// The Rust type, for example `UserInterface`.
+    pub fn rust_name(self) -> &'t str {
+        self.kind.map_or(&self.component.rust_name, |kind| &kind.rust_name)
+    }
+    /// `doc:`.
+    pub fn doc(self) -> Option<&'t str> {
+        self.kind.map_or(&self.component.doc, |kind| &kind.doc).as_deref()
+    }
+    /// Where the name is written.
+    pub fn span(self) -> Span {
+        self.kind.map_or(self.component.span, |kind| kind.span)
     }
 }
 
@@ -215,6 +287,7 @@ impl Connection {
 #[derive(Debug, Clone)]
 pub struct Topology {
     pub(crate) system: String,
+    pub(crate) kinds: Vec<Kind>,
     pub(crate) components: Vec<Component>,
     pub(crate) gates: Vec<Gate>,
     pub(crate) connections: Vec<Connection>,
@@ -226,6 +299,28 @@ impl Topology {
     /// The system's name: `system:`, or else derived from the file's name.
     pub fn system(&self) -> &str {
         &self.system
+    }
+    /// The kinds, in file order.
+    pub fn kinds(&self) -> impl ExactSizeIterator<Item = (KindId, &Kind)> {
+        self.kinds.iter().enumerate().map(|(i, kind)| (KindId(i as u32), kind))
+    }
+    /// The kind with this id.
+    pub fn kind(&self, id: KindId) -> &Kind {
+        &self.kinds[id.0 as usize]
+    }
+    /// What becomes a type in programs, in the order of the components. A kind without components becomes none.
+    pub fn types(&self) -> impl Iterator<Item = ComponentType<'_>> {
+        self.components().filter_map(|(id, component)| {
+            let kind = component.kind.map(|kind| self.kind(kind));
+            let is_first = kind.is_none_or(|kind| kind.components.first() == Some(&id));
+            is_first.then_some(ComponentType { id, component, kind })
+        })
+    }
+    /// The type that a component is of.
+    pub fn type_of(&self, id: ComponentId) -> ComponentType<'_> {
+        let kind = self.component(id).kind.map(|kind| self.kind(kind));
+        let id = kind.and_then(|kind| kind.components.first().copied()).unwrap_or(id);
+        ComponentType { id, component: self.component(id), kind }
     }
     /// The components, in file order.
     pub fn components(&self) -> impl ExactSizeIterator<Item = (ComponentId, &Component)> {

@@ -9,10 +9,11 @@ use scl_topology::parse::parse;
 use scl_topology::source::{FileId, Sources};
 use std::ops::Range;
 
-const FILES: [(&str, &str); 3] = [
+const FILES: [(&str, &str); 4] = [
     ("listing_1", include_str!("files/listing_1.yaml")),
     ("rover", include_str!("files/rover.yaml")),
     ("system", include_str!("files/system.yaml")),
+    ("kinds", include_str!("files/kinds.yaml")),
 ];
 
 /// Files that were written for other purposes, with their own comments, styles and options.

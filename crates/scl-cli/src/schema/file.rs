@@ -3,7 +3,7 @@
 use super::gate::gate_schema;
 use super::names::{NAME, Names};
 use super::shape::shape_schema;
-use scl_topology::grammar::{COMPONENT_KEYS, Item, Key, OWN_PREFIX, SECTIONS, Shape, without_references};
+use scl_topology::grammar::{COMPONENT_KEYS, Item, KIND, Key, OWN_PREFIX, SECTIONS, Shape, without_references};
 use serde_json::{Map, Value, json};
 
 /// The whole schema.
@@ -32,6 +32,7 @@ fn mapping(keys: &[Key], names: &Names) -> Map<String, Value> {
 fn key_schema(key: &Key, names: &Names) -> Value {
     let mut schema = match key.shape {
         Shape::List(item) => list_schema(key, item, names),
+        Shape::Name if key.key == KIND => names.kind_schema(),
         Shape::Name => json!({ "type": "string", "pattern": NAME }),
         other => shape_schema(other),
     };
@@ -41,7 +42,11 @@ fn key_schema(key: &Key, names: &Names) -> Value {
 
 fn list_schema(key: &Key, item: Item, names: &Names) -> Value {
     let items = match item {
-        Item::Component => component_schema(names),
+        Item::Component => component_schema(&COMPONENT_KEYS, "A component: one program, or a part of one.", names),
+        Item::Kind => {
+            let [keys @ .., _kind] = &COMPONENT_KEYS;
+            component_schema(keys, "A kind: what its components have in common.", names)
+        }
         Item::Connection => connection_schema(names),
         Item::File => {
             json!({ "type": "string", "pattern": "\\S", "description": "A file, for example `rover.proto`." })
@@ -58,15 +63,16 @@ fn list_schema(key: &Key, item: Item, names: &Names) -> Value {
     }
 }
 
-fn component_schema(names: &Names) -> Value {
-    let mut schema = mapping(&COMPONENT_KEYS, names);
-    schema.insert("description".to_owned(), json!("A component: one program, or a part of one."));
+fn component_schema(keys: &[Key], description: &str, names: &Names) -> Value {
+    let mut schema = mapping(keys, names);
+    schema.insert("description".to_owned(), json!(description));
     Value::Object(schema)
 }
 
 fn connection_schema(names: &Names) -> Value {
     json!({
-        "description": "A connection: two gates, `[component.gate, component.gate]`.",
+        "description": "A connection: two gates, `[component.gate, component.gate]`; `each kind.gate` stands for the gate \
+                        of all components of a kind.",
         "type": "array", "minItems": 2, "maxItems": 2, "items": names.end_schema(),
     })
 }

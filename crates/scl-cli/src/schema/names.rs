@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 /// A word of letters, digits, `_` and single `-`.
 pub(super) const NAME: &str = "^[A-Za-z_](-?[A-Za-z0-9_])*-?$";
 
-/// `component.gate`.
-const END: &str = "^[A-Za-z_](-?[A-Za-z0-9_])*-?\\.[A-Za-z_](-?[A-Za-z0-9_])*-?$";
+/// `component.gate` or `each kind.gate`.
+const END: &str = "^(each\\s+)?[A-Za-z_](-?[A-Za-z0-9_])*-?\\.[A-Za-z_](-?[A-Za-z0-9_])*-?$";
 
 /// A word of a dotted type.
 const WORD: &str = "([A-Za-z][A-Za-z0-9_]*|_[A-Za-z0-9_]+)";
@@ -15,8 +15,9 @@ const WORD: &str = "([A-Za-z][A-Za-z0-9_]*|_[A-Za-z0-9_]+)";
 /// The names that editors offer; empty for a schema that belongs to no file.
 #[derive(Debug, Default)]
 pub(super) struct Names {
-    /// `component.gate`, each with its kind and type.
+    /// `component.gate` and `each kind.gate`, with the kind of the gate and its type.
     ends: Vec<(String, String)>,
+    kinds: Vec<String>,
     messages: Vec<String>,
     exchanges: Vec<String>,
 }
@@ -24,12 +25,15 @@ pub(super) struct Names {
 impl Names {
     /// The names of a file as it is written; it may have errors.
     pub(super) fn of(model: &Model) -> Self {
-        let mut names = Self::default();
-        for component in &model.components {
-            for gate in &component.gates {
+        let kinds = model.kinds.iter().map(|kind| kind.name.value.clone()).collect();
+        let mut names = Self { kinds, ..Self::default() };
+        let kinds = model.kinds.iter().map(|kind| (format!("each {}", kind.name.value), kind));
+        let components = model.components.iter().map(|component| (component.name.value.clone(), component));
+        for (owner, entry) in kinds.chain(components) {
+            for gate in &entry.gates {
                 let payload = gate.payload.as_ref().map_or("", |payload| payload.value.as_str());
                 let words = format!("{} {payload}", gate.kind.value).trim().to_owned();
-                names.ends.push((format!("{}.{}", component.name.value, gate.name.value), words));
+                names.ends.push((format!("{owner}.{}", gate.name.value), words));
                 let types = if payload.contains("->") { &mut names.exchanges } else { &mut names.messages };
                 if !payload.is_empty() && !types.iter().any(|known| known == payload) {
                     types.push(payload.to_owned());
@@ -47,8 +51,14 @@ impl Names {
             known,
             self.ends.is_empty(),
             &json!({ "type": "string", "pattern": END }),
-            "One end of a connection: `component.gate`.",
+            "One end of a connection: `component.gate` or `each kind.gate`.",
         )
+    }
+
+    /// The kind of a component.
+    pub(super) fn kind_schema(&self) -> Value {
+        let known = json!({ "type": "string", "enum": self.kinds });
+        offered(known, self.kinds.is_empty(), &json!({ "type": "string", "pattern": NAME }), "One of the `kinds`.")
     }
 
     /// The type of `pub`, `sub`, `push` and `pull`.

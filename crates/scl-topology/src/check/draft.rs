@@ -2,6 +2,7 @@
 //!
 //! A part that a rule rejected is `None` here, and later rules pass over it, so that one mistake is reported once.
 
+use crate::kinds::each_end;
 use crate::model::{ComponentModel, ConnectionModel, GateModel, Model};
 use crate::source::{Sources, Span, Spanned};
 use crate::topology::{Codec, DeclaredOptions, GateKind, Payload, TypeName};
@@ -21,6 +22,8 @@ pub(super) struct Draft<'m> {
     pub(super) components: Vec<DraftComponent<'m>>,
     pub(super) gates: Vec<DraftGate<'m>>,
     pub(super) links: Vec<Link<'m>>,
+    /// The first component of each kind.
+    first_of_kind: Vec<Option<usize>>,
     /// The names of all components, sorted, once each.
     pub(super) component_names: Vec<&'m str>,
     /// How many unknown names may still be compared with all others, see [`Draft::may_search`].
@@ -79,6 +82,7 @@ impl<'m> Draft<'m> {
             components: Vec::with_capacity(model.components.len()),
             gates: Vec::new(),
             links,
+            first_of_kind: vec![None; model.kinds.len()],
             component_names: sorted_names(model),
             searches_left: searches(model),
             components_by_name: HashMap::new(),
@@ -102,6 +106,26 @@ impl<'m> Draft<'m> {
             self.gates.push(DraftGate::new(index, gate, first != at));
         }
         self.components.push(DraftComponent { model, gates: (first_gate..self.gates.len()).collect() });
+        if let Some(kind) = model.of {
+            self.first_of_kind[kind].get_or_insert(index);
+        }
+    }
+
+    /// The gate that stands for the same gate of all components of a kind: that of the first one. Of a component of no
+    /// kind, the gate itself.
+    pub(super) fn shared(&self, gate: usize) -> usize {
+        let component = &self.components[self.gates[gate].component];
+        let first = component.model.of.and_then(|kind| self.first_of_kind[kind]);
+        first.map_or(gate, |first| self.components[first].gates[gate - component.gates[0]])
+    }
+
+    /// `each kind.gate`, or `component.gate` if the component is of no kind.
+    pub(super) fn shared_path(&self, gate: usize) -> String {
+        let component = self.components[self.gates[gate].component].model;
+        match component.of {
+            Some(kind) => each_end(&self.model.kinds[kind].name.value, &self.gates[gate].model.name.value),
+            None => self.path(gate),
+        }
     }
 
     /// The messages of the schemas that gates carry.

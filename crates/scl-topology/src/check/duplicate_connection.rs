@@ -53,7 +53,11 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
             let edits = changed.map(|((end, _), path)| Edit::new(end.span, draft.sources.quoted_as(end.span, path)));
             found.suggest(format!("write `[{}]`", paths.join(", ")), edits)
         });
-        found = found.propose_removal("remove one of the two", draft.sources.file(span.file), span);
+        // The other connections of an `each` are needed.
+        let needless =
+            [at, earlier].into_iter().find(|link| draft.links[*link].model.each == [None, None]).unwrap_or(at);
+        let needless = draft.links[needless].model.span;
+        found = found.propose_removal("remove one of the two", draft.sources.file(needless.file), needless);
         if !meant.is_empty() {
             found.doubt();
         }

@@ -2,7 +2,9 @@
 
 use super::draft::{Draft, DraftGate};
 use crate::rust_name::{component_type, gate_field};
-use crate::topology::{Codec, Component, ComponentId, Connection, ConnectionId, Gate, GateId, Payload, Topology};
+use crate::topology::{
+    Codec, Component, ComponentId, Connection, ConnectionId, Gate, GateId, Kind, KindId, Payload, Topology,
+};
 
 /// Creates the topology. Returns `None` if a part of the draft has been rejected, which is reported already.
 pub(super) fn finish(draft: &Draft<'_>, system: String, codec: &Codec, connection_room: usize) -> Option<Topology> {
@@ -17,11 +19,31 @@ pub(super) fn finish(draft: &Draft<'_>, system: String, codec: &Codec, connectio
         name: component.model.name.value.clone(),
         rust_name: component_type(&component.model.name.value),
         doc: component.model.doc.as_ref().map(|doc| doc.value.clone()),
-        optional: component.model.optional,
+        optional: component.model.optional.unwrap_or(false),
         span: component.model.name.span,
+        kind: component.model.of.map(|kind| KindId(kind as u32)),
         gates: component.gates.iter().map(|&gate| GateId(gate as u32)).collect(),
     });
-    Some(Topology { system, components: components.collect(), gates, connections, connection_room })
+    let components = components.collect();
+    let kinds = finish_kinds(draft);
+    Some(Topology { system, kinds, components, gates, connections, connection_room })
+}
+
+fn finish_kinds(draft: &Draft<'_>) -> Vec<Kind> {
+    let kinds = draft.model.kinds.iter().map(|kind| Kind {
+        name: kind.name.value.clone(),
+        rust_name: component_type(&kind.name.value),
+        doc: kind.doc.as_ref().map(|doc| doc.value.clone()),
+        span: kind.name.span,
+        components: Vec::new(),
+    });
+    let mut kinds: Vec<Kind> = kinds.collect();
+    for (at, component) in draft.components.iter().enumerate() {
+        if let Some(kind) = component.model.of {
+            kinds[kind].components.push(ComponentId(at as u32));
+        }
+    }
+    kinds
 }
 
 fn connection(link: &super::draft::Link<'_>) -> Option<Connection> {

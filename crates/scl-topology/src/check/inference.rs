@@ -1,4 +1,5 @@
-//! Types and codecs that one end leaves out are taken over from the other. SCL0607, a lint, says where; SCL0402, a
+//! Types and codecs that one end leaves out are taken over from the other, and so by the components of a kind from each
+//! other. SCL0607, a lint, says where; SCL0402, a
 //! lint, finds the connections on which neither end has a type.
 
 use super::draft::Draft;
@@ -49,9 +50,9 @@ pub(crate) const TAKEN_OVER: Rule = Rule {
 };
 
 pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
-    let peers = draft.links_by_gate();
-    take_over_types(draft, &peers);
-    take_over_codecs(draft, &peers);
+    let neighbours = neighbours(draft);
+    take_over_types(draft, &neighbours);
+    take_over_codecs(draft, &neighbours);
     for gate in 0..draft.gates.len() {
         let origin = draft.gates[gate].payload_from;
         problems.extend(origin.and_then(|origin| taken_over(draft, gate, origin)));
@@ -64,13 +65,27 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
     }
 }
 
+/// By gate: the gates at the other ends of its connections, and the same gate of other components of its kind.
+fn neighbours(draft: &Draft<'_>) -> Vec<Vec<usize>> {
+    let peers = draft.links_by_gate().into_iter().map(|links| links.into_iter().map(|(_, peer)| peer).collect());
+    let mut neighbours: Vec<Vec<usize>> = peers.collect();
+    for gate in 0..draft.gates.len() {
+        let shared = draft.shared(gate);
+        if shared != gate {
+            neighbours[gate].push(shared);
+            neighbours[shared].push(gate);
+        }
+    }
+    neighbours
+}
+
 /// Spreads types from the gates that have one, breadth first, so that each gate gets the type of the nearest typed
 /// gate, or of the first in the file if several are equally near.
-fn take_over_types(draft: &mut Draft<'_>, peers: &[Vec<(usize, usize)>]) {
+fn take_over_types(draft: &mut Draft<'_>, neighbours: &[Vec<usize>]) {
     let is_typed = |gate: &usize| !matches!(draft.gates[*gate].payload, None | Some(Payload::Bytes));
     let mut reached: VecDeque<usize> = (0..draft.gates.len()).filter(is_typed).collect();
     while let Some(gate) = reached.pop_front() {
-        for &(_, peer) in &peers[gate] {
+        for &peer in &neighbours[gate] {
             if draft.gates[peer].payload == Some(Payload::Bytes) {
                 draft.gates[peer].payload = draft.gates[gate].payload.clone();
                 draft.gates[peer].payload_from = Some(draft.gates[gate].payload_from.unwrap_or(gate));
@@ -80,11 +95,11 @@ fn take_over_types(draft: &mut Draft<'_>, peers: &[Vec<(usize, usize)>]) {
     }
 }
 
-fn take_over_codecs(draft: &mut Draft<'_>, peers: &[Vec<(usize, usize)>]) {
+fn take_over_codecs(draft: &mut Draft<'_>, neighbours: &[Vec<usize>]) {
     let has_codec = |gate: &usize| draft.gates[*gate].codec.is_some();
     let mut reached: VecDeque<usize> = (0..draft.gates.len()).filter(has_codec).collect();
     while let Some(gate) = reached.pop_front() {
-        for &(_, peer) in &peers[gate] {
+        for &peer in &neighbours[gate] {
             if draft.gates[peer].codec.is_none() && !draft.gates[peer].codec_broken {
                 draft.gates[peer].codec = draft.gates[gate].codec.clone();
                 reached.push_back(peer);

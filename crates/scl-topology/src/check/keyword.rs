@@ -62,10 +62,10 @@ pub(super) fn check<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut 
             problems.push(unusable(noun, name));
         }
     }
-    for component in &model.components {
-        for gate in component.gates.iter().filter(|gate| is_well_formed(&gate.name.value)) {
+    for owner in model.owners() {
+        for gate in owner.gates.iter().filter(|gate| is_well_formed(&gate.name.value)) {
             if is_keyword(&gate_field(&gate.name.value)) {
-                problems.push(escaped(renames, &component.name.value, &gate.name));
+                problems.push(escaped(renames, &owner.name.value, &gate.name));
             }
         }
     }
@@ -78,13 +78,13 @@ fn is_unusable(noun: Noun, name: &str) -> bool {
 }
 
 fn rust_name(noun: Noun, name: &str) -> String {
-    if noun == Noun::Component { component_type(name) } else { gate_field(name) }
+    if noun.is_type() { component_type(name) } else { gate_field(name) }
 }
 
 fn unusable(noun: Noun, name: &Spanned<String>) -> Diagnostic {
     let word = &name.value;
     let rust = rust_name(noun, word);
-    let becomes = if noun == Noun::Component { "type" } else { "field" };
+    let becomes = if noun.is_type() { "type" } else { "field" };
     let headline = match word.as_str() {
         "_" => "`_` is not a name in Rust".to_owned(),
         _ if is_unescapable(word) => {
@@ -99,9 +99,9 @@ fn unusable(noun: Noun, name: &Spanned<String>) -> Diagnostic {
         .note(format!("not usable either: {}", scl_text::list::listed(others)))
 }
 
-fn escaped<'m>(renames: &Renames<'m>, component: &str, name: &'m Spanned<String>) -> Diagnostic {
+fn escaped<'m>(renames: &Renames<'m>, owner: &str, name: &'m Spanned<String>) -> Diagnostic {
     let field = gate_field(&name.value);
-    let label = format!("in Rust code you will have to write `{}.r#{field}`", gate_field(component));
+    let label = format!("in Rust code you will have to write `{}.r#{field}`", gate_field(owner));
     let other = ALTERNATIVES.iter().find(|(word, _)| *word == field);
     let other = other.map_or_else(|| format!("{field}_"), |(_, other)| (*other).to_owned());
     OF_RUST
@@ -138,7 +138,7 @@ fn check_foreign<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Dia
             Noun::Gate if is_keyword(&field) => continue,
             _ if is_unescapable(&field) => continue,
             Noun::Gate => vec![field],
-            Noun::Component => vec![field, component_type(&name.value)],
+            Noun::Kind | Noun::Component => vec![field, component_type(&name.value)],
         };
         problems.extend(spellings.iter().find_map(|spelling| find_foreign(renames, noun, name, spelling)));
     }

@@ -1,7 +1,7 @@
 //! Lints about names that work. SCL0313: a component whose type hides a name that every Rust file has in scope.
 //! SCL0314: a name in another style than the fields and modules of Rust.
 
-use super::named::{Noun, is_well_formed, names};
+use super::named::{Noun, is_well_formed, names, types};
 use super::rename::Renames;
 use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::model::Model;
@@ -46,11 +46,10 @@ pub(super) fn check<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut 
 }
 
 fn check_prelude(model: &Model, problems: &mut Diagnostics) {
-    for component in model.components.iter().filter(|component| is_well_formed(&component.name.value)) {
-        let name = &component.name;
+    for (noun, name) in types(model).filter(|(_, name)| is_well_formed(&name.value)) {
         let rust = component_type(&name.value);
         let Some((_, hidden)) = PRELUDE.iter().find(|(short, _)| *short == rust) else { continue };
-        let start = format!("component `{}` becomes the Rust type `{rust}`", name.value);
+        let start = format!("{} `{}` becomes the Rust type `{rust}`", noun.word(), name.value);
         let headline = format!("{start}, which hides `{hidden}` where you import it");
         let found = HIDES_PRELUDE
             .at(headline, name.span, "")

@@ -15,6 +15,7 @@ pub(super) const LONGEST_NAME: usize = 64;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Noun {
     System,
+    Kind,
     Component,
     Gate,
 }
@@ -23,20 +24,29 @@ impl Noun {
     pub(super) fn word(self) -> &'static str {
         match self {
             Noun::System => "system",
+            Noun::Kind => "kind",
             Noun::Component => "component",
             Noun::Gate => "gate",
         }
+    }
+
+    /// Whether the name becomes that of a type.
+    pub(super) fn is_type(self) -> bool {
+        matches!(self, Noun::Kind | Noun::Component)
     }
 }
 
 /// Every name that the file declares.
 pub(super) fn names(model: &Model) -> impl Iterator<Item = (Noun, &Name)> {
     let system = model.system.iter().map(|name| (Noun::System, name));
-    let declared = model.components.iter().flat_map(|component| {
-        let gates = component.gates.iter().map(|gate| (Noun::Gate, &gate.name));
-        std::iter::once((Noun::Component, &component.name)).chain(gates)
-    });
-    system.chain(declared)
+    let gates = model.owners().flat_map(|owner| &owner.gates).map(|gate| (Noun::Gate, &gate.name));
+    system.chain(types(model)).chain(gates)
+}
+
+/// The names that become types.
+pub(super) fn types(model: &Model) -> impl DoubleEndedIterator<Item = (Noun, &Name)> {
+    let kinds = model.kinds.iter().map(|kind| (Noun::Kind, &kind.name));
+    kinds.chain(model.components.iter().map(|component| (Noun::Component, &component.name)))
 }
 
 /// Whether a name follows the rules of spelling, so that the rules about its meaning can check it.

@@ -31,7 +31,12 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
             connected_at[gate].get_or_insert(link.model.span);
         }
     }
-    for (at, gate) in draft.gates.iter().enumerate() {
+    // The mark of a kind is for any of its components.
+    let mut is_needed = vec![false; draft.gates.len()];
+    for (gate, _) in connected_at.iter().enumerate().filter(|(_, connected_at)| connected_at.is_none()) {
+        is_needed[draft.shared(gate)] = true;
+    }
+    for (at, gate) in draft.gates.iter().enumerate().filter(|(at, _)| !is_needed[draft.shared(*at)]) {
         let (Some(option), Some(connected_at)) = (gate.option("unconnected"), connected_at[at]) else { continue };
         if gate.options.unconnected_ok {
             let headline = format!("gate `{}` is marked `unconnected: ok`, but it is connected", draft.path(at));

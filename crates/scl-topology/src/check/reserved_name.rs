@@ -66,7 +66,9 @@ fn is_reserved(noun: Noun, name: &str) -> bool {
     match noun {
         // A system's name only becomes a folder, so no name is reserved; `topology` is the usual default.
         Noun::System => false,
-        Noun::Component => name == "scl" || name == "topology" || name.starts_with("scl_") || name.starts_with("__"),
+        Noun::Kind | Noun::Component => {
+            name == "scl" || name == "topology" || name.starts_with("scl_") || name.starts_with("__")
+        }
         Noun::Gate => name.starts_with("__"),
     }
 }

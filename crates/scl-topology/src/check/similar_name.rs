@@ -2,10 +2,10 @@
 //! and `_` tell apart.
 
 use super::merge;
-use super::named::{Name, Noun, is_well_formed, with_first};
+use super::named::{Name, Noun, is_well_formed, types, with_first};
 use super::rename::Renames;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
-use crate::model::Model;
+use crate::model::{ComponentModel, Model};
 use crate::rust_name::{component_type, gate_field};
 use crate::source::Sources;
 use std::collections::HashMap;
@@ -17,7 +17,8 @@ pub(crate) const SAME_TYPE: Rule = Rule {
     title: "two components become the same Rust type",
     explanation: "Different names in the file become the same Rust type: `user-interface` and `user_interface` both \
                   become `UserInterface`. If there is a component `sensor`, the type `SensorPeer` is taken, too: it is \
-                  the counterpart that is generated for tests of `sensor`. Rename one.",
+                  the counterpart that is generated for tests of `sensor`. Beside a kind `motor`, `MotorInstance` is \
+                  the enum of its components. Rename one.",
     example: " components:
 -  - name: user-interface
 +  - name: operator
@@ -47,10 +48,10 @@ pub(crate) const SAME_FIELD: Rule = Rule {
 const MOST_SEARCHES: usize = 16;
 
 pub(super) fn check<'m>(model: &'m Model, sources: &Sources, renames: &Renames<'m>, problems: &mut Diagnostics) {
-    let names = model.components.iter().map(|component| &component.name);
+    let names = types(model).map(|(_, name)| name);
     for (number, (first, second, rust)) in collisions(names, component_type).enumerate() {
-        let (a, b) = (&first.value, &second.value);
-        let headline = format!("components `{a}` and `{b}` would both become the Rust type `{rust}`");
+        let nouns = [first, second].map(|name| noun_of(model, name));
+        let headline = format!("{} would both become the Rust type `{rust}`", pair(nouns, first, second));
         let mut found = collision(&SAME_TYPE, headline, [first, second], &rust);
         if number < MOST_SEARCHES {
             let of = |name: &Name| model.components.iter().find(|component| std::ptr::eq(&component.name, name));
@@ -58,18 +59,32 @@ pub(super) fn check<'m>(model: &'m Model, sources: &Sources, renames: &Renames<'
                 found = merge::suggest(found, model, sources, [first, second]);
             }
         }
-        problems.push(with_other_name(found, renames, Noun::Component, second));
+        problems.push(with_other_name(found, renames, nouns[1], second));
     }
-    check_peers(model, renames, problems);
+    check_beside(model, renames, problems);
     check_letter_case(model, renames, problems);
-    for component in &model.components {
-        let names = component.gates.iter().map(|gate| &gate.name);
+    for owner in model.owners() {
+        let names = owner.gates.iter().map(|gate| &gate.name);
         for (first, second, rust) in collisions(names, gate_field) {
-            let (a, b, owner) = (&first.value, &second.value, &component.name.value);
+            let (a, b, owner) = (&first.value, &second.value, &owner.name.value);
             let headline = format!("gates `{a}` and `{b}` of `{owner}` would both become the Rust field `{rust}`");
             let found = collision(&SAME_FIELD, headline, [first, second], &rust);
             problems.push(with_other_name(found, renames, Noun::Gate, second));
         }
+    }
+}
+
+fn noun_of(model: &Model, name: &Name) -> Noun {
+    let is_kind = model.kinds.iter().any(|kind| std::ptr::eq(&kind.name, name));
+    if is_kind { Noun::Kind } else { Noun::Component }
+}
+
+/// Two names in a message: ``components `gps` and `GPS` ``.
+fn pair(nouns: [Noun; 2], first: &Name, second: &Name) -> String {
+    let (a, b) = (&first.value, &second.value);
+    match nouns {
+        [one, two] if one == two => format!("{}s `{a}` and `{b}`", one.word()),
+        [one, two] => format!("{} `{a}` and {} `{b}`", one.word(), two.word()),
     }
 }
 
@@ -81,28 +96,41 @@ fn with_other_name<'m>(found: Diagnostic, renames: &Renames<'m>, noun: Noun, nam
     found.suggest(help, renames.edits(noun, name, &other)).otherwise("rename one of them")
 }
 
-/// Reports components named like a counterpart for tests, which the macro generates beside each component:
-/// `ControllerPeer` for `Controller`.
-fn check_peers<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
-    let names = model.components.iter().map(|component| &component.name).filter(|name| is_well_formed(&name.value));
-    let by_type: HashMap<String, &Name> = names.rev().map(|name| (component_type(&name.value), name)).collect();
-    for component in &model.components {
-        let name = &component.name;
+/// Types that the macro generates beside others: the ends of their names, whether only kinds have one, what it is.
+const BESIDE: [(&str, bool, &str); 2] =
+    [("Peer", false, "is generated for tests of"), ("Instance", true, "lists the components of the kind")];
+
+/// Reports components and kinds with the name of a type that the macro generates beside another one: `ControllerPeer`
+/// beside `Controller`, and `MotorInstance` beside the kind `Motor`.
+fn check_beside<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
+    let named = |noun: Noun| move |owner: &'m ComponentModel| (noun, &owner.name);
+    let kinds = || model.kinds.iter().map(named(Noun::Kind));
+    // Components of a kind become variants of its enum.
+    let components = || model.components.iter().filter(|component| component.of.is_none()).map(named(Noun::Component));
+    let types = || kinds().chain(components());
+    let well_formed = types().filter(|(_, name)| is_well_formed(&name.value));
+    let by_type: HashMap<String, (Noun, &Name)> =
+        well_formed.rev().map(|(noun, name)| (component_type(&name.value), (noun, name))).collect();
+    for (noun, name) in types() {
         let rust = component_type(&name.value);
-        let Some(owner) = rust.strip_suffix("Peer").and_then(|owner| by_type.get(owner)) else { continue };
+        let beside = BESIDE.iter().find_map(|(end, only_kinds, what)| {
+            let (noun, owner) = by_type.get(rust.strip_suffix(end)?)?;
+            (!only_kinds || *noun == Noun::Kind).then_some((end.to_lowercase(), what, owner))
+        });
+        let Some((end, what, owner)) = beside else { continue };
         let headline = format!(
-            "component `{}` would become the Rust type `{rust}`, which is generated for tests of `{}`",
-            name.value, owner.value
+            "{} `{}` would become the Rust type `{rust}`, which {what} `{}`",
+            noun.word(),
+            name.value,
+            owner.value
         );
-        let other = format!("peer_of_{}", gate_field(&owner.value));
+        let other = format!("{end}_of_{}", gate_field(&owner.value));
+        let without = format!("choose a name that does not end with `{end}`");
         let found = SAME_TYPE
             .at(headline, name.span, format!("becomes `{rust}`"))
             .label(owner.span, format!("gets `{rust}` beside it"))
-            .suggest(
-                format!("choose a name that does not end with `peer`, for example `{other}`"),
-                renames.edits(Noun::Component, name, &other),
-            )
-            .otherwise("choose a name that does not end with `peer`");
+            .suggest(format!("{without}, for example `{other}`"), renames.edits(noun, name, &other))
+            .otherwise(without);
         problems.push(found);
     }
 }
@@ -139,15 +167,15 @@ pub(crate) const LETTER_CASE: Rule = Rule {
 };
 
 fn check_letter_case<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
-    let components = model.components.iter().map(|component| &component.name);
-    check_names(Noun::Component, components, component_type, renames, problems);
-    for component in &model.components {
-        check_names(Noun::Gate, component.gates.iter().map(|gate| &gate.name), gate_field, renames, problems);
+    let names = types(model).map(|(_, name)| name);
+    check_names(|name| noun_of(model, name), names, component_type, renames, problems);
+    for owner in model.owners() {
+        check_names(|_| Noun::Gate, owner.gates.iter().map(|gate| &gate.name), gate_field, renames, problems);
     }
 }
 
 fn check_names<'m>(
-    noun: Noun,
+    noun: impl Fn(&Name) -> Noun,
     names: impl Iterator<Item = &'m Name>,
     rust: fn(&str) -> String,
     renames: &Renames<'m>,
@@ -156,16 +184,18 @@ fn check_names<'m>(
     let names = names.filter(|name| is_well_formed(&name.value));
     // Two names that become the same Rust name are already an error.
     let alike = with_first(names, folded).filter(|(first, name)| rust(&first.value) != rust(&name.value));
-    problems.extend(alike.map(|(first, name)| with_other_name(differ_in_case(noun, first, name), renames, noun, name)));
+    for (first, name) in alike {
+        let nouns = [noun(first), noun(name)];
+        problems.push(with_other_name(differ_in_case(nouns, first, name), renames, nouns[1], name));
+    }
 }
 
 fn folded(name: &str) -> String {
     name.chars().filter(|&letter| letter != '_' && letter != '-').map(|letter| letter.to_ascii_lowercase()).collect()
 }
 
-fn differ_in_case(noun: Noun, first: &Name, second: &Name) -> Diagnostic {
-    let headline =
-        format!("{}s `{}` and `{}` differ only in letter case and `_`", noun.word(), first.value, second.value);
+fn differ_in_case(nouns: [Noun; 2], first: &Name, second: &Name) -> Diagnostic {
+    let headline = format!("{} differ only in letter case and `_`", pair(nouns, first, second));
     LETTER_CASE
         .at(headline, second.span, "")
         .label(first.span, "")
@@ -175,7 +205,7 @@ fn differ_in_case(noun: Noun, first: &Name, second: &Name) -> Diagnostic {
 #[cfg(test)]
 mod tests {
     use super::{LETTER_CASE, SAME_TYPE};
-    use crate::check::testing::{example, rule_example};
+    use crate::check::testing::{codes, example, rule_example};
     use expect_test::expect;
 
     #[test]
@@ -222,6 +252,32 @@ components:
                   = help: choose a name that does not end with `peer`, for example `peer_of_controller`
             "#]],
         );
+    }
+
+    #[test]
+    fn a_component_is_called_like_the_enum_of_a_kind() {
+        let kind = "kinds:\n  - name: motor\n    gates: []\ncomponents:\n  - {name: a, kind: motor}\n";
+        let taken = format!("{kind}  - {{name: motor_instance, gates: []}}\nconnections: []\n");
+        example(
+            "SCL0308",
+            &taken,
+            expect![[r#"
+            error: [SCL0308] component `motor_instance` would become the Rust type `MotorInstance`, which lists the components of the kind `motor`
+             --> topology.yaml:6:12
+              |
+            2 |   - name: motor
+              |           ----- gets `MotorInstance` beside it
+            ...
+            6 |   - {name: motor_instance, gates: []}
+              |            ^^^^^^^^^^^^^^ becomes `MotorInstance`
+              |
+              = help: choose a name that does not end with `instance`, for example `instance_of_motor`
+        "#]],
+        );
+        let of_the_kind = taken.replace("gates: []}", "kind: motor}");
+        assert!(!codes(&of_the_kind).contains(&"SCL0308"), "it becomes a variant");
+        let free = "components:\n  - {name: motor, gates: []}\n  - {name: motor_instance, gates: []}\n";
+        assert!(!codes(free).contains(&"SCL0308"), "only kinds have an enum");
     }
 
     #[test]

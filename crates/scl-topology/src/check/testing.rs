@@ -14,19 +14,19 @@ pub(crate) const USUAL: [&str; 7] = ["SCL0206", "SCL0209", "SCL0701", "SCL0702",
 
 /// Checks the text of an example's problems, with either line end.
 #[track_caller]
-pub(super) fn example(code: &str, yaml: &str, expected: Expect) {
+pub(crate) fn example(code: &str, yaml: &str, expected: Expect) {
     example_with(code, yaml, None, expected);
 }
 
 /// Checks the text of the problems in the bad example of a rule.
 #[track_caller]
-pub(super) fn rule_example(rule: &Rule, expected: Expect) {
+pub(crate) fn rule_example(rule: &Rule, expected: Expect) {
     example(rule.code, &bad(rule), expected);
 }
 
 /// As [`rule_example`], for an example whose schemas declare these messages.
 #[track_caller]
-pub(super) fn rule_example_with(rule: &Rule, messages: Option<&[&str]>, expected: Expect) {
+pub(crate) fn rule_example_with(rule: &Rule, messages: Option<&[&str]>, expected: Expect) {
     example_with(rule.code, &bad(rule), messages, expected);
 }
 
@@ -38,7 +38,7 @@ fn bad(rule: &Rule) -> String {
 
 /// As [`example`], for a file whose schemas declare these messages.
 #[track_caller]
-pub(super) fn example_with(code: &str, yaml: &str, messages: Option<&[&str]>, expected: Expect) {
+pub(crate) fn example_with(code: &str, yaml: &str, messages: Option<&[&str]>, expected: Expect) {
     let text = told(code, yaml, messages);
     assert_eq!(text, told(code, &yaml.replace('\n', "\r\n"), messages), "line ends change the words");
     expected.assert_eq(&text);
@@ -53,13 +53,13 @@ fn told(code: &str, yaml: &str, messages: Option<&[&str]>) -> String {
 }
 
 /// The codes of all problems but lints, in the order of their places.
-pub(super) fn codes(yaml: &str) -> Vec<&'static str> {
+pub(crate) fn codes(yaml: &str) -> Vec<&'static str> {
     let (found, _) = problems(yaml, None);
     found.into_iter().filter(|found| found.severity != Severity::Lint).map(|found| found.code()).collect()
 }
 
 /// Headlines and helps of all errors, in one line.
-pub(super) fn advice(yaml: &str) -> String {
+pub(crate) fn advice(yaml: &str) -> String {
     let (found, _) = problems(yaml, None);
     let errors = found.iter().filter(|found| found.severity == Severity::Error && found.code() != "SCL0703");
     let told = errors.map(|found| {
@@ -70,7 +70,7 @@ pub(super) fn advice(yaml: &str) -> String {
 }
 
 /// As [`advice`], for errors and warnings of one rule, in a file whose schemas declare these messages.
-pub(super) fn advice_with(rule: &Rule, yaml: &str, messages: &[&str]) -> String {
+pub(crate) fn advice_with(rule: &Rule, yaml: &str, messages: &[&str]) -> String {
     let (found, _) = problems(yaml, Some(messages));
     let told = found.iter().filter(|found| found.code() == rule.code).map(|found| {
         let helps: Vec<_> = found.shown_helps().map(|help| help.text()).collect();

@@ -116,7 +116,7 @@ fn without_section(found: Vec<Diagnostic>) -> Option<Diagnostic> {
 
 fn each_gate(draft: &Draft<'_>) -> Vec<Diagnostic> {
     let mut problems = Vec::new();
-    let fitting = FittingGates::of(draft);
+    let ways = Ways::of(draft);
     for component in &draft.components {
         let open: Vec<usize> = component.gates.iter().copied().filter(|&gate| is_open(draft, gate)).collect();
         let warned = open.iter().filter(|&&gate| draft.gates[gate].kind != Some(GateKind::Req)).count();
@@ -128,13 +128,35 @@ fn each_gate(draft: &Draft<'_>) -> Vec<Diagnostic> {
         }
         for gate in open {
             match draft.gates[gate].kind {
-                Some(kind @ GateKind::Req) => problems.push(no_peer(draft, gate, kind, &fitting)),
-                Some(kind) if !lonely => problems.push(no_peer(draft, gate, kind, &fitting)),
+                Some(kind @ GateKind::Req) => problems.push(no_peer(draft, gate, kind, &ways)),
+                Some(kind) if !lonely => problems.push(no_peer(draft, gate, kind, &ways)),
                 _ => {}
             }
         }
     }
     problems
+}
+
+/// What a gate without a peer may be connected to.
+struct Ways<'m> {
+    fitting: FittingGates<'m>,
+    /// By gate: a component of its kind has a connection to it. Known of the first component.
+    is_named: Vec<bool>,
+}
+
+impl<'m> Ways<'m> {
+    fn of(draft: &Draft<'m>) -> Self {
+        let mut is_named = vec![false; draft.gates.len()];
+        for (at, gate) in draft.gates.iter().enumerate() {
+            is_named[draft.shared(at)] |= gate.named;
+        }
+        Self { fitting: FittingGates::of(draft), is_named }
+    }
+
+    /// A gate as an end of a new connection: `each motor.state` if none of the motors has one.
+    fn end(&self, draft: &Draft<'_>, gate: usize) -> String {
+        if self.is_named[draft.shared(gate)] { draft.path(gate) } else { draft.shared_path(gate) }
+    }
 }
 
 fn is_open(draft: &Draft<'_>, gate: usize) -> bool {
@@ -152,7 +174,7 @@ fn lonely_component(draft: &Draft<'_>, component: &DraftComponent<'_>, open: &[u
         .note(format!("gates without a peer: {}", gates.join(", ")))
 }
 
-fn no_peer(draft: &Draft<'_>, gate: usize, kind: GateKind, fitting: &FittingGates<'_>) -> Diagnostic {
+fn no_peer(draft: &Draft<'_>, gate: usize, kind: GateKind, ways: &Ways<'_>) -> Diagnostic {
     let place = draft.gates[gate].model.name.span;
     let path = draft.path(gate);
     let found = match kind {
@@ -168,30 +190,33 @@ fn no_peer(draft: &Draft<'_>, gate: usize, kind: GateKind, fitting: &FittingGate
             NO_SENDER.at(headline, place, "")
         }
     };
-    with_ways(draft, found, gate, kind, fitting)
+    with_ways(draft, found, gate, kind, ways)
 }
 
 /// Suggests the connections to gates that fit, and the mark of a gate that is meant to be unconnected.
-fn with_ways(draft: &Draft<'_>, found: Diagnostic, gate: usize, kind: GateKind, fit: &FittingGates<'_>) -> Diagnostic {
+fn with_ways(draft: &Draft<'_>, found: Diagnostic, gate: usize, kind: GateKind, ways: &Ways<'_>) -> Diagnostic {
     // A receiver or requester that has a peer already expects no other.
     let is_free = |at: &usize| kind == GateKind::Sub || kind == GateKind::Req || !draft.gates[*at].named;
-    let fitting: Vec<usize> = fit.for_gate(draft, gate).into_iter().filter(is_free).collect();
+    let fitting: Vec<usize> = ways.fitting.for_gate(draft, gate).into_iter().filter(is_free).collect();
     let found = match in_comment(draft, gate) {
         Some(edit) => found.suggest("if it belongs to the comment above it, make it a comment, too", [edit]),
         None => found,
     };
     let misled = fitting.iter().filter(|_| kind == GateKind::Sub);
-    let misled = misled.filter_map(|&other| Some((other, fit.misled(draft, other, gate)?)));
+    let misled = misled.filter_map(|&other| Some((other, ways.fitting.misled(draft, other, gate)?)));
     let found = misled.fold(found, |found, (other, (link, twin))| {
         let place = draft.end_span(link, twin);
         let (own, twin) = (draft.path(gate), draft.path(twin));
         let help = format!("write `{own}` in place of `{twin}` in the connection with `{}`", draft.path(other));
         found.suggest(help, [Edit::new(place, draft.sources.quoted_as(place, &own))]).label(place, "this may be meant")
     });
-    let found = fitting.iter().fold(found, |found, &other| {
+    let own = ways.end(draft, gate);
+    let mut others: Vec<String> = fitting.iter().map(|other| ways.end(draft, *other)).collect();
+    others.dedup();
+    let found = others.iter().fold(found, |found, other| {
         let pair = match kind.is_source() {
-            true => format!("[{}, {}]", draft.path(gate), draft.path(other)),
-            false => format!("[{}, {}]", draft.path(other), draft.path(gate)),
+            true => format!("[{own}, {other}]"),
+            false => format!("[{other}, {own}]"),
         };
         match new_connection(draft, &pair) {
             Some(edit) => found.suggest(format!("add the connection `{pair}`"), [edit]),

@@ -33,7 +33,7 @@ pub const FORMAT: u32 = 1;
 pub const OWN_PREFIX: &str = "x-";
 
 /// The sections, in the order in which messages list them.
-pub static SECTIONS: [Key; 7] = [
+pub static SECTIONS: [Key; 8] = [
     Key {
         key: "components",
         shape: Shape::List(Item::Component),
@@ -57,6 +57,26 @@ pub static SECTIONS: [Key; 7] = [
       - sensor: sub
 connections:
   - [sensor.measurements, controller.sensor]
+",
+    },
+    Key {
+        key: "kinds",
+        shape: Shape::List(Item::Kind),
+        default: "none",
+        summary: "The kinds of components that exist several times, each with its gates.",
+        text: "A component with `kind: motor` has the gates of the kind `motor`. See [kinds](#kinds).",
+        example: "kinds:
+  - name: motor
+    gates:
+      - state: {pub: rover.MotorState}
+components:
+  - {name: left_motor, kind: motor}
+  - {name: right_motor, kind: motor}
+  - name: controller
+    gates:
+      - motors: {sub: rover.MotorState}
+connections:
+  - [each motor.state, controller.motors]
 ",
     },
     Key {
@@ -103,8 +123,11 @@ connections:
     },
 ];
 
-/// The keys of a component, in the order in which messages list them.
-pub static COMPONENT_KEYS: [Key; 4] = [
+/// The key that gives a component the gates of a kind.
+pub const KIND: &str = "kind";
+
+/// The keys of a component, in the order in which messages list them. A kind has all but the last.
+pub static COMPONENT_KEYS: [Key; 5] = [
     Key {
         key: "name",
         shape: Shape::Name,
@@ -132,7 +155,8 @@ pub static COMPONENT_KEYS: [Key; 4] = [
         shape: Shape::Text,
         default: "none",
         summary: "A paragraph for the generated documentation.",
-        text: "Editors show it when the cursor is on the component's Rust type.",
+        text: "Editors show it when the cursor is on the component's Rust type. At a kind, it holds for those of its \
+               components that have none.",
         example: "components:\n  - name: sensor\n    doc: Reads the inertial unit at 100 Hz.\n    gates: []\n",
     },
     Key {
@@ -140,8 +164,24 @@ pub static COMPONENT_KEYS: [Key; 4] = [
         shape: Shape::Boolean,
         default: "`false`",
         summary: "Peers do not wait for this component when they start.",
-        text: "Without it, `ready` in a peer waits until this component runs.",
+        text: "Without it, `ready` in a peer waits until this component runs. At a kind, it holds for those of its \
+               components that do not say otherwise.",
         example: "components:\n  - name: recorder\n    optional: true\n    gates: []\n",
+    },
+    Key {
+        key: KIND,
+        shape: Shape::Name,
+        default: "none",
+        summary: "The kind that the component is of: its gates are those of the kind.",
+        text: "Such a component has no `gates` of its own. See [kinds](#kinds).",
+        example: "kinds:
+  - name: motor
+    gates:
+      - setpoint: sub
+components:
+  - {name: left_motor, kind: motor}
+  - {name: right_motor, kind: motor}
+",
     },
 ];
 

@@ -64,6 +64,8 @@ pub enum Item {
     Folder,
     /// Gates.
     Gate,
+    /// Kinds of components.
+    Kind,
 }
 
 /// A value that has the right form, but is out of its range.
@@ -124,6 +126,7 @@ impl Shape {
             Shape::List(Item::File) => "a list of files".to_owned(),
             Shape::List(Item::Folder) => "a list of folders".to_owned(),
             Shape::List(Item::Gate) => "a list of gates".to_owned(),
+            Shape::List(Item::Kind) => "a list of kinds".to_owned(),
         }
     }
 

@@ -1,15 +1,31 @@
-//! The section `components`.
+//! The sections `components` and `kinds`.
 
+use super::entry::Entry;
 use super::field::{Field, Fields};
 use super::topology_dialect::TOPOLOGY;
 use super::words::{COMPONENT_KEYS, is_kind};
 use super::{Reader, glued, pitfall, scalar, shape};
 use crate::diagnostic::{Diagnostic, Edit};
+use crate::grammar;
 use crate::model::ComponentModel;
 use crate::source::{Span, Spanned};
 use crate::yaml::{Node, NodeKind};
 
 impl Reader<'_> {
+    /// Reads the section `kinds`, whose items have the shape of components.
+    pub(super) fn read_kinds(&mut self, section: Field<'_>) {
+        if section.value.is_null() {
+            return;
+        }
+        let components = std::mem::take(&mut self.model.components);
+        let components_unread = std::mem::take(&mut self.model.components_unread);
+        self.reads = Entry::Kind;
+        self.read_components(section);
+        self.reads = Entry::Component;
+        self.model.kinds.append(&mut std::mem::replace(&mut self.model.components, components));
+        self.model.kinds_unread |= std::mem::replace(&mut self.model.components_unread, components_unread);
+    }
+
     pub(super) fn read_components(&mut self, section: Field<'_>) {
         match &section.value.kind {
             NodeKind::Unread => self.model.components_unread = true,
@@ -29,17 +45,19 @@ impl Reader<'_> {
     /// `components: {sensor: {gates: ...}}`: a mistake, but one that can be read.
     fn read_components_by_name(&mut self, section: Field<'_>, entries: &[(Node, Node)]) {
         let first = self.model.components.len();
-        for field in self.fields(entries, "`components`").list {
-            let Some(name) = self.name(field.key_node, "component name", "a component name") else { continue };
+        for field in self.fields(entries, &format!("`{}`", section.key)).list {
+            let what = self.reads.name();
+            let Some(name) = self.name(field.key_node, what, &format!("a {what}")) else { continue };
             match &field.value.kind {
                 NodeKind::Mapping { entries } => {
-                    let fields = self.fields(entries, "this component");
+                    let fields = self.fields(entries, &format!("this {}", self.reads.word()));
                     self.read_component_fields(&fields, name, field.key_span.to(field.value.span));
                 }
                 _ => self.model.components.push(unread_component(name)),
             }
         }
-        self.report(shape::section_kind::components(section, self.model.components.get(first), self.source));
+        let first = self.model.components.get(first);
+        self.report(shape::section_kind::components(section, first, self.reads, self.source));
     }
 
     fn read_component(&mut self, item: &Node) {
@@ -51,7 +69,7 @@ impl Reader<'_> {
             let problem = match item.kind {
                 NodeKind::Unread => return,
                 _ if item.is_null() => pitfall::no_value::in_list(item, "list item", self.source),
-                _ => self.glued_or(item, shape::nameless::not_a_mapping(item, self.source)),
+                _ => self.glued_or(item, shape::nameless::not_a_mapping(item, self.reads, self.source)),
             };
             return self.report(problem);
         };
@@ -77,13 +95,13 @@ impl Reader<'_> {
             return self.read_stray_gate(item);
         }
         self.component = Some(item.span);
-        let fields = self.fields(entries, "this component");
+        let fields = self.fields(entries, &format!("this {}", self.reads.word()));
         let name = match fields.get("name") {
-            Some(field) => self.name_in(field, "component name"),
+            Some(field) => self.name_in(field, self.reads.name()),
             None => {
                 let misnamed = shape::unknown_key::misnamed(&fields);
                 match misnamed {
-                    Some(field) => self.report(shape::unknown_key::instead_of_name(field)),
+                    Some(field) => self.report(shape::unknown_key::instead_of_name(field, self.reads)),
                     None => self.report_nameless(item, &fields),
                 }
                 misnamed.and_then(|field| scalar(field.value))
@@ -102,7 +120,7 @@ impl Reader<'_> {
     pub(super) fn read_stray_component(&mut self, list: &str, item: &Node, entries: &[(Node, Node)]) -> bool {
         let Some(name) = shape::level::component_name(entries) else { return false };
         let above = self.component;
-        self.report(shape::level::component_among(list, item.span, name, above, self.source));
+        self.report(shape::level::component_among(list, item.span, name, above, self.reads, self.source));
         self.read_component_entries(item, entries);
         self.component = above;
         true
@@ -133,7 +151,7 @@ impl Reader<'_> {
 
     fn read_stray_gate(&mut self, item: &Node) {
         let Some(mut component) = self.model.components.pop() else { return };
-        self.report(shape::level::gate_among_components(item, &component, self.source));
+        self.report(shape::level::gate_among_components(item, &component, self.reads, self.source));
         self.read_gate_item(item, &mut component);
         self.model.components.push(component);
     }
@@ -144,7 +162,7 @@ impl Reader<'_> {
         }
         let above = self.model.components.last();
         let problem = shape::level::gates_after_dash(item, fields, above, self.source)
-            .unwrap_or_else(|| shape::nameless::diagnose(item, fields, self.source));
+            .unwrap_or_else(|| shape::nameless::diagnose(item, fields, self.reads, self.source));
         self.report(problem);
         if let Some(component) = self.model.components.last_mut() {
             component.gates_unread = true;
@@ -154,19 +172,29 @@ impl Reader<'_> {
     fn read_component_fields(&mut self, fields: &Fields<'_>, name: Spanned<String>, span: Span) {
         let mut component = ComponentModel { span, ..unread_component(name) };
         component.gates_unread = fields.damaged;
+        let mut has_kind = false;
         for field in &fields.list {
             match field.key {
                 "name" => {}
                 key if fields.get("name").is_none() && shape::unknown_key::is_misnamed(key) => {}
                 "doc" => component.doc = self.text(*field),
-                "optional" => component.optional = self.boolean(*field).unwrap_or(false),
-                "gates" => self.read_all_gates(fields, &mut component),
+                "optional" => component.optional = self.boolean(*field),
+                key if key == grammar::KIND && self.reads == Entry::Component => {
+                    component.kind = self.name_in(*field, "kind");
+                    has_kind = true;
+                }
+                "gates" => {
+                    component.gates_entry = Some(field.key_span.to(field.value.span));
+                    self.read_all_gates(fields, &mut component);
+                }
                 _ => self.read_unknown_key(*field, &mut component),
             }
         }
         let gates = fields.all("gates").last();
-        if component.gates.is_empty() && !component.gates_unread {
-            self.problems.extend(shape::missing::find_gates(&component.name, gates, self.source));
+        if has_kind {
+            component.gates_unread |= component.kind.is_none();
+        } else if component.gates.is_empty() && !component.gates_unread {
+            self.problems.extend(shape::missing::find_gates(&component.name, gates, self.reads, self.source));
         }
         self.model.components.push(component);
     }
@@ -194,9 +222,9 @@ impl Reader<'_> {
             self.read_connections(field);
         }
         self.model.components_unread |= field.key == "components";
-        let owner = &component.name.value;
-        let problem = shape::level::in_component(field, owner, self.source)
-            .unwrap_or_else(|| shape::unknown_key::of_component(field, owner, self.last_connection, self.source));
+        let (owner, last) = (&component.name.value, self.last_connection);
+        let problem = shape::level::in_component(field, owner, self.reads, self.source)
+            .unwrap_or_else(|| shape::unknown_key::of_component(field, owner, self.reads, last, self.source));
         self.report(problem);
     }
 
@@ -237,5 +265,15 @@ fn second_component(entries: &[(Node, Node)]) -> Option<usize> {
 
 fn unread_component(name: Spanned<String>) -> ComponentModel {
     let span = name.span;
-    ComponentModel { name, doc: None, optional: false, gates: Vec::new(), gates_unread: true, span }
+    ComponentModel {
+        name,
+        doc: None,
+        optional: None,
+        kind: None,
+        of: None,
+        gates: Vec::new(),
+        gates_entry: None,
+        gates_unread: true,
+        span,
+    }
 }

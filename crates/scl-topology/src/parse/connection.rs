@@ -30,7 +30,10 @@ impl Reader<'_> {
 
     fn read_split_pairs(&mut self, pairs: Vec<[Spanned<String>; 2]>) {
         self.problems.extend(shape::pairs::diagnose(&pairs, self.source));
-        let connection = |ends: [Spanned<String>; 2]| ConnectionModel { span: ends[0].span, ends };
+        let connection = |ends: [Spanned<String>; 2]| {
+            let span = ends[0].span;
+            ConnectionModel::new(ends, span)
+        };
         self.model.connections.extend(pairs.into_iter().map(connection));
     }
 
@@ -74,7 +77,7 @@ impl Reader<'_> {
         }
         match (self.end(first), self.end(second)) {
             (Some(first), Some(second)) => {
-                self.model.connections.push(ConnectionModel { ends: [first, second], span });
+                self.model.connections.push(ConnectionModel::new([first, second], span));
             }
             (first, second) => self.model.broken_ends.extend(first.into_iter().chain(second)),
         }
@@ -128,14 +131,14 @@ impl Reader<'_> {
         }
         let words = words_of(item);
         match <[Spanned<String>; 2]>::try_from(words) {
-            Ok(ends) => self.model.connections.push(ConnectionModel { ends, span: item.span }),
+            Ok(ends) => self.model.connections.push(ConnectionModel::new(ends, item.span)),
             Err(words) => self.model.broken_ends.extend(words),
         }
     }
 
     fn push_recovered(&mut self, ends: [String; 2], span: Span) {
         let ends = ends.map(|value| Spanned { value, span });
-        self.model.connections.push(ConnectionModel { ends, span });
+        self.model.connections.push(ConnectionModel::new(ends, span));
     }
 
     /// Notes every text in a value of unknown shape, so that no gate named in it is called unconnected.

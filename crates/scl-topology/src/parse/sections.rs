@@ -23,7 +23,7 @@ impl Reader<'_> {
                     self.model.schema_roots = self.read_files(*field, "folder of schemas", "a folder of schemas");
                 }
                 "scl" => self.problems.extend(shape::version::find(*field, self.source)),
-                "components" | "connections" => self.read_lists(&fields, field.key),
+                "components" | "connections" | "kinds" => self.read_lists(&fields, field.key),
                 key if key.starts_with(grammar::OWN_PREFIX) => self.check_extension(*field),
                 _ => self.report_unknown_section(*field),
             }
@@ -43,8 +43,10 @@ impl Reader<'_> {
         for (number, section) in read.enumerate() {
             match key {
                 "components" if number > 0 => self.model.components_unread = true,
+                "kinds" if number > 0 => self.model.kinds_unread = true,
                 "connections" if number > 0 => self.remember_broken_ends(section.value),
                 "components" => self.read_components(section),
+                "kinds" => self.read_kinds(section),
                 _ => self.read_connections(section),
             }
         }
@@ -95,6 +97,8 @@ impl Reader<'_> {
         let connections_unread =
             !has_connections && !is_stray && (perhaps("connections") || fields.list.iter().any(is_odd_list));
         self.model.connections_unread = connections_unread;
+        self.model.kinds_unread |=
+            fields.get("kinds").is_none() && (perhaps("kinds") || fields.list.iter().any(is_odd_list));
         match fields.get("components") {
             None if perhaps("components") => self.model.components_unread = true,
             None => {

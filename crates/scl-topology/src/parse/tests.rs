@@ -20,7 +20,7 @@ fn dump(model: &Model) -> String {
     let schemas: Vec<_> = model.schemas.iter().map(|it| &it.value).collect();
     out.push_str(&format!("{:?} {schemas:?} {:?}\n", value(&model.system), value(&model.codec)));
     for component in &model.components {
-        let (name, optional) = (&component.name.value, if component.optional { " optional" } else { "" });
+        let (name, optional) = (&component.name.value, if component.optional == Some(true) { " optional" } else { "" });
         out.push_str(&format!("{name}{optional} {:?}\n", value(&component.doc)));
         for gate in &component.gates {
             out.push_str(&format!("  {}: {} {:?}", gate.name.value, gate.kind.value, value(&gate.payload)));
@@ -95,8 +95,14 @@ fn every_key() {
             user_interface None
               events: sub Some("rover.Event") queue=1000 when_full=wait max_size=8MiB
               commands: req Some("rover.Command -> rover.Status") timeout=500ms
+            left_motor optional Some("One motor with its controller.")
+              setpoint: sub None
+            right_motor optional Some("One motor with its controller.")
+              setpoint: sub None
             sensor.measurements - controller.sensor
             actuator.setpoint - controller.actuator
+            controller.actuator - left_motor.setpoint
+            controller.actuator - right_motor.setpoint
         "#]],
     );
 }

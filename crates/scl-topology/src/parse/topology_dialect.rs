@@ -5,6 +5,7 @@ use super::document::Document;
 use super::words::{COMPONENT_KEYS, SECTIONS, is_kind, known_word};
 use super::{Reader, shape};
 use crate::diagnostic::{Diagnostic, Severity};
+use crate::kinds;
 use crate::model::Model;
 use crate::source::SourceFile;
 
@@ -31,7 +32,7 @@ fn mistakes(document: &Document, source: &SourceFile) -> usize {
     found.iter().filter(counts).count() + implausible(&model)
 }
 
-/// Number of gates, components and ends that have the right shape, but implausible words in it.
+/// Number of gates, components, kinds and ends that have the right shape, but implausible words in it.
 fn implausible(model: &Model) -> usize {
     let is_name = |name: &str| {
         let is_letter = |letter: char| letter.is_alphanumeric() || matches!(letter, '_' | '-');
@@ -40,16 +41,19 @@ fn implausible(model: &Model) -> usize {
     let is_type = |written: &str| {
         written.split("->").all(|part| !part.trim().contains(|c: char| c.is_whitespace() || "[]{},;#".contains(c)))
     };
-    let gates = model.components.iter().flat_map(|component| &component.gates);
+    let owners = || model.components.iter().chain(&model.kinds);
+    let gates = owners().flat_map(|owner| &owner.gates);
     let odd_gates = gates.filter(|gate| {
         let kind = &gate.kind.value;
         !is_name(&gate.name.value)
             || !kind.is_empty() && !is_kind(kind)
             || gate.payload.as_ref().is_some_and(|payload| !is_type(&payload.value))
     });
-    let odd_components = model.components.iter().filter(|component| !is_name(&component.name.value));
-    let is_end =
-        |end: &str| end.split('.').count() == 2 && end.split('.').all(|name| !name.is_empty() && is_name(name));
+    let odd_owners = owners().filter(|owner| !is_name(&owner.name.value));
+    let is_end = |end: &str| {
+        let end = kinds::each_of(end).unwrap_or(end);
+        end.split('.').count() == 2 && end.split('.').all(|name| !name.is_empty() && is_name(name))
+    };
     let odd_ends = model.connections.iter().flat_map(|pair| &pair.ends).filter(|end| !is_end(&end.value));
-    odd_gates.count() + odd_components.count() + odd_ends.count()
+    odd_gates.count() + odd_owners.count() + odd_ends.count()
 }

@@ -9,6 +9,12 @@ pub(super) const SECTIONS: [&str; grammar::SECTIONS.len()] = grammar::words(&gra
 /// The keys of a component, in the order in which messages list them.
 pub(super) const COMPONENT_KEYS: [&str; grammar::COMPONENT_KEYS.len()] = grammar::words(&grammar::COMPONENT_KEYS);
 
+/// The keys of a kind of components, in the order in which messages list them.
+pub(super) const KIND_KEYS: [&str; COMPONENT_KEYS.len() - 1] = {
+    let [keys @ .., _kind] = COMPONENT_KEYS;
+    keys
+};
+
 /// Returns the key, kind or option of this name, if the format knows one.
 pub(super) fn known_word(word: &str) -> Option<&'static str> {
     let keys = grammar::SECTIONS.iter().chain(&grammar::COMPONENT_KEYS).map(|key| key.key);

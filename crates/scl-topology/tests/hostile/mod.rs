@@ -58,6 +58,11 @@ pub(crate) fn filled(size: usize) -> Vec<(&'static str, String)> {
         ("documents", fill("components:\n", "---\n")),
         ("conflict markers", fill("components:\n", "<<<<<<< a\n=======\n>>>>>>> b\n")),
         ("comments", fill("components: []\n", "# comment\n")),
+        ("components of a kind", of_a_kind(size, 0)),
+        ("connections of a kind", of_a_kind(size, size / 100)),
+        ("wrong gates of a kind", of_a_kind(size, 2).replace("each k.g00", "each k.h00")),
+        ("kinds without components", kinds(size)),
+        ("unknown kinds", fill("components:\n", "  - {name: a, kind: b}\n")),
         ("comments for the checker", fill("components: []\n", "# scl: allow(SCL0799)\n")),
     ]
 }
@@ -120,6 +125,24 @@ fn unknown_gates(size: usize) -> String {
     format!(
         "components:\n  - name: a\n    gates:\n{gates}  - name: b\n    gates:\n      - x: sub\nconnections:\n{lines}"
     )
+}
+
+/// Components of a kind with many gates, and some connections of all of them. What they stand for is limited.
+fn of_a_kind(size: usize, connections: usize) -> String {
+    let gates: String = (0..size / 100).map(|at| format!("      - g{at:06}: pub\n")).collect();
+    let components: String = (0..size / 100).map(|at| format!("  - {{name: c{at:06}, kind: k}}\n")).collect();
+    let pairs: String = (0..connections).map(|at| format!("  - [each k.g{at:06}, b.x]\n")).collect();
+    format!(
+        "kinds:\n  - name: k\n    gates:\n{gates}components:\n{components}  - {{name: b, gates: [x: sub]}}\n\
+         connections:\n{pairs}"
+    )
+}
+
+/// Kinds, and connections of kinds with similar names.
+fn kinds(size: usize) -> String {
+    let kinds: String = (0..size / 80).map(|at| format!("  - {{name: kind_{at:06}, gates: [x: pub]}}\n")).collect();
+    let pairs: String = (0..size / 80).map(|at| format!("  - [each kind_{at:06}q.x, each kind_{at:06}.y]\n")).collect();
+    format!("kinds:\n{kinds}components: []\nconnections:\n{pairs}")
 }
 
 fn two_long_names(size: usize) -> String {

@@ -2,6 +2,7 @@
 
 use crate::confusable;
 use crate::diagnostic::{Diagnostic, Edit, Rule, Severity, removal, separator};
+use crate::kinds::{EACH, each_of};
 use crate::parse::{scalar, shape_word};
 use crate::source::{SourceFile, Span};
 use crate::yaml::{Node, NodeKind};
@@ -38,7 +39,21 @@ pub(in crate::parse) fn words(text: &str) -> Vec<&str> {
     let words = text.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | '|' | '→'));
     let parts = words.flat_map(|word| word.split("->").flat_map(|part| part.split("=>")));
     let parts = parts.flat_map(|part| part.split("--")).map(|word| word.trim_matches(MARKS));
-    parts.flat_map(apart).filter(|word| !word.is_empty()).collect()
+    with_each(text, parts.flat_map(apart).filter(|word| !word.is_empty()))
+}
+
+/// The words, with `each motor.state` as one of them.
+fn with_each<'t>(text: &'t str, words: impl Iterator<Item = &'t str>) -> Vec<&'t str> {
+    let start = |word: &str| word.as_ptr() as usize - text.as_ptr() as usize;
+    let mut joined: Vec<&str> = Vec::new();
+    for word in words {
+        let whole = |each: &str| &text[start(each)..start(word) + word.len()];
+        match joined.last_mut().filter(|last| **last == EACH && each_of(whole(last)) == Some(word)) {
+            Some(each) => *each = whole(each),
+            None => joined.push(word),
+        }
+    }
+    joined
 }
 
 /// The ends in `a.b:c.d`, or else the whole word.
@@ -98,7 +113,11 @@ fn dotted(parts: &[String]) -> Option<[String; 2]> {
     let mut parts = parts.iter();
     while let Some(part) = parts.next().filter(|_| ends.len() < 3) {
         let gate = if part.contains('.') { None } else { parts.next() };
-        ends.push(gate.map_or_else(|| part.clone(), |gate| format!("{part}.{gate}")));
+        ends.push(match gate {
+            Some(end) if part == EACH => format!("{part} {end}"),
+            Some(gate) => format!("{part}.{gate}"),
+            None => part.clone(),
+        });
     }
     ends.try_into().ok()
 }

@@ -2,7 +2,9 @@
 
 use super::{moved, shift};
 use crate::diagnostic::{Diagnostic, Edit, Rule, Severity, removal};
+use crate::grammar;
 use crate::model::ComponentModel;
+use crate::parse::entry::Entry;
 use crate::parse::field::{Field, Fields, head};
 use crate::parse::with_dash;
 use crate::parse::words::{COMPONENT_KEYS, SECTIONS, is_kind, is_option};
@@ -37,7 +39,9 @@ pub(in crate::parse) fn at_top(
     source: &SourceFile,
 ) -> Option<Diagnostic> {
     let key = field.key;
-    if COMPONENT_KEYS.contains(&key) {
+    // `kind` with a list is the section `kinds`.
+    let is_section = key == grammar::KIND && field.value.text().is_none();
+    if COMPONENT_KEYS.contains(&key) && !is_section {
         let message = format!("`{key}` belongs inside a component, not at the top level");
         let problem = problem(message, field.key_span, source);
         if key == "name" {
@@ -63,10 +67,15 @@ fn key_column(component: &ComponentModel, source: &SourceFile) -> usize {
 }
 
 /// A section, or an option of a gate, in a component.
-pub(in crate::parse) fn in_component(field: Field<'_>, component: &str, source: &SourceFile) -> Option<Diagnostic> {
-    let key = field.key;
+pub(in crate::parse) fn in_component(
+    field: Field<'_>,
+    component: &str,
+    entry: Entry,
+    source: &SourceFile,
+) -> Option<Diagnostic> {
+    let (key, word) = (field.key, entry.word());
     if SECTIONS.contains(&key) {
-        let message = format!("`{key}` belongs at the top level, not inside component `{component}`");
+        let message = format!("`{key}` belongs at the top level, not inside {word} `{component}`");
         let problem = problem(message, field.key_span, source);
         if key == "components" {
             return Some(
@@ -80,7 +89,7 @@ pub(in crate::parse) fn in_component(field: Field<'_>, component: &str, source: 
             None => problem.help("sections start in column 1"),
         });
     }
-    let message = format!("`{key}` belongs inside a gate, not beside the gates of component `{component}`");
+    let message = format!("`{key}` belongs inside a gate, not beside the gates of {word} `{component}`");
     is_option(key).then(|| problem(message, field.key_span, source).help(in_gate(field)))
 }
 
@@ -117,26 +126,32 @@ pub(in crate::parse) fn option_beside_gate(option: Field<'_>, gate: Field<'_>, s
 }
 
 /// A gate whose dash stands in the column of the components' dashes.
-pub(in crate::parse) fn gate_among_components(item: &Node, above: &ComponentModel, source: &SourceFile) -> Diagnostic {
+pub(in crate::parse) fn gate_among_components(
+    item: &Node,
+    above: &ComponentModel,
+    entry: Entry,
+    source: &SourceFile,
+) -> Diagnostic {
+    let (word, owner) = (entry.word(), &above.name.value);
     let name = source.snippet(item.span);
     let name = name.split([':', '\n']).next().unwrap_or("");
     let start = with_dash(item.span, source);
     let end = item.span.start + name.len() as u32;
-    let message = format!("gate `{name}` stands among the components");
-    let problem = RULE.at(message, Span { end, ..start }, "starts a component of its own");
+    let message = format!("gate `{name}` stands among the {}", entry.section());
+    let problem = RULE.at(message, Span { end, ..start }, format!("starts a {word} of its own"));
     match above.gates.last() {
         Some(gate) => {
             let head = shift::head(gate.name.span.start, source);
             let dash = head.len() - head.trim_start_matches(' ').len();
             let by = dash.saturating_sub(source.column(start.start));
-            let text = format!("indent it like the gates of component `{}`", above.name.value);
+            let text = format!("indent it like the gates of {word} `{owner}`");
             let problem = problem.label(gate.name.span, "the gate above");
             match by {
-                0 => problem.help(format!("the gates of component `{}` stand in its `gates`", above.name.value)),
+                0 => problem.help(format!("the gates of {word} `{owner}` stand in its `gates`")),
                 _ => problem.propose(text, shift::indented(start, by, true, source)),
             }
         }
-        None => problem.help(format!("a gate stands below the `gates:` of its component, `{}`", above.name.value)),
+        None => problem.help(format!("a gate stands below the `gates:` of its {word}, `{owner}`")),
     }
 }
 
@@ -152,15 +167,17 @@ pub(in crate::parse) fn component_among(
     item: Span,
     (key, name): &(Node, Node),
     above: Option<Span>,
+    entry: Entry,
     source: &SourceFile,
 ) -> Diagnostic {
-    let message = format!("component `{}` stands in the list of {list}", name.text().unwrap_or(""));
-    let problem = RULE.at(message, key.span.to(name.span), "a component");
+    let (word, section) = (entry.word(), entry.section());
+    let message = format!("{word} `{}` stands in the list of {list}", name.text().unwrap_or(""));
+    let problem = RULE.at(message, key.span.to(name.span), format!("a {word}"));
     match above.and_then(|above| moved::below(item, above, source)) {
-        Some(edits) => problem.propose("move it into the list `components`", edits),
+        Some(edits) => problem.propose(format!("move it into the list `{section}`"), edits),
         None => problem,
     }
-    .otherwise("components stand in the list `components`")
+    .otherwise(format!("{section} stand in the list `{section}`"))
 }
 
 /// `- measurements:` with `pub: Type` below it, in the same column as the name.

@@ -4,6 +4,7 @@
 use super::option_value::filled;
 use super::shift;
 use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
+use crate::parse::entry::Entry;
 use crate::parse::field::{Field, Fields};
 use crate::source::{SourceFile, Span, Spanned};
 use scl_text::list::quoted_list;
@@ -118,12 +119,13 @@ pub(crate) const GATES: Rule = Rule {
 pub(in crate::parse) fn find_gates(
     component: &Spanned<String>,
     gates: Option<Field<'_>>,
+    entry: Entry,
     source: &SourceFile,
 ) -> Option<Diagnostic> {
     if gates.is_some_and(|field| !field.value.is_null()) {
         return None;
     }
-    let message = format!("component `{}` has no gates", component.value);
+    let message = format!("{} `{}` has no gates", entry.word(), component.value);
     let mut problem = GATES.at(message, component.span, "it cannot be part of any connection");
     if let Some(gates) = gates {
         let span = Span { end: gates.key_span.end + 1, ..gates.key_span };

@@ -2,6 +2,7 @@
 
 use super::shift;
 use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
+use crate::parse::entry::Entry;
 use crate::parse::field::{Fields, end_with_colon, head};
 use crate::parse::shape_word;
 use crate::parse::words::COMPONENT_KEYS;
@@ -22,11 +23,16 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-const MESSAGE: &str = "this component has no name";
-const FORM: &str = "a component starts with `- name:` and its name, which connections and programs refer to";
+fn nameless(entry: Entry, at: Span, label: impl Into<String>) -> Diagnostic {
+    RULE.at(format!("this {} has no name", entry.word()), at, label)
+}
 
-pub(in crate::parse) fn diagnose(item: &Node, fields: &Fields<'_>, source: &SourceFile) -> Diagnostic {
-    let problem = RULE.at(MESSAGE, head(item, fields, source), "`name` is missing").otherwise(FORM);
+fn form(entry: Entry) -> String {
+    format!("a {} starts with `- name:` and its name, which connections and programs refer to", entry.word())
+}
+
+pub(in crate::parse) fn diagnose(item: &Node, fields: &Fields<'_>, entry: Entry, source: &SourceFile) -> Diagnostic {
+    let problem = nameless(entry, head(item, fields, source), "`name` is missing").otherwise(form(entry));
     match fields.list.first() {
         // `- sensor:`, as in a mapping of names.
         Some(first) if !COMPONENT_KEYS.contains(&first.key) && (first.value.is_null() || fields.list.len() == 1) => {
@@ -49,13 +55,14 @@ pub(in crate::parse) fn diagnose(item: &Node, fields: &Fields<'_>, source: &Sour
 
 /// Keys of a component with no `- name:` above them.
 pub(in crate::parse) fn above(key: Span) -> Diagnostic {
-    RULE.at(MESSAGE, key, "`- name: ...` is missing above this").help(FORM)
+    let entry = Entry::Component;
+    nameless(entry, key, "`- name: ...` is missing above this").help(form(entry))
 }
 
 /// `- sensor` or a list in the place of a component.
-pub(in crate::parse) fn not_a_mapping(item: &Node, source: &SourceFile) -> Diagnostic {
-    let label = format!("{}, where the keys of a component are expected", shape_word(item));
-    let problem = RULE.at(MESSAGE, item.span, label);
+pub(in crate::parse) fn not_a_mapping(item: &Node, entry: Entry, source: &SourceFile) -> Diagnostic {
+    let label = format!("{}, where the keys of a {} are expected", shape_word(item), entry.word());
+    let problem = nameless(entry, item.span, label);
     match &item.kind {
         NodeKind::Scalar { text, .. } if !text.contains('\n') => {
             let name = text.trim();
@@ -65,9 +72,9 @@ pub(in crate::parse) fn not_a_mapping(item: &Node, source: &SourceFile) -> Diagn
                 false => format!("name: {name}\n{}gates: []", " ".repeat(source.column(item.span.start))),
             };
             let text = format!("write `- name: {name}`, and below it `gates:`");
-            problem.suggest(text, [Edit::new(item.span, component)]).otherwise(FORM)
+            problem.suggest(text, [Edit::new(item.span, component)]).otherwise(form(entry))
         }
-        _ => problem.help(FORM),
+        _ => problem.help(form(entry)),
     }
 }
 

@@ -4,6 +4,7 @@ use super::ends;
 use super::shift::indented;
 use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
 use crate::model::ComponentModel;
+use crate::parse::entry::Entry;
 use crate::parse::field::{Field, end_with_colon};
 use crate::parse::shape_word;
 use crate::source::{SourceFile, Span};
@@ -28,16 +29,18 @@ pub(crate) const RULE: Rule = Rule {
 pub(in crate::parse) fn components(
     section: Field<'_>,
     first: Option<&ComponentModel>,
+    entry: Entry,
     source: &SourceFile,
 ) -> Diagnostic {
     let name = first.map_or("...", |component| component.name.value.as_str());
     let label = format!("a key, where `- name: {name}` is expected");
     let problem = wrong_kind(section, first_key(section.value), label);
+    let form = format!("each {} is an item of the list: `- name: {name}`, with its keys below", entry.word());
     match component_items(section.value, source) {
         Some(edits) => problem
-            .propose(format!("start each component with its name: `- name: {name}`"), edits)
-            .otherwise(format!("each component is an item of the list: `- name: {name}`, with its keys below")),
-        None => problem.help(format!("each component is an item of the list: `- name: {name}`, with its keys below")),
+            .propose(format!("start each {} with its name: `- name: {name}`", entry.word()), edits)
+            .otherwise(form),
+        None => problem.help(form),
     }
 }
 

@@ -5,8 +5,9 @@ use super::option_value::filled;
 use super::own_key;
 use super::ports::with_gates;
 use crate::diagnostic::{Diagnostic, Edit, Rule, Severity, removal};
-use crate::grammar::{OPTIONS, is_whole_number, option};
+use crate::grammar::{self, OPTIONS, is_whole_number, option};
 use crate::habits::{self, Habit};
+use crate::parse::entry::Entry;
 use crate::parse::field::{Field, Fields};
 use crate::parse::scalar;
 use crate::parse::words::{COMPONENT_KEYS, SECTIONS};
@@ -63,8 +64,9 @@ pub(crate) const OF_COMPONENT: Rule = Rule {
     code: "SCL0207",
     severity: Severity::Error,
     title: "unknown key in a component",
-    explanation: "A component has the keys `name`, `gates`, `doc` and `optional`. This key is probably misspelt; \
-                  ignoring it would hide the mistake. Correct or remove it.",
+    explanation: "A component has the keys `name`, `gates`, `doc`, `optional` and `kind`, and a kind has all of \
+                  them but the last. This key is probably misspelt; ignoring it would hide the mistake. Correct or \
+                  remove it.",
     example: " components:
    - name: sensor
 -    gate:
@@ -73,26 +75,39 @@ pub(crate) const OF_COMPONENT: Rule = Rule {
 ",
 };
 
-/// An unknown key in a component; `last` is the last connection of the file.
+/// An unknown key in a component or a kind; `last` is the last connection of the file.
 pub(in crate::parse) fn of_component(
     field: Field<'_>,
-    component: &str,
+    name: &str,
+    entry: Entry,
     last: Option<Span>,
     source: &SourceFile,
 ) -> Diagnostic {
-    let message = format!("unknown key `{}` in component `{component}`", field.key);
-    let problem = OF_COMPONENT.at(message, field.key_span, "not a key of a component");
+    let word = entry.word();
+    let message = format!("unknown key `{}` in {word} `{name}`", field.key);
+    let problem = OF_COMPONENT.at(message, field.key_span, format!("not a key of a {word}"));
     let problem = own_key(problem, field.key);
-    let (problem, is_spelling) = with_spelling(problem, field, COMPONENT_KEYS);
+    if field.key == grammar::KIND {
+        return problem.help("kinds are not nested: a kind has `gates` of its own").note(keys_of(entry));
+    }
+    let (problem, is_spelling) = with_spelling(problem, field, entry.keys().iter().copied());
+    let owner = match entry {
+        Entry::Component => name.to_owned(),
+        Entry::Kind => format!("each {name}"),
+    };
     match habits::COMPONENT.find(field.key) {
         _ if is_spelling => problem,
-        Some(habit) => match with_gates(problem, habit, field, component, last, source) {
+        Some(habit) => match with_gates(problem, habit, field, &owner, last, source) {
             problem if problem.proposals().next().is_some() => problem.otherwise(habit.text),
             problem => with_habit(problem, habit, field, |_| true),
         },
-        None => problem.did_you_mean(field.key, &similar(field.key, COMPONENT_KEYS)),
+        None => problem.did_you_mean(field.key, &similar(field.key, entry.keys().iter().copied())),
     }
-    .note(format!("keys of a component: {}", quoted_list(COMPONENT_KEYS)))
+    .note(keys_of(entry))
+}
+
+fn keys_of(entry: Entry) -> String {
+    format!("keys of a {}: {}", entry.word(), quoted_list(entry.keys()))
 }
 
 /// Whether a key was probably meant to be `name`.
@@ -112,16 +127,14 @@ pub(in crate::parse) fn misnamed<'n>(fields: &Fields<'n>) -> Option<Field<'n>> {
 }
 
 /// A key in the place of `name`.
-pub(in crate::parse) fn instead_of_name(field: Field<'_>) -> Diagnostic {
-    let problem =
-        OF_COMPONENT.at(format!("unknown key `{}` in a component", field.key), field.key_span, "expected `name`");
+pub(in crate::parse) fn instead_of_name(field: Field<'_>, entry: Entry) -> Diagnostic {
+    let message = format!("unknown key `{}` in a {}", field.key, entry.word());
+    let problem = OF_COMPONENT.at(message, field.key_span, "expected `name`");
     let text = match is_called_name(field.key) {
         true => "it is called `name` here",
         false => "a key with a similar name exists: `name`",
     };
-    problem
-        .propose(text, [Edit::new(field.key_span, "name")])
-        .note(format!("keys of a component: {}", quoted_list(COMPONENT_KEYS)))
+    problem.propose(text, [Edit::new(field.key_span, "name")]).note(keys_of(entry))
 }
 
 /// SCL0212.
@@ -253,7 +266,7 @@ mod tests {
                   | ^^^^^^^^^^ not a section of a topology
                   |
                   = help: did you mean `connections`?
-                  = note: sections: `components`, `connections`, `system`, `schemas`, `schema_roots`, `codec`, `scl`
+                  = note: sections: `components`, `connections`, `kinds`, `system`, `schemas`, `schema_roots`, `codec`, `scl`
                   = note: keys that start with `x-` are ignored, for your own use"#]],
         );
     }
@@ -270,7 +283,7 @@ mod tests {
                   |     ^^^^ not a key of a component
                   |
                   = help: did you mean `gates`?
-                  = note: keys of a component: `name`, `gates`, `doc`, `optional`"#]],
+                  = note: keys of a component: `name`, `gates`, `doc`, `optional`, `kind`"#]],
         );
     }
 
