@@ -20,6 +20,7 @@ mod doctor;
 #[cfg(feature = "observe")]
 mod echo;
 mod exit;
+mod expand;
 mod explain;
 mod external;
 #[cfg(any(feature = "observe", feature = "run"))]
@@ -137,6 +138,7 @@ commands! {
     Doctor(doctor::DoctorArguments) => doctor::doctor;
     #[cfg(feature = "observe")]
     Echo(echo::EchoArguments) => echo::echo;
+    Expand(expand::ExpandArguments) => expand::expand;
     Explain(explain::ExplainArguments) => explain::explain;
     #[cfg(feature = "generate")]
     Generate(generate::GenerateArguments) => generate::generate;

@@ -10,7 +10,7 @@ fn bash_completes_commands_and_formats() {
     assert_eq!(script.status.code(), Some(0));
     system.write("scl.bash", &String::from_utf8(script.stdout).unwrap());
     for (words, expected) in [
-        ("scl exp", "explain"),
+        ("scl expl", "explain"),
         ("scl pla", "plan"),
         ("scl plan --com", "--component"),
         ("scl check --format sar", "sarif"),

@@ -26,6 +26,7 @@ mod diff;
 mod doctor;
 #[cfg(feature = "observe")]
 mod echo;
+mod expand;
 mod explain;
 mod external;
 #[cfg(feature = "record")]

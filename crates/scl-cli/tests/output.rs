@@ -20,6 +20,7 @@ const COMMANDS: &[(&[&str], i32)] = &[
     (&["echo", "sensor.measurements", "-n", "3"], 0),
     (&["echo", "sensor.measurements", "-n", "3", "--format", "json"], 0),
     (&["echo", "sensor.measurements", "-n", "3", "--format", "csv"], 0),
+    (&["expand"], 0),
     (&["explain"], 0),
     (&["explain", "queue"], 0),
     (&["generate", "--for", "zmq"], 0),
