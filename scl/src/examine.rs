@@ -3,11 +3,12 @@
 use crate::component::RealTimeSettings;
 use crate::environment::Variables;
 use crate::error::OpenError;
+use crate::intern::intern;
 use crate::options::OpenOptions;
 use crate::plan::{Plan, Schema};
 use crate::runtime_dir::{Announcement, SystemDir, check_peer};
 use crate::state::stats_period;
-use crate::{log, stop, untyped};
+use crate::{log, stop};
 use std::sync::Arc;
 
 /// The environment variables that components read.
@@ -48,7 +49,7 @@ pub fn incompatible_peers(dir: &SystemDir, announcement: &Announcement) -> Resul
         .schema
         .as_ref()
         .and_then(|hash| Some(Schema { hash: hash.clone(), descriptors: Arc::from(&dir.schema(hash)?[..]) }));
-    let spec = untyped::intern(&Plan { schema, ..plan.clone() })?;
+    let spec = intern(&Plan { schema, ..plan.clone() })?;
     let connecting = spec.gates.iter().filter(|gate| gate.tap.is_empty());
     let connections = connecting.flat_map(|gate| gate.connections.iter().map(move |connection| (gate, connection)));
     let checked = connections.filter_map(|(gate, connection)| {

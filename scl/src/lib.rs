@@ -100,6 +100,7 @@ pub mod examine;
 mod figures;
 mod gate;
 pub mod host;
+mod intern;
 mod log;
 mod named_type;
 #[cfg(feature = "zeromq")]

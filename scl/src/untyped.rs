@@ -42,7 +42,6 @@ mod counterpart;
 mod driver;
 mod error;
 mod gate;
-mod intern;
 mod readiness;
 mod wait;
 
@@ -50,12 +49,12 @@ pub use closer::Closer;
 pub use driver::Driver;
 pub use error::{GateError, WaitError};
 pub use gate::Gate;
-pub(crate) use intern::intern;
 pub use readiness::Readiness;
 
 use crate::component::{Opener, only_failures, wait_for_peers};
 use crate::error::{GateName, NotFlushed, NotReady, OpenError};
 use crate::gate::{Pub, Pull, Push, Rep, Req, Sub, Watch};
+use crate::intern::intern;
 use crate::log;
 use crate::options::OpenOptions;
 #[cfg(doc)]

@@ -2,12 +2,12 @@
 
 use super::{Profile, ProfileError};
 use crate::error::OpenError;
+use crate::intern::intern;
 use crate::registration::Registration;
 use crate::registry::Registered;
 use crate::runtime_dir::{Announcement, ComponentProcess, RuntimeDirError, SystemDir};
 use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::transport::{Endpoint, Window};
-use crate::untyped::intern;
 
 /// Stands in for a component that runs on another host: components of this host see its lock, its announcement and its
 /// messages as if it ran here. Drop it after all ends that were opened for it.
