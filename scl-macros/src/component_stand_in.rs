@@ -25,7 +25,7 @@ pub(crate) fn expand_stand_in(component: &Type) -> TokenStream {
         return quote!(#[allow(dead_code)] type #name = #unknown;);
     }
     let (message, notes) = words(&name.to_string(), &topologies);
-    let report = on_unimplemented(&escape_braces(&message), "not a component of the topology", &notes);
+    let report = on_unimplemented(&escape_braces(&message), "`topology!` generates no such struct", &notes);
     // rustc prints these two names. No component can have them: they are not in camel case.
     let not_found = format_ident!("{name}_not_found", span = component.span());
     let of_topology = format_ident!("topology_component", span = component.span());
@@ -69,6 +69,10 @@ fn words(name: &str, topologies: &[KnownTopology]) -> (String, Vec<String>) {
         let entry = component.name.replace('-', "_");
         return (message, vec![format!("add `{entry}` to `only`, or leave `only` out")]);
     }
+    if let Some((_, kind)) = all().find(|(_, it)| it.instances.iter().any(|instance| instance == name)) {
+        let message = format!("[{code}] `{name}` is a component of the kind `{}`, and no struct", kind.name);
+        return (message, vec![format!("write `{}`: its `instance()` says which component it is", kind.rust_name)]);
+    }
     let message = format!("[{code}] cannot find the component `{name}`");
     let names: Vec<&str> = all().filter(|(_, it)| it.included).map(|(_, it)| it.rust_name.as_str()).collect();
     if names.is_empty() {
@@ -91,6 +95,7 @@ mod tests {
             name: name.to_lowercase(),
             rust_name: name.to_owned(),
             included,
+            instances: vec![format!("Left{name}")],
         };
         let components = components.iter().map(component).collect();
         KnownTopology { path: "t.yaml".into(), components, broken: false, unknown_type: String::new() }
@@ -98,7 +103,7 @@ mod tests {
 
     #[test]
     fn unknown_components_are_told_with_those_that_exist() {
-        let cases: [(&str, &[KnownTopology], &str, &str); 4] = [
+        let cases: [(&str, &[KnownTopology], &str, &str); 5] = [
             ("Gps", &[], "cannot find the component `Gps`", "`scl::topology!` generates one struct per"),
             (
                 "Gsp",
@@ -111,6 +116,12 @@ mod tests {
                 &[topology(&[("Gps", false), ("Camera", true)])],
                 "the component `gps` is left out by `only = [..]`",
                 "add `gps` to `only`",
+            ),
+            (
+                "LeftMotor",
+                &[topology(&[("Motor", true)])],
+                "`LeftMotor` is a component of the kind `motor`, and no struct",
+                "write `Motor`",
             ),
             (
                 "Radar",

@@ -9,6 +9,7 @@ mod docs;
 mod file_spans;
 mod found_types;
 mod gate_types;
+mod kind;
 mod kinds;
 mod known;
 mod names;

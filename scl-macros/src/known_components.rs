@@ -18,7 +18,7 @@ pub(crate) struct KnownTopology {
     pub(crate) unknown_type: String,
 }
 
-/// A component of a topology file.
+/// A component or a kind of a topology file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct KnownComponent {
     /// The name in the file.
@@ -27,6 +27,8 @@ pub(crate) struct KnownComponent {
     pub(crate) rust_name: String,
     /// Whether the struct is generated, as far as `only` is concerned.
     pub(crate) included: bool,
+    /// Of a kind, its components: their names in Rust.
+    pub(crate) instances: Vec<String>,
 }
 
 /// The topologies of each crate. rust-analyzer expands macros of several crates in one process, so the crate's name

@@ -1,6 +1,7 @@
 //! Components: the functions that generated code and `#[scl::main]` call.
 
 mod expected;
+mod kind;
 mod main;
 mod methods;
 mod needs;
@@ -18,18 +19,21 @@ use crate::error::{BlockingError, MissingPeer, NotFlushed, NotReady, OpenError, 
 use crate::gate::{AnyGate, Watch};
 use crate::log;
 use crate::options::OpenOptions;
-use crate::spec::ComponentSpec;
+use crate::spec::{ComponentSpec, KindSpec};
 pub use crate::state::ComponentHandle;
 use crate::state::{Flush, OwnedRuntime};
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::time::Instant;
 
-/// A component of a topology. Only `topology!` implements this trait. The methods that open, await and close a
-/// component are inherent methods of the generated struct.
+/// A component of a topology, or any component of a kind. Only `topology!` implements this trait. The methods that
+/// open, await and close a component are inherent methods of the generated struct.
 pub trait Component: Sized + Send + Sync + 'static {
-    /// What the topology says about the component.
+    /// What the topology says about the component; for a kind, about its first component.
     const SPEC: &'static ComponentSpec;
+
+    /// The kind, of which a program may be any component.
+    const KIND: Option<&'static KindSpec> = None;
 
     #[doc(hidden)]
     fn assemble(opener: &mut Opener) -> Result<Self, OpenError>;
@@ -44,18 +48,47 @@ pub trait Component: Sized + Send + Sync + 'static {
 /// Opens a component on the tokio runtime of the caller.
 #[doc(hidden)]
 pub async fn open<C: Component>(options: OpenOptions) -> Result<C, OpenError> {
+    open_spec(kind::spec::<C>(&options)?, &options)
+}
+
+/// Opens the component at an index of its kind's list.
+#[doc(hidden)]
+pub async fn open_as<C: Component>(index: usize, options: OpenOptions) -> Result<C, OpenError> {
+    open_spec(kind::spec_at::<C>(index)?, &options)
+}
+
+fn open_spec<C: Component>(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<C, OpenError> {
     if tokio::runtime::Handle::try_current().is_err() {
-        return Err(OpenError::NoRuntime { component: C::SPEC.name });
+        return Err(OpenError::NoRuntime { component: spec.name });
     }
-    C::assemble(&mut Opener::begin(C::SPEC, &options, None)?)
+    C::assemble(&mut Opener::begin(spec, options, None)?)
 }
 
 /// Opens a component for a program without async.
 #[doc(hidden)]
 pub fn open_blocking<C: Component>(options: OpenOptions) -> Result<C, OpenError> {
-    let runtime = OwnedRuntime::start(C::SPEC.name)?;
+    open_spec_blocking(kind::spec::<C>(&options)?, &options)
+}
+
+/// [`open_as`] for a program without async.
+#[doc(hidden)]
+pub fn open_blocking_as<C: Component>(index: usize, options: OpenOptions) -> Result<C, OpenError> {
+    open_spec_blocking(kind::spec_at::<C>(index)?, &options)
+}
+
+fn open_spec_blocking<C: Component>(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<C, OpenError> {
+    let runtime = OwnedRuntime::start(spec.name)?;
     let _entered = runtime.enter();
-    C::assemble(&mut Opener::begin(C::SPEC, &options, Some(Arc::clone(&runtime)))?)
+    C::assemble(&mut Opener::begin(spec, options, Some(Arc::clone(&runtime)))?)
+}
+
+/// The index of an open component in the list of its kind.
+#[doc(hidden)]
+pub fn instance<C: Component>(component: &C) -> usize {
+    let name = component.handle().0.spec.name;
+    let components = C::KIND.map_or(&[][..], |kind| kind.components);
+    // In a unit test, the component is the first of its kind.
+    components.iter().position(|(other, _)| *other == name).unwrap_or_default()
 }
 
 /// Waits until all required peers are connected.

@@ -142,7 +142,7 @@ pub use stop::{is_stop_requested, stop_requested, stop_requested_blocking};
 pub use transport_choice::{TransportChoice, TransportChoiceError};
 pub use transport_kind::TransportKind;
 
-/// Turns a topology file into one struct for each of its components, with a field for each gate.
+/// Turns a topology file into one struct for each of its components or kinds, with a field for each gate.
 ///
 /// ```no_run
 /// scl::topology!("doc/rover.yaml", only = [sensor, recorder]);
@@ -160,6 +160,28 @@ pub use transport_kind::TransportKind;
 /// "8MiB"` allows a file of more than 1 MiB. `testable = true` is for a library that holds the topology of programs in
 /// other crates: `Component::test()` then exists for their tests too.
 ///
+/// # Kinds
+/// All components of a kind become one struct, and an enum names them, so that one program can run each of them:
+///
+/// ```no_run
+/// scl::topology!("doc/motors.yaml");
+///
+/// #[scl::main]
+/// async fn main(mut motor: Motor) -> scl::Result<()> {
+///     let reversed = motor.instance() == MotorInstance::RightMotor;
+///     loop {
+///         let setpoint = motor.setpoint.recv().await?;
+///         motor.state.send(&if reversed { -setpoint } else { setpoint }).await?;
+///     }
+/// }
+/// ```
+///
+/// `open` and `#[scl::main]` open the component that the program was started as: `scl run` and the unit files of
+/// `scl deploy systemd` say so in the variable `SCL_COMPONENT`, by hand it is `SCL_COMPONENT=left_motor ./motor`.
+/// A program that runs several of them opens each with `Motor::open_as(MotorInstance::LeftMotor)`. `Motor::test()`
+/// returns the first of them.
+///
+/// # Types
 /// A type whose first part is a package of the `schemas` is one of their messages; any other is a Rust path, looked up
 /// where the macro is called. A program needs only the Rust types of the components that it opens.
 ///

@@ -19,6 +19,15 @@ pub struct ComponentSpec {
     pub schema: Option<Schema>,
 }
 
+/// A kind of components, in a program that may be any of them.
+#[derive(Debug)]
+pub struct KindSpec {
+    /// The kind's name, as in the file.
+    pub name: &'static str,
+    /// Its components, in file order: their names, and their plans as JSON, without their messages.
+    pub components: &'static [(&'static str, &'static str)],
+}
+
 /// The protobuf messages that a component uses.
 #[derive(Debug, Clone, Copy)]
 pub struct Schema {

@@ -13,6 +13,7 @@ mod forking;
 mod freshness;
 mod fuzz;
 mod kill;
+mod kinds;
 mod latched;
 mod listing1;
 mod max_size;

@@ -11,6 +11,7 @@ pub(crate) const IMAGES: &str = env!("CARGO_BIN_EXE_images");
 pub(crate) const LATCHED: &str = env!("CARGO_BIN_EXE_latched");
 pub(crate) const LEAVER: &str = env!("CARGO_BIN_EXE_leaver");
 pub(crate) const LISTING1: &str = env!("CARGO_BIN_EXE_listing1");
+pub(crate) const MOTORS: &str = env!("CARGO_BIN_EXE_motors");
 pub(crate) const PEER: &str = env!("CARGO_BIN_EXE_peer");
 pub(crate) const PLAIN: &str = env!("CARGO_BIN_EXE_plain");
 pub(crate) const SHAPES: &str = env!("CARGO_BIN_EXE_shapes");

@@ -40,9 +40,8 @@ impl<'a> CodecTraits<'a> {
     /// The traits that the generated components need.
     pub(super) fn collect(context: &Context<'_>, topology: &'a Topology) -> Self {
         let mut traits = Self::default();
-        let components = topology.components().map(|(_, component)| component);
-        let components = components.filter(|component| context.includes(component.name()));
-        for &id in components.flat_map(|component| component.gates()) {
+        let types = topology.types().filter(|it| context.includes(it.name()));
+        for &id in types.flat_map(|it| it.component.gates()) {
             traits.add(context, topology.gate(id), id);
         }
         traits

@@ -7,7 +7,8 @@ use super::context::Context;
 use super::docs::{self, GateDoc};
 use super::found_types::Requirements;
 use super::gate_types::gate_type;
-use super::names::{counterpart_name, field_name, struct_name};
+use super::kind;
+use super::names::{counterpart_name, field_name, instance_name, struct_name};
 use super::schemas::EmbeddedSchemas;
 use super::spec::expand_spec;
 use super::structs::{GateField, expand_struct};
@@ -16,22 +17,24 @@ use super::unopened::expand_unopened;
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use scl_plan::Plan;
-use scl_topology::topology::{Component, Topology};
+use scl_topology::topology::{ComponentType, Topology};
 use syn::Ident;
 
 /// All generated components, with the checks that only rustc can make.
 pub(super) fn expand_components(context: &Context<'_>, topology: &Topology) -> TokenStream {
-    let included = || topology.components().filter(|(_, component)| context.includes(component.name()));
-    let structs = included().map(|(_, component)| expand_structs(context, topology, component));
+    let included = || topology.types().filter(|it| context.includes(it.name()));
+    let structs = included().map(|it| expand_structs(context, topology, it));
+    let kinds = included().map(|it| kind::expand_enum(context, topology, it));
     if context.for_editor {
-        let methods = included().map(|(_, component)| {
-            expand_unopened(context, &struct_name(component), Some(&counterpart_name(component)))
+        let methods = included().map(|it| {
+            let instance = it.kind.map(|_| instance_name(it));
+            expand_unopened(context, &struct_name(it), instance.as_ref(), Some(&counterpart_name(it)))
         });
-        return quote!(#(#structs)* #(#methods)*);
+        return quote!(#(#structs)* #(#kinds)* #(#methods)*);
     }
     let location = |span| context.location(span);
-    let components: Vec<(&Component, Plan)> =
-        included().map(|(id, component)| (component, context.loaded.plan(topology, id, &location))).collect();
+    let components: Vec<(ComponentType<'_>, Plan)> =
+        included().map(|it| (it, context.loaded.plan(topology, it.id, &location))).collect();
     let codec_traits = CodecTraits::collect(context, topology);
     let traits = codec_traits.expand(context, topology);
     let requirements = Requirements::collect(context, topology);
@@ -39,12 +42,13 @@ pub(super) fn expand_components(context: &Context<'_>, topology: &Topology) -> T
     let schemas = EmbeddedSchemas::collect(components.iter().map(|(_, plan)| plan));
     let constants = schemas.expand(context);
     let implementations = components.iter().map(|(component, plan)| {
-        expand_implementation(context, topology, component, plan, &codec_traits, &schemas, &requirements)
+        expand_implementation(context, topology, *component, plan, &codec_traits, &schemas, &requirements)
     });
     let agreements = type_agreement::expand_agreements(context, topology);
     // With the span of the literal, rustc's own errors about a type point at the literal and not into a macro.
     quote_spanned! { context.span =>
         #(#structs)*
+        #(#kinds)*
         #[allow(
             dead_code, non_camel_case_types, non_snake_case, private_bounds, private_interfaces, clippy::all,
             clippy::pedantic
@@ -61,10 +65,10 @@ pub(super) fn expand_components(context: &Context<'_>, topology: &Topology) -> T
 
 /// The structs of the component and of its counterpart. They stand outside of the `const` block so that users can name
 /// them.
-fn expand_structs(context: &Context<'_>, topology: &Topology, component: &Component) -> TokenStream {
+fn expand_structs(context: &Context<'_>, topology: &Topology, component: ComponentType<'_>) -> TokenStream {
     let for_tests = &context.for_tests;
     let [own, counterpart] = [Side::Component, Side::Counterpart].map(|side| {
-        let fields = component.gates().iter().map(|&id| {
+        let fields = component.component.gates().iter().map(|&id| {
             let gate = topology.gate(id);
             let doc = match side {
                 Side::Component => GateDoc::new(context, topology, id).text(),
@@ -89,7 +93,7 @@ fn expand_structs(context: &Context<'_>, topology: &Topology, component: &Compon
 fn expand_implementation(
     context: &Context<'_>,
     topology: &Topology,
-    component: &Component,
+    component: ComponentType<'_>,
     plan: &Plan,
     codec_traits: &CodecTraits<'_>,
     schemas: &EmbeddedSchemas<'_>,
@@ -97,22 +101,33 @@ fn expand_implementation(
 ) -> TokenStream {
     let (private, for_tests) = (&context.private, &context.for_tests);
     let (name, peer) = (struct_name(component), counterpart_name(component));
-    let implementation = |name: &Ident, spec: TokenStream, side: Side| {
-        let methods = expand_methods(context, topology, component, codec_traits, side);
+    let implementation = |name: &Ident, constants: TokenStream, side: Side| {
+        let methods = expand_methods(context, topology, component.component, codec_traits, side);
         quote_spanned! { context.span =>
             impl #private::Component for #name {
-                const SPEC: &'static #private::ComponentSpec = &#spec;
+                #constants
                 #methods
             }
         }
     };
-    let own = implementation(&name, expand_spec(context, plan, schemas), Side::Component);
-    let spec = expand_spec(context, &plan.counterpart(), &EmbeddedSchemas::default());
-    let counterpart = implementation(&peer, spec, Side::Counterpart);
-    let bounds = requirements.expand_bounds(context, topology, component);
+    let spec = |plan, schemas| {
+        let spec = expand_spec(context, plan, schemas);
+        quote_spanned!(context.span => const SPEC: &'static #private::ComponentSpec = &#spec;)
+    };
+    let mut constants = spec(plan, schemas);
+    constants.extend(component.kind.map(|it| kind::expand_constant(context, topology, it)));
+    let own = implementation(&name, constants, Side::Component);
+    let counterpart = spec(&plan.counterpart(), &EmbeddedSchemas::default());
+    let counterpart = implementation(&peer, counterpart, Side::Counterpart);
+    let bounds = requirements.expand_bounds(context, topology, component.component);
+    let kind_methods = component.kind.map(|_| {
+        let instance = instance_name(component);
+        quote_spanned!(context.span => #private::kind_methods!(#name, #instance #bounds);)
+    });
     quote_spanned! { context.span =>
         #own
         #private::component_methods!(#name #bounds);
+        #kind_methods
         #private::component_main_functions!(#name #bounds);
         #for_tests
         #counterpart

@@ -1,10 +1,11 @@
 //! The documentation of generated items, which editors show on hover.
 
 use super::context::Context;
-use scl_text::list::quoted_list;
+use scl_text::list::{listed, quoted_list};
 use scl_topology::grammar::OPTIONS;
 use scl_topology::model::{ComponentModel, GateModel};
-use scl_topology::topology::{Codec, Component, Gate, GateId, GateKind, Payload, Topology};
+use scl_topology::source::Span;
+use scl_topology::topology::{Codec, ComponentType, Gate, GateId, GateKind, Payload, Topology};
 
 /// What the documentation says about a gate.
 pub(super) struct GateDoc {
@@ -83,10 +84,25 @@ impl GateDoc {
 }
 
 /// The documentation of a struct: the component's `doc`, its gates as a table, and where it is declared.
-pub(super) fn of_component(context: &Context<'_>, topology: &Topology, component: &Component) -> String {
-    let gates: Vec<GateDoc> = component.gates().iter().map(|&id| GateDoc::new(context, topology, id)).collect();
-    let declared = format!("`{}` of `{}`, declared at", component.name(), topology.system());
-    format!("{}\nThe component {declared} `{}`.", summary(component.doc(), &gates), context.location(component.span()))
+pub(super) fn of_component(context: &Context<'_>, topology: &Topology, component: ComponentType<'_>) -> String {
+    let gates = component.component.gates().iter().map(|&id| GateDoc::new(context, topology, id));
+    let gates: Vec<GateDoc> = gates.collect();
+    let (name, system) = (component.name(), topology.system());
+    let what = match component.kind {
+        None => format!("The component `{name}` of `{system}`"),
+        Some(kind) => {
+            let names = kind.components().iter().map(|id| topology.component(*id).name());
+            format!("A component of the kind `{name}` of `{system}`: {}", listed(names))
+        }
+    };
+    let location = context.location(component.span());
+    format!("{}\n{what}, declared at `{location}`.", summary(component.doc(), &gates))
+}
+
+/// The documentation of a component of a kind.
+pub(super) fn of_instance(context: &Context<'_>, name: &str, doc: Option<&str>, span: Span) -> String {
+    let doc = doc.map(|doc| format!("{doc}\n\n")).unwrap_or_default();
+    format!("{doc}The component `{name}`, declared at `{}`.", context.location(span))
 }
 
 /// The documentation of a struct from a file with errors.

@@ -111,8 +111,8 @@ impl Requirements {
     pub(super) fn collect(context: &Context<'_>, topology: &Topology) -> Self {
         let mut all = Self::default();
         let index = &context.types.lookups().index;
-        for (_, component) in topology.components().filter(|(_, component)| context.includes(component.name())) {
-            for &id in component.gates() {
+        for included in topology.types().filter(|it| context.includes(it.name())) {
+            for &id in included.component.gates() {
                 for name in topology.gate(id).payload().types() {
                     let Some(&index) = index.get(name.dotted()) else { continue };
                     let (_, gates) = all.traits.entry(index).or_insert_with(|| (name.clone(), Vec::new()));

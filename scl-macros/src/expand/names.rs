@@ -3,7 +3,7 @@
 use proc_macro2::Span;
 use quote::format_ident;
 use scl_topology::rust_name::is_keyword;
-use scl_topology::topology::{Component, Gate};
+use scl_topology::topology::{Component, ComponentType, Gate};
 use syn::Ident;
 
 /// An identifier, raw if the name is a keyword; `None` if the name cannot be an identifier.
@@ -17,13 +17,23 @@ pub(super) fn identifier(name: &str, span: Span) -> Option<Ident> {
     Some(ident)
 }
 
-/// The struct of a component.
-pub(super) fn struct_name(component: &Component) -> Ident {
+/// The struct of a component, or of a kind.
+pub(super) fn struct_name(component: ComponentType<'_>) -> Ident {
+    checked(component.rust_name())
+}
+
+/// The enum of the components of a kind: `MotorInstance`.
+pub(super) fn instance_name(component: ComponentType<'_>) -> Ident {
+    format_ident!("{}Instance", struct_name(component))
+}
+
+/// The variant of a component of a kind.
+pub(super) fn variant_name(component: &Component) -> Ident {
     checked(component.rust_name())
 }
 
 /// The struct of its counterpart in unit tests: `ControllerPeer`.
-pub(super) fn counterpart_name(component: &Component) -> Ident {
+pub(super) fn counterpart_name(component: ComponentType<'_>) -> Ident {
     format_ident!("{}Peer", struct_name(component))
 }
 

@@ -72,14 +72,21 @@ fn unknown_components(context: &Context<'_>) -> Vec<Diagnostic> {
     if context.loaded.topology.is_none() {
         return Vec::new();
     }
-    let components = &context.loaded.model.components;
-    let exists = |wanted: &Ident| components.iter().any(|component| names_component(wanted, &component.name.value));
+    let names = || context.loaded.model.owners().map(|owner| owner.name.value.as_str());
+    let exists = |wanted: &Ident| names().any(|name| names_component(wanted, name));
     let unknown = context.only.unwrap_or_default().iter().filter(|wanted| !exists(wanted));
     unknown.map(|wanted| unknown_component(context, &wanted.to_string())).collect()
 }
 
 fn unknown_component(context: &Context<'_>, wanted: &str) -> Diagnostic {
-    let names = context.loaded.model.components.iter().map(|component| component.name.value.as_str());
+    let model = &context.loaded.model;
+    let component = model.components.iter().find(|component| component.name.value == wanted);
+    if let Some(kind) = component.and_then(|component| component.kind.as_ref()) {
+        let headline = format!("`only` names the component `{wanted}`, which is no struct of its own");
+        let help = format!("its kind is one: write `{}`", kind.value);
+        return UNKNOWN_COMPONENT.without_place(headline).helps(Some(help));
+    }
+    let names = model.owners().map(|owner| owner.name.value.as_str());
     let near = similar(wanted, names).first().map(|near| format!("did you mean `{near}`?"));
     UNKNOWN_COMPONENT
         .without_place(format!("`only` names the component `{wanted}`, which is not in `{}`", context.path))

@@ -5,6 +5,7 @@
 
 use super::context::Context;
 use super::docs::{self, GateDoc};
+use super::kind::{Instance, expand_instances};
 use super::kinds::gate_struct;
 use super::names::identifier;
 use super::problems::expand_unknown_type;
@@ -24,8 +25,7 @@ const HANDLE_FIELD: &str = "__scl";
 /// One struct for each component whose name can be a Rust type, with its counterpart.
 pub(super) fn expand_skeleton(context: &Context<'_>) -> TokenStream {
     let mut seen = HashSet::new();
-    let components = context.loaded.model.components.iter();
-    let included = components.filter(|component| context.includes(&component.name.value));
+    let included = context.loaded.model.owners().filter(|component| context.includes(&component.name.value));
     let distinct = included.filter(|component| seen.insert(component_type(&component.name.value)));
     let structs = distinct.filter_map(|component| expand_component(context, component));
     quote! { #(#structs)* }
@@ -35,7 +35,7 @@ fn expand_component(context: &Context<'_>, component: &ComponentModel) -> Option
     let name = identifier(&component_type(&component.name.value), Span::call_site())?;
     let mut seen = HashSet::from([HANDLE_FIELD.to_owned()]);
     // Two components with the same name are probably meant to be one.
-    let same_name = context.loaded.model.components.iter().filter(|other| other.name.value == component.name.value);
+    let same_name = context.loaded.model.owners().filter(|other| other.name.value == component.name.value);
     let gates = same_name.flat_map(|component| &component.gates);
     let gates: Vec<ReadGate<'_>> = gates
         .filter(|gate| seen.insert(gate_field(&gate.name.value)))
@@ -47,9 +47,29 @@ fn expand_component(context: &Context<'_>, component: &ComponentModel) -> Option
         gates.iter().zip(docs).filter_map(|(gate, doc)| gate.field(context, doc.text())).collect();
     let expanded = expand_struct(context, &name, &doc, &fields);
     let peer = expand_peer(context, component, &gates, &name);
-    let methods = expand_unopened(context, &name, peer.as_ref().map(|(name, _)| name));
-    let peer = peer.map(|(_, peer)| peer);
-    Some(quote!(#expanded #peer #methods))
+    let instances = expand_instances_of(context, component, &name);
+    let instance = instances.as_ref().map(|(name, _)| name);
+    let methods = expand_unopened(context, &name, instance, peer.as_ref().map(|(name, _)| name));
+    let (peer, instances) = (peer.map(|(_, peer)| peer), instances.map(|(_, instances)| instances));
+    Some(quote!(#expanded #peer #instances #methods))
+}
+
+/// The enum of the components of a kind, as far as their names can be variants; `None` for a component.
+fn expand_instances_of(context: &Context<'_>, kind: &ComponentModel, name: &Ident) -> Option<(Ident, TokenStream)> {
+    let model = &context.loaded.model;
+    model.kinds.iter().find(|it| std::ptr::eq(*it, kind))?;
+    let mut seen = HashSet::new();
+    let components =
+        model.components.iter().filter(|it| it.kind.as_ref().is_some_and(|it| it.value == kind.name.value));
+    let instances = components.filter_map(|component| {
+        let (name, doc) = (&component.name, component.doc.as_ref().map(|doc| doc.value.as_str()));
+        let variant = identifier(&component_type(&name.value), Span::call_site())?;
+        let doc = docs::of_instance(context, &name.value, doc, name.span);
+        seen.insert(variant.clone()).then_some(Instance { variant, name: &name.value, doc })
+    });
+    let instance = format_ident!("{name}Instance");
+    let expanded = expand_instances(context, &instance, &kind.name.value, instances);
+    Some((instance, expanded))
 }
 
 /// The counterpart for unit tests, unless a component has its name.
@@ -60,8 +80,7 @@ fn expand_peer(
     name: &Ident,
 ) -> Option<(Ident, TokenStream)> {
     let peer = format_ident!("{name}Peer");
-    let mut components = context.loaded.model.components.iter();
-    if components.any(|component| peer == component_type(&component.name.value)) {
+    if context.loaded.model.owners().any(|component| peer == component_type(&component.name.value)) {
         return None;
     }
     let field = |gate: &ReadGate<'_>| gate.field_of_peer(context, &component.name.value);
@@ -84,7 +103,11 @@ struct ReadGate<'a> {
 impl<'a> ReadGate<'a> {
     fn new(context: &'a Context<'_>, component: &ComponentModel, gate: &'a GateModel) -> Self {
         let model = &context.loaded.model;
-        let path = format!("{}.{}", component.name.value, gate.name.value);
+        // Of a kind, the peers of its first component are shown.
+        let is_of_kind =
+            |other: &&ComponentModel| other.kind.as_ref().is_some_and(|it| it.value == component.name.value);
+        let first = model.components.iter().find(is_of_kind).unwrap_or(component);
+        let path = format!("{}.{}", first.name.value, gate.name.value);
         let peers = model.connections.iter().filter_map(|connection| match &connection.ends {
             [a, b] if a.value == path => Some(b.value.as_str()),
             [a, b] if b.value == path => Some(a.value.as_str()),

@@ -25,10 +25,9 @@ pub(super) fn expand_agreements(context: &Context<'_>, topology: &Topology) -> T
 /// Returns true if the components at both ends are generated. Others belong to other programs, whose types need not
 /// exist in this one.
 fn includes_both_ends(context: &Context<'_>, topology: &Topology, connection: &Connection) -> bool {
-    [connection.source(), connection.sink()].iter().all(|&gate| {
-        let owner = topology.component(topology.gate(gate).component());
-        context.includes(owner.name())
-    })
+    [connection.source(), connection.sink()]
+        .iter()
+        .all(|&gate| context.includes(topology.type_of(topology.gate(gate).component()).name()))
 }
 
 /// The pairs of types at the source and at the sink whose names differ.

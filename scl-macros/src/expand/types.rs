@@ -72,8 +72,8 @@ impl MessageTypes {
 /// The types of the generated components, or all types in a file that is not a topology.
 fn named_types(loaded: &Loaded, includes: impl Fn(&str) -> bool) -> BTreeSet<String> {
     if let Some(topology) = &loaded.topology {
-        let included = topology.components().map(|(_, component)| component).filter(|it| includes(it.name()));
-        let payloads = included.flat_map(|component| component.gates()).map(|&id| topology.gate(id).payload());
+        let included = topology.types().filter(|it| includes(it.name()));
+        let payloads = included.flat_map(|it| it.component.gates()).map(|&id| topology.gate(id).payload());
         return payloads.flat_map(Payload::types).map(|name| name.dotted().to_owned()).collect();
     }
     written_types(loaded).map(str::to_owned).collect()
@@ -81,7 +81,7 @@ fn named_types(loaded: &Loaded, includes: impl Fn(&str) -> bool) -> BTreeSet<Str
 
 /// The types that gates name, as they are written.
 pub(super) fn written_types(loaded: &Loaded) -> impl Iterator<Item = &str> {
-    let gates = loaded.model.components.iter().flat_map(|component| &component.gates);
+    let gates = loaded.model.owners().flat_map(|owner| &owner.gates);
     let payloads = gates.filter_map(|gate| gate.payload.as_ref());
     payloads.flat_map(|payload| payload.value.split("->")).map(str::trim)
 }

@@ -7,11 +7,18 @@ use quote::{quote, quote_spanned};
 use syn::Ident;
 
 /// The implementations of `scl::Component` for a component and its counterpart, and the methods that users call. Their
-/// signatures are the same as for every component; the bodies never run.
-pub(super) fn expand_unopened(context: &Context<'_>, name: &Ident, peer: Option<&Ident>) -> TokenStream {
+/// signatures are the same as for every component; the bodies never run. `instance` is the enum of the components of a
+/// kind.
+pub(super) fn expand_unopened(
+    context: &Context<'_>,
+    name: &Ident,
+    instance: Option<&Ident>,
+    peer: Option<&Ident>,
+) -> TokenStream {
     let (private, for_tests) = (&context.private, &context.for_tests);
     let component = expand_implementation(context, name);
     let main = (!context.for_editor).then(|| quote!(#private::component_main_functions!(#name);));
+    let of_kind = instance.map(|instance| quote_spanned!(context.span => #private::kind_methods!(#name, #instance);));
     let peer = peer.map(|peer| {
         let implementation = expand_implementation(context, peer);
         quote_spanned! { context.span =>
@@ -26,6 +33,7 @@ pub(super) fn expand_unopened(context: &Context<'_>, name: &Ident, peer: Option<
         const _: () = {
             #component
             #private::component_methods!(#name);
+            #of_kind
             #main
             #peer
         };

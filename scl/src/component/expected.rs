@@ -10,34 +10,44 @@ use crate::spec::ComponentSpec;
 /// The environment variable. Its value is `rover.sensor`, or `sensor` for any system; several are separated by commas.
 const VARIABLE: &str = "SCL_COMPONENT";
 
+/// What the process was started as.
+pub(super) struct Started(Option<String>);
+
+impl Started {
+    pub(super) fn read(variables: Variables<'_>) -> Result<Self, OpenError> {
+        environment::read(variables, VARIABLE, "components like `rover.sensor`", |text| Some(text.to_owned())).map(Self)
+    }
+
+    /// Whether a component is among them.
+    pub(super) fn includes(&self, system: &str, component: &str) -> bool {
+        self.names().any(|(of, name)| name == component && of.is_none_or(|of| of == system))
+    }
+
+    /// For messages: `` `gps` of system `rover` ``; nothing if the variable is not set.
+    pub(super) fn shown(&self) -> Option<String> {
+        let one = |(system, name): (Option<&str>, &str)| match system {
+            Some(system) => format!("`{name}` of system `{system}`"),
+            None => format!("`{name}`"),
+        };
+        self.0.as_ref().map(|_| self.names().map(one).collect::<Vec<_>>().join(" or "))
+    }
+
+    fn names(&self) -> impl Iterator<Item = (Option<&str>, &str)> {
+        let names = self.0.iter().flat_map(|text| text.split(',')).map(str::trim).filter(|name| !name.is_empty());
+        names.map(|name| name.rsplit_once('.').map_or((None, name), |(system, name)| (Some(system), name)))
+    }
+}
+
 /// Checks that the component is expected, if the variable is set. If it is not, this also notifies `scl run`.
 ///
 /// # Errors
 /// [`OpenError::Unexpected`].
 pub(super) fn check(spec: &'static ComponentSpec, variables: Variables<'_>) -> Result<(), OpenError> {
-    let expected =
-        environment::read(variables, VARIABLE, "components like `rover.sensor`", |text| Some(text.to_owned()))?;
-    let Some(expected) = expected.filter(|expected| !is_expected(expected, spec)) else { return Ok(()) };
+    let started = Started::read(variables)?;
+    let Some(expected) = started.shown().filter(|_| !started.includes(spec.system, spec.name)) else { return Ok(()) };
     // A custom variable, with the prefix `X_` that `sd_notify(3)` recommends.
     service::tell(variables, &format!("X_SCL_OPENS={}.{}\n", spec.system, spec.name));
-    Err(OpenError::Unexpected { component: spec.name, system: spec.system, expected: shown(&expected) })
-}
-
-fn is_expected(expected: &str, spec: &ComponentSpec) -> bool {
-    names(expected).any(|(system, name)| name == spec.name && system.is_none_or(|system| system == spec.system))
-}
-
-fn names(expected: &str) -> impl Iterator<Item = (Option<&str>, &str)> {
-    let names = expected.split(',').map(str::trim).filter(|name| !name.is_empty());
-    names.map(|name| name.rsplit_once('.').map_or((None, name), |(system, name)| (Some(system), name)))
-}
-
-fn shown(expected: &str) -> String {
-    let one = |(system, name): (Option<&str>, &str)| match system {
-        Some(system) => format!("`{name}` of system `{system}`"),
-        None => format!("`{name}`"),
-    };
-    names(expected).map(one).collect::<Vec<_>>().join(" or ")
+    Err(OpenError::Unexpected { component: spec.name, system: spec.system, expected })
 }
 
 #[cfg(test)]

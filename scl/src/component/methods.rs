@@ -102,6 +102,103 @@ macro_rules! __component_methods {
     };
 }
 
+/// The methods that the struct of a kind has beside those of every component.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __kind_methods {
+    ($component:ident, $instance:ident $($bounds:tt)*) => {
+        impl $component {
+            /// `open` as a component of the kind. `open` takes the one that the program was started as, according to
+            /// `$SCL_COMPONENT`.
+            ///
+            /// # Errors
+            /// Those of `open`; the program was started as another component.
+            ///
+            /// # Cancel safety
+            /// It never waits.
+            pub async fn open_as(component: $instance) -> ::core::result::Result<Self, $crate::OpenError>
+            $($bounds)*
+            {
+                $crate::private::open_as(component as usize, ::core::default::Default::default()).await
+            }
+
+            /// `open_as` with options other than the environment's.
+            ///
+            /// # Errors
+            /// Those of `open_as`.
+            pub async fn open_as_with(
+                component: $instance,
+                options: $crate::OpenOptions,
+            ) -> ::core::result::Result<Self, $crate::OpenError>
+            $($bounds)*
+            {
+                $crate::private::open_as(component as usize, options).await
+            }
+
+            /// `open_as` for a program without async.
+            ///
+            /// # Errors
+            /// Those of `open_as`.
+            pub fn open_blocking_as(component: $instance) -> ::core::result::Result<Self, $crate::OpenError>
+            $($bounds)*
+            {
+                $crate::private::open_blocking_as(component as usize, ::core::default::Default::default())
+            }
+
+            /// `open_blocking_as` with options other than the environment's.
+            ///
+            /// # Errors
+            /// Those of `open_as`.
+            pub fn open_blocking_as_with(
+                component: $instance,
+                options: $crate::OpenOptions,
+            ) -> ::core::result::Result<Self, $crate::OpenError>
+            $($bounds)*
+            {
+                $crate::private::open_blocking_as(component as usize, options)
+            }
+
+            /// Returns which component of the kind it is.
+            pub fn instance(&self) -> $instance {
+                $instance::ALL[$crate::private::instance(self)]
+            }
+        }
+    };
+}
+
+/// The enum of the components of a kind.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __instances {
+    ($(#[$doc:meta])* $name:ident { $($(#[$variant_doc:meta])* $variant:ident = $component:literal,)* }) => {
+        $(#[$doc])*
+        #[allow(dead_code, non_camel_case_types)]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum $name {
+            $($(#[$variant_doc])* $variant,)*
+        }
+
+        #[allow(dead_code)]
+        impl $name {
+            /// All of them, in the order of the topology file.
+            pub const ALL: &'static [Self] = &[$(Self::$variant),*];
+
+            /// The component's name in the topology file.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $component,)*
+                }
+            }
+        }
+
+        impl ::core::fmt::Display for $name {
+            fn fmt(&self, out: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
+                out.write_str(self.name())
+            }
+        }
+    };
+}
+
 /// The functions that `#[scl::main]` calls. That macro has only the component's name, and cannot know the name under
 /// which the program imports the crate `scl`.
 #[doc(hidden)]

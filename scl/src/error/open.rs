@@ -2,6 +2,7 @@
 
 use super::GateName;
 use crate::transport::{Guarantee, TransportError};
+use scl_text::list::either;
 use std::fmt;
 use thiserror::Error;
 
@@ -54,6 +55,20 @@ pub enum OpenError {
         system: &'static str,
         /// What it was started as, for messages: `` `gps` of system `rover` ``.
         expected: String,
+    },
+    /// The program is of a kind of components, and was not told which of them it is.
+    #[error(
+        "this program is a `{kind}`{}: set SCL_COMPONENT to {}",
+        started.as_ref().map_or(String::new(), |started| format!(", but was started as {started}")),
+        either(components)
+    )]
+    WhichComponent {
+        /// The kind.
+        kind: &'static str,
+        /// Its components.
+        components: Vec<&'static str>,
+        /// What the program was started as, for messages: `` `gps` of system `rover` ``.
+        started: Option<String>,
     },
     /// `open` was called outside a tokio runtime.
     #[error(

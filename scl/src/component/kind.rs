@@ -1,0 +1,37 @@
+//! Programs of a kind of components: which of them a program is.
+
+use super::Component;
+use super::expected::Started;
+use crate::error::OpenError;
+use crate::intern::intern;
+use crate::options::OpenOptions;
+use crate::spec::ComponentSpec;
+use scl_plan::{Plan, Schema};
+
+/// The specification that a program opens: that of its component, or, for a kind, of the component that it was started
+/// as.
+///
+/// # Errors
+/// [`OpenError::WhichComponent`] if a program of a kind was started as none of its components, or as several.
+pub(super) fn spec<C: Component>(options: &OpenOptions) -> Result<&'static ComponentSpec, OpenError> {
+    let Some(kind) = C::KIND.filter(|_| !options.is_test) else { return Ok(C::SPEC) };
+    let started = Started::read(&|name: &str| options.variable(name))?;
+    let names = || kind.components.iter().map(|(name, _)| *name);
+    let mut started_as = (0..).zip(names()).filter(|(_, name)| started.includes(C::SPEC.system, name));
+    match (started_as.next(), started_as.next()) {
+        (Some((only, _)), None) => spec_at::<C>(only),
+        _ => {
+            Err(OpenError::WhichComponent { kind: kind.name, components: names().collect(), started: started.shown() })
+        }
+    }
+}
+
+/// The specification of the component at an index of the kind's list.
+pub(super) fn spec_at<C: Component>(index: usize) -> Result<&'static ComponentSpec, OpenError> {
+    let Some((component, plan)) = C::KIND.and_then(|kind| kind.components.get(index)) else { return Ok(C::SPEC) };
+    let wrong = |source| OpenError::Plan { component: (*component).to_owned(), source: Box::new(source) };
+    let mut plan = Plan::from_json(plan).map_err(wrong)?;
+    // All components of a kind have the same messages.
+    plan.schema = C::SPEC.schema.map(|it| Schema { hash: it.hash.to_owned(), descriptors: it.descriptors.into() });
+    intern(&plan)
+}
