@@ -15,7 +15,7 @@ pub(crate) use scl_run::{GUARD_WORD, KEYS_WORD, START_WORD, keep_watch, tell_key
 /// Build and start every component of a system and show what they print.
 ///
 /// Reads `launch.yaml` in FOLDER, which says how each component is built and started. Without one, builds the cargo
-/// package in FOLDER and starts the program named like each component of `topology.yaml`.
+/// package in FOLDER and starts the program named like each component of `topology.yaml`, or like its kind.
 ///
 /// When a component fails, the others are stopped, unless the launch file says that it is restarted or not essential.
 /// Ctrl-C and SIGTERM are passed on to all; a second one kills at once.
@@ -124,10 +124,5 @@ pub(crate) fn component_names(topology: &Path) -> Option<SystemNames> {
 
 /// The names of a topology without errors.
 pub(crate) fn names_of(loaded: &Loaded) -> Option<SystemNames> {
-    let topology = loaded.topology.as_ref()?;
-    let components = topology.components().map(|(_, component)| component.name().to_owned()).collect();
-    let gates = topology.components().flat_map(|(_, component)| component.gates());
-    let gates = gates.map(|gate| topology.gate_path(*gate)).collect();
-    let is_named = loaded.model.system.is_some();
-    Some(SystemNames { system: topology.system().to_owned(), is_named, components, gates })
+    Some(SystemNames::of(loaded.topology.as_ref()?, loaded.model.system.is_some()))
 }

@@ -72,6 +72,8 @@ mod run_expected;
 #[cfg(all(feature = "run", feature = "observe"))]
 mod run_hang;
 #[cfg(feature = "run")]
+mod run_kinds;
+#[cfg(feature = "run")]
 mod run_mistakes;
 #[cfg(feature = "run")]
 mod run_orphans;

@@ -31,10 +31,9 @@ impl System {
         let read = RefCell::new((None, Vec::new()));
         let names = |path: &Path| {
             let loaded = load(&Request::new(path));
-            let plan = loaded.system_plan();
-            let names = plan.as_ref().map(names_of);
-            *read.borrow_mut() = (plan, errors(&loaded));
-            names
+            *read.borrow_mut() = (loaded.system_plan(), errors(&loaded));
+            // The gateway runs with the name of the plan, whatever sets it.
+            loaded.topology.as_ref().map(|topology| SystemNames::of(topology, true))
         };
         let deployed = scl_run::read_deployment(launch, topology, &names);
         let (plan, errors) = read.into_inner();
@@ -51,17 +50,6 @@ impl System {
     pub fn hosts_of_components(&self) -> BTreeMap<String, String> {
         let hosts = self.deployment.hosts.iter();
         hosts.flat_map(|host| host.components.iter().map(|name| (name.clone(), host.name.clone()))).collect()
-    }
-}
-
-fn names_of(plan: &SystemPlan) -> SystemNames {
-    let gates =
-        plan.components.iter().flat_map(|it| it.gates.iter().map(|gate| format!("{}.{}", it.component, gate.name)));
-    SystemNames {
-        system: plan.system.clone(),
-        is_named: true,
-        components: plan.components.iter().map(|it| it.component.clone()).collect(),
-        gates: gates.collect(),
     }
 }
 

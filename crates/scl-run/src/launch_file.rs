@@ -15,6 +15,7 @@ mod habit_parts;
 mod habits;
 mod hosts;
 mod keys;
+mod kinds;
 mod likely;
 mod likely_key;
 mod names;
@@ -38,6 +39,7 @@ pub(crate) use settings::Settings;
 pub(crate) use transports::Transports;
 
 use super::deployment::Deployment;
+use entry::Needs;
 use keys::is_own;
 use profile::Profile;
 use reader::{Keys, Reader, wrong};
@@ -162,7 +164,11 @@ impl Reader<'_> {
         let entries = self.own_entries(field, entries);
         let entries = self.without_outdented(entries, keys::COMPONENT);
         let entries = self.names(&entries, "`components`").list;
-        let components = entries.iter().filter_map(|field| self.read_entry(*field, None)?.into_component()).collect();
+        let needs = |_: &Self, _: &str, of_kind| if of_kind { Needs::Nothing } else { Needs::Program };
+        let mut components: Vec<LaunchComponent> = Vec::new();
+        for entry in self.read_entries(&entries, needs) {
+            profile::apply(&entry, &mut components);
+        }
         self.check_terminal(&entries, top);
         components
     }

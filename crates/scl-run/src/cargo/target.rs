@@ -12,9 +12,12 @@ pub(crate) enum Target {
     Only,
     Bin(String),
     Example(String),
-    /// The one with the name of this component. Cargo targets are often named with hyphens, which its name cannot
-    /// contain.
-    OfComponent(String),
+    /// The one with the name of this component or, if there is none, of its kind. Cargo targets are often named with
+    /// hyphens, which these names cannot contain.
+    OfComponent {
+        name: String,
+        kind: Option<String>,
+    },
 }
 
 /// Returns the program that `target` selects.
@@ -33,13 +36,17 @@ fn find_by<'a>(
     component: &str,
     default_run: impl Fn(&Path) -> Option<String>,
 ) -> Result<&'a Artifact, Problem> {
+    let is_called = |artifact: &Artifact, name: &str| artifact.name == name || artifact.name.replace('-', "_") == name;
     let is_meant = |artifact: &&Artifact| match target {
         Target::Only => !artifact.is_example,
         Target::Bin(name) => !artifact.is_example && artifact.name == *name,
         Target::Example(name) => artifact.is_example && artifact.name == *name,
-        Target::OfComponent(name) => artifact.name == *name || artifact.name.replace('-', "_") == *name,
+        Target::OfComponent { name, .. } => is_called(artifact, name),
     };
     let mut found: Vec<&Artifact> = artifacts.iter().filter(is_meant).collect();
+    if let (true, Target::OfComponent { kind: Some(kind), .. }) = (found.is_empty(), target) {
+        found = artifacts.iter().filter(|artifact| is_called(artifact, kind)).collect();
+    }
     if found.len() > 1 && *target == Target::Only {
         found.retain(|artifact| default_run(&artifact.manifest).is_some_and(|name| name == artifact.name));
     }
@@ -50,7 +57,8 @@ fn find_by<'a>(
             let built = if artifacts.is_empty() { "no programs".to_owned() } else { format!("the programs {names}") };
             let problem = Problem::new(format!("cargo has built no program for component `{component}`"));
             let help = match target {
-                Target::OfComponent(name) => {
+                Target::OfComponent { name, kind } => {
+                    let name = kind.as_ref().unwrap_or(name);
                     format!("add `src/bin/{name}.rs`, or say in `launch.yaml` how to start it")
                 }
                 _ => "choose one with `--bin`".to_owned(),
@@ -86,7 +94,14 @@ mod tests {
         };
         let bin = |name: &str| Target::Bin(name.to_owned());
         assert_eq!(find(&all[..2], bin("sensor")), Ok("/t/p/sensor".to_owned()));
-        assert_eq!(find(&all, Target::OfComponent("user_interface".to_owned())), Ok("/t/p/user-interface".to_owned()));
+        let of = |name: &str, kind: Option<&str>| {
+            find(&all[..2], Target::OfComponent { name: name.to_owned(), kind: kind.map(str::to_owned) })
+        };
+        assert_eq!(of("user_interface", None), Ok("/t/p/user-interface".to_owned()));
+        assert_eq!(of("left_sensor", Some("sensor")), Ok("/t/p/sensor".to_owned()));
+        assert_eq!(of("sensor", Some("user_interface")), Ok("/t/p/sensor".to_owned()));
+        let none = of("left_motor", Some("motor")).unwrap_err();
+        assert!(none.contains("add `src/bin/motor.rs`"), "{none}");
         assert_eq!(find(&all[2..], Target::Only), Ok("/t/q/sensor".to_owned()));
         assert_eq!(find(&all, Target::Only), Ok("/t/p/user-interface".to_owned()));
         let several = find(&all, bin("sensor")).unwrap_err();

@@ -108,6 +108,17 @@ pub(super) struct Entry {
     pub(super) place: String,
 }
 
+/// What an entry must name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Needs<'a> {
+    /// A program.
+    Program,
+    /// A program, because only this profile has an entry of the component.
+    ProgramIn(&'a str),
+    /// Nothing: it changes another entry.
+    Nothing,
+}
+
 impl Entry {
     /// The component, if the entry says what runs it.
     pub(super) fn into_component(self) -> Option<LaunchComponent> {
@@ -115,32 +126,64 @@ impl Entry {
         let (opens, input) = (opens.unwrap_or_default(), input.unwrap_or_default());
         Some(LaunchComponent { name, build, source: source?, environment, opens, input, settings, place })
     }
+
+    /// The same entry for each of these components.
+    pub(super) fn of_each<'e>(&'e self, components: &'e [String]) -> impl Iterator<Item = Entry> + 'e {
+        components.iter().map(|name| Entry { name: name.clone(), ..self.clone() })
+    }
+
+    /// Applies the entry to a component. A command or a recording replaces the program, and resets the keys that belong
+    /// to the old one: `build`, `working_directory`, `opens` and `input`. Variables are added; all other keys replace
+    /// the component's.
+    pub(super) fn apply_to(&self, component: &mut LaunchComponent) {
+        component.environment.extend(self.environment.iter().cloned());
+        if let Some(source) = &self.source {
+            component.source.clone_from(source);
+            component.build = None;
+            component.settings.working_directory = None;
+            component.opens = Opens::Own;
+            component.input = StandardInput::Empty;
+            component.place.clone_from(&self.place);
+        }
+        if let Some(opens) = &self.opens {
+            component.opens.clone_from(opens);
+        }
+        if let Some(input) = self.input {
+            component.input = input;
+        }
+        if self.build.is_some() {
+            component.build.clone_from(&self.build);
+        }
+        component.settings = self.settings.clone().over(&component.settings);
+    }
 }
 
 impl Reader<'_> {
-    /// Reads the entry of a component, in `components` or in a profile: then its name, and the names in `components`.
-    pub(super) fn read_entry(&mut self, field: Field<'_>, profile: Option<(&str, &[String])>) -> Option<Entry> {
+    /// Reads the entry of a component or of a kind, in `components` or in a profile.
+    pub(super) fn read_entry(&mut self, field: Field<'_>, needs: Needs<'_>) -> Option<Entry> {
         let name = field.key;
-        self.check_entry_name(name, field.key_span);
+        let owner = self.owner(name);
+        if self.components_of(name).is_none() {
+            self.check_entry_name(name, field.key_span);
+        }
         if name == Deployment::GATEWAY && self.top_value("hosts").is_some() {
             let message = format!("with `hosts`, no component can be called `{name}`");
             let problem = WRONG_NAME.at(message, field.key_span, "");
             let problem = problem.help("give it another name here and in the topology, for example `radio_gateway`");
             self.report(problem.note("this is the name of the program that connects the hosts"));
         }
-        let message = format!("the entry of component `{name}` is a mapping");
+        let message = format!("the entry of {owner} is a mapping");
         let entries = self.entries(field, &message, |reader, problem| {
             let problem = reader.as_one_mapping(reader.as_entry(problem, field), field);
             problem.otherwise("`command` in it names the program")
         })?;
-        let keys = self.keys(entries, keys::COMPONENT, &format!("component `{name}`"));
-        let only_in = profile.filter(|(_, started)| !started.iter().any(|other| other == name));
+        let keys = self.keys(entries, keys::COMPONENT, &owner);
         let source = match (keys.get("command"), keys.get("replay")) {
-            (None, None) if profile.is_some() && only_in.is_none() => None,
+            (None, None) if needs == Needs::Nothing => None,
             (None, Some(_)) => self.read_replay(&keys),
             (command, replay) => {
                 if let Some(replay) = replay {
-                    let message = format!("component `{name}` has both a `command` and a `replay`");
+                    let message = format!("{owner} has both a `command` and a `replay`");
                     let problem = CONTRADICTION.at(message, replay.key_span, "");
                     let edits = command.and_then(|command| self.remove_entry(command)).zip(self.remove_entry(replay));
                     let problem = problem.otherwise("keep one of them");
@@ -151,7 +194,7 @@ impl Reader<'_> {
                         None => problem,
                     });
                 }
-                Some(Source::Command(self.read_command(field, command, &keys, only_in)))
+                Some(Source::Command(self.read_command(field, command, &keys, needs)))
             }
         };
         self.check_path(keys.get("working_directory"));
@@ -233,23 +276,23 @@ impl Reader<'_> {
         entry: Field<'_>,
         command: Option<Field<'_>>,
         keys: &Keys<'_, '_>,
-        only_in: Option<(&str, &[String])>,
+        needs: Needs<'_>,
     ) -> Vec<String> {
         let words = command.and_then(|command| command_words(command.value));
         let has_other = || keys.fields.list.iter().any(|field| names_program(field.key));
         let is_reported = command.is_none() && (keys.may_have("command") || keys.may_have("replay") || has_other());
         if words.is_none() && !is_reported {
             let name = entry.key;
-            let message = format!("component `{name}` has no usable `command`");
-            let problem = match (command, only_in) {
+            let message = format!("{} has no usable `command`", self.owner(name));
+            let problem = match (command, needs) {
                 (Some(command), _) => wrong(&WRONG_VALUE, message, command),
-                (None, None) => MISSING.at(message, entry.key_span, ""),
                 // An unknown name is the only mistake that is told.
-                (None, Some(_)) if self.is_unknown(entry.key) => return Vec::new(),
-                (None, Some((profile, _))) => {
+                (None, Needs::ProgramIn(_)) if self.is_unknown(entry.key) => return Vec::new(),
+                (None, Needs::ProgramIn(profile)) => {
                     let message = format!("`{name}` needs a `command` or a `replay` in profile `{profile}`");
                     MISSING.at(message, entry.key_span, "").note(format!("`components` has no entry `{name}`"))
                 }
+                (None, _) => MISSING.at(message, entry.key_span, ""),
             };
             // A list of one list.
             let inner = command.and_then(|command| match command.value.items() {
@@ -261,7 +304,8 @@ impl Reader<'_> {
                 None => problem,
             };
             let form = "a command is a text, or a list of the program and its arguments";
-            self.report(problem.notes((command.is_some() || only_in.is_none()).then_some(form)));
+            let is_in_profile = matches!(needs, Needs::ProgramIn(_));
+            self.report(problem.notes((command.is_some() || !is_in_profile).then_some(form)));
         } else if let Some(command) = command {
             self.check_command(command, keys);
         }

@@ -11,7 +11,7 @@ use scl_topology::yaml::Node;
 /// Maximum number of places of a name that a proposal changes.
 const MOST_PLACES: usize = 100;
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
     /// Whether the topology has a component of this name.
     pub(super) fn is_component(&self, name: &str) -> bool {
         self.known.is_some_and(|known| known.components.iter().any(|known| known == name))
@@ -41,9 +41,9 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether there is a topology, and it does not have this component.
+    /// Whether there is a topology, and it has neither a component nor a kind of this name.
     pub(super) fn is_unknown(&self, name: &str) -> bool {
-        self.known.is_some() && !self.is_component(name)
+        self.known.is_some() && !self.is_component(name) && self.components_of(name).is_none()
     }
 
     /// Reports the unknown components, each once.
@@ -56,9 +56,15 @@ impl Reader<'_> {
         };
         for (name, places) in found {
             let Some(first) = places.first() else { continue };
-            let problem = UNKNOWN_NAME.at(format!("unknown component `{name}`"), *first, "");
-            let problem = problem.labels(places.iter().skip(1).map(|place| (*place, "here too")));
-            let near = similar(&name, known.iter().copied());
+            let others = || places.iter().skip(1).map(|place| (*place, "here too"));
+            if let Some(components) = self.components_of(&name) {
+                let message = format!("`{name}` is a kind; components are listed here");
+                let problem = UNKNOWN_NAME.at(message, *first, "").labels(others());
+                self.report(self.offer(problem, &name, &places, &[&components.join(", ")]));
+                continue;
+            }
+            let problem = UNKNOWN_NAME.at(format!("unknown component `{name}`"), *first, "").labels(others());
+            let near = similar(&name, known.iter().copied().chain(self.kinds()));
             let longer: Vec<&str> = match near.is_empty() {
                 true => known.iter().copied().filter(|known| has_part(known, &name)).take(4).collect(),
                 false => Vec::new(),
@@ -84,8 +90,13 @@ impl Reader<'_> {
                 false => problem,
             };
             let problem = problem.note(format!("{source} has the components {}", quoted_list(&known)));
-            self.report(problem);
+            let kinds: Vec<&str> = self.kinds().collect();
+            self.report(problem.notes((!kinds.is_empty()).then(|| format!("and the kinds {}", quoted_list(&kinds)))));
         }
+    }
+
+    fn kinds(&self) -> impl Iterator<Item = &'a str> + use<'a> {
+        self.known.into_iter().flat_map(|known| &known.kinds).map(|(kind, _)| kind.as_str())
     }
 
     /// Proposes other names at all places of a name: they are possible only, because the topology may be wrong.

@@ -4,7 +4,7 @@ mod misplaced;
 
 use super::super::terminal::StandardInput;
 use super::LaunchFile;
-use super::entry::{Entry, LaunchComponent, Opens};
+use super::entry::{Entry, LaunchComponent, Needs};
 use super::keys;
 use super::reader::{Keys, Reader};
 use super::rules::WRONG_SHAPE;
@@ -58,32 +58,12 @@ fn several_with_terminal(components: &[LaunchComponent]) -> Option<Problem> {
     )
 }
 
-/// Applies an entry. A command or a recording replaces the program, and resets the keys that belong to the old one:
-/// `build`, `working_directory`, `opens` and `input`. Variables are added; all other keys replace the component's.
-fn apply(entry: &Entry, components: &mut Vec<LaunchComponent>) {
-    let Some(component) = components.iter_mut().find(|component| component.name == entry.name) else {
-        components.extend(entry.clone().into_component());
-        return;
-    };
-    component.environment.extend(entry.environment.iter().cloned());
-    if let Some(source) = &entry.source {
-        component.source.clone_from(source);
-        component.build = None;
-        component.settings.working_directory = None;
-        component.opens = Opens::Own;
-        component.input = StandardInput::Empty;
-        component.place.clone_from(&entry.place);
+/// Applies an entry, which may be the first of its component.
+pub(super) fn apply(entry: &Entry, components: &mut Vec<LaunchComponent>) {
+    match components.iter_mut().find(|component| component.name == entry.name) {
+        Some(component) => entry.apply_to(component),
+        None => components.extend(entry.clone().into_component()),
     }
-    if let Some(opens) = &entry.opens {
-        component.opens.clone_from(opens);
-    }
-    if let Some(input) = entry.input {
-        component.input = input;
-    }
-    if entry.build.is_some() {
-        component.build.clone_from(&entry.build);
-    }
-    component.settings = entry.settings.clone().over(&component.settings);
 }
 
 /// Whether one of the entries declares a profile of this name.
@@ -97,7 +77,7 @@ impl Reader<'_> {
         let profiles = self.named_entries(top, "profiles", |reader, problem, field| {
             reader.as_mapping(problem, field).otherwise("each profile has entries like those of `components`")
         });
-        let started = top.names_of("components");
+        let started = self.with_components_of_kinds(top.names_of("components"));
         if let Some(problem) = self.without_profile(&profiles, &started) {
             self.report(problem);
             return Vec::new();
@@ -136,7 +116,14 @@ impl Reader<'_> {
         let entries = self.names(&entries, &format!("profile `{name}`")).list;
         let (entries, others) = self.without_keys(field, entries, started);
         others.into_iter().for_each(|problem| self.report(problem));
-        let entries = entries.into_iter().filter_map(|entry| self.read_entry(entry, Some((name, started)))).collect();
+        let entries = self.read_entries(&entries, |reader, entry, of_kind| {
+            let is_started = |name: &str| started.iter().any(|started| started == name);
+            let is_known = match reader.components_of(entry) {
+                Some(components) => components.iter().all(|name| is_started(name)),
+                None => is_started(entry) || of_kind,
+            };
+            if is_known { Needs::Nothing } else { Needs::ProgramIn(name) }
+        });
         Some(Profile { name: name.to_owned(), entries })
     }
 }

@@ -21,7 +21,7 @@ pub(super) struct Reader<'a> {
     pub(super) dialect: &'static Dialect,
     /// The value of the whole file.
     pub(super) root: Option<&'a Node>,
-    /// The names in `components`.
+    /// The names in `components`, and the components of the kinds among them.
     pub(super) started: HashSet<&'a str>,
     /// The components that the topology does not have.
     pub(super) unknown: UnknownNames,
@@ -57,6 +57,9 @@ impl<'a> Reader<'a> {
         self.root = document.root.as_ref().filter(|root| !root.is_null());
         let entries = self.top_value("components").and_then(Node::entries).unwrap_or_default();
         self.started = entries.iter().filter_map(|(key, _)| key.text()).collect();
+        let of_kinds: Vec<&str> =
+            self.started.iter().filter_map(|name| self.components_of(name)).flatten().map(String::as_str).collect();
+        self.started.extend(of_kinds);
         let file = self.root.map(|root| self.read_file(root));
         self.report_unknown_names();
         (file.unwrap_or_default(), self.problems)

@@ -8,16 +8,14 @@ use scl_topology::yaml::Node;
 impl Reader<'_> {
     /// Reports two components with `input: terminal`, unless a profile decides which of them has it.
     pub(super) fn check_terminal(&mut self, components: &[Field<'_>], top: &Keys<'_, '_>) {
-        let with_terminal: Vec<_> = components.iter().filter_map(|field| terminal(*field)).take(2).collect();
+        let with_terminal: Vec<_> = components.iter().filter_map(|field| terminal(*field)).collect();
+        with_terminal.iter().for_each(|(name, input)| self.check_terminal_of_kind(name, *input, components));
+        let with_terminal: Vec<_> = with_terminal.into_iter().take(2).collect();
         let [(first, one), (second, other)] = with_terminal.as_slice() else { return };
         let profiles = top.get("profiles").and_then(|field| field.value.entries()).unwrap_or_default();
         let entries = profiles.iter().filter_map(|(_, profile)| profile.entries()).flatten();
-        let decides = |entry: &Node| {
-            let mut keys = entry.entries().into_iter().flatten().filter_map(|(key, _)| key.text());
-            keys.any(|key| matches!(key, "input" | "command" | "replay"))
-        };
         let is_one = |name: &Node| name.text().is_some_and(|name| name == *first || name == *second);
-        if entries.into_iter().any(|(name, entry)| is_one(name) && decides(entry)) {
+        if entries.into_iter().any(|(name, entry)| is_one(name) && decides_input(entry)) {
             return;
         }
         let message = format!("the components `{first}` and `{second}` both have `input: terminal`");
@@ -30,6 +28,12 @@ impl Reader<'_> {
         });
         self.report(problem.note("only one component can read from the terminal"));
     }
+}
+
+/// Whether an entry that changes another one sets its `input`, or resets it.
+pub(super) fn decides_input(entry: &Node) -> bool {
+    let mut keys = entry.entries().into_iter().flatten().filter_map(|(key, _)| key.text());
+    keys.any(|key| matches!(key, "input" | "command" | "replay"))
 }
 
 /// The name of a component and its `input`, if that is the terminal.

@@ -11,7 +11,7 @@ use scl_terminal::Problem;
 use std::ffi::OsString;
 use std::path::Path;
 
-/// Plans the build of the package and, for each component, the program that has the component's name.
+/// Plans the build of the package and, for each component, the program with its name or with the name of its kind.
 ///
 /// # Errors
 ///
@@ -33,7 +33,10 @@ pub(super) fn plan_from_package(folder: &Path, names: SystemNames, options: &Opt
         program: Program { environment: vec![expected(name)], ..program(vec![cargo()]) },
         policy: Policy { stop_within: options.grace, ..Policy::default() },
         recording: None,
-        made_by_cargo: Some(MadeByCargo { build: 0, target: Target::OfComponent(name.clone()) }),
+        made_by_cargo: Some(MadeByCargo {
+            build: 0,
+            target: Target::OfComponent { name: name.clone(), kind: names.kind_of(name).map(str::to_owned) },
+        }),
         entry: None,
     };
     Ok(RunPlan {

@@ -34,6 +34,7 @@ fn units(launch: &str, user: Option<&str>) -> String {
         is_named: true,
         components: vec!["sensor".to_owned(), "logger".to_owned()],
         gates: Vec::new(),
+        ..SystemNames::default()
     };
     let run = Options { folder: path.clone(), grace: Duration::from_secs(5), ..Options::default() };
     let options = UnitOptions { run, user: user.map(str::to_owned) };
