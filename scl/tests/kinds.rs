@@ -1,4 +1,4 @@
-//! One struct for all components of a kind.
+//! One struct for all components of a kind, and the gates of every component.
 
 use scl::{Component, OpenError, OpenOptions, Result};
 use std::time::Duration;
@@ -26,6 +26,19 @@ async fn each_component_of_a_kind_has_its_own_connections() -> Result<()> {
     assert_eq!(controller.states.recv().await?, 3);
     right.state.send(&4).await?;
     assert_eq!(controller.states.recv().await?, 4);
+    Ok(())
+}
+
+#[tokio::test]
+async fn each_component_has_the_gate_of_everyone() -> Result<()> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut logger = Logger::open_with(in_folder(&folder)).await?;
+    let mut left = Motor::open_as_with(MotorInstance::LeftMotor, in_folder(&folder)).await?;
+    left.log.send(&"left".to_owned()).await?;
+    assert_eq!(logger.records.recv().await?, "left");
+    let mut right = Motor::open_as_with(MotorInstance::RightMotor, in_folder(&folder)).await?;
+    right.log.send(&"right".to_owned()).await?;
+    assert_eq!(logger.records.recv().await?, "right");
     Ok(())
 }
 

@@ -18,6 +18,8 @@ pub use option::{DeclaredOptions, GateOption, OPTIONS, option};
 pub use page::{Entry, entries, explain, page, without_references};
 
 pub use scl_plan::{GateKind, WhenFull};
-pub use section::{COMPONENT_KEYS, FORMAT, KIND, Key, OWN_PREFIX, SECTIONS, section, words};
+pub use section::{
+    COMPONENT_KEYS, EVERYONE, FORMAT, KIND, Key, OWN_PREFIX, SECTIONS, SHARED_GATE_KEYS, section, words,
+};
 pub(crate) use shape::is_whole_number;
 pub use shape::{Item, OutOfRange, Shape, Word};

@@ -27,6 +27,7 @@ const fn habit(words: &'static str, ways: &'static [&'static str], text: &'stati
 pub(crate) static SECTIONS: Table = Table::new(&[
     habit("nodes services modules processes programs tasks agents actors blocks units apps", &["components"], ""),
     habit("classes templates prototypes componenttypes componentclasses definitions defs", &["kinds"], ""),
+    habit("all everybody everycomponent allcomponents injected", &["everyone"], ""),
     habit("links edges wires wiring routes bindings channels connectors", &["connections"], ""),
     habit("name systemname project robot namespace id title", &["system"], ""),
     habit(

@@ -90,14 +90,16 @@ const REPEATED: Rule = Rule {
 const TOO_MANY: Rule = Rule {
     code: "SCL1309",
     severity: Severity::Error,
-    title: "kinds stand for too much",
-    explanation: "Together, the components of kinds have at most 100,000 gates, and the connections with `each` stand \
-                  for at most 100,000 connections. Split the system into several.",
+    title: "kinds or `everyone` stand for too much",
+    explanation: "Together, the components of kinds have at most 100,000 gates, the entries of `everyone` stand for at \
+                  most 100,000 gates, and the connections with `each` for at most 100,000 connections. Split the system \
+                  into several.",
     example: "",
 };
 
-/// Maximum number of gates that components have from kinds, and of connections that `each` stands for.
-const MOST: usize = 100_000;
+/// Maximum number of gates that components have from kinds, of gates from `everyone`, and of connections that `each`
+/// stands for.
+pub(crate) const MOST: usize = 100_000;
 
 /// Gives each component of a kind the gates of the kind, and replaces `each` in connections.
 pub(crate) fn expand(model: &mut Model, sources: &Sources, problems: &mut Diagnostics) {
@@ -133,9 +135,9 @@ pub(crate) fn expand(model: &mut Model, sources: &Sources, problems: &mut Diagno
     }
 }
 
-fn too_many(at: Span, what: &str) -> Diagnostic {
+pub(crate) fn too_many(at: Span, what: &str) -> Diagnostic {
     TOO_MANY
-        .at(format!("kinds stand for more than {MOST} {what}"), at, "here the limit is reached")
+        .at(format!("the file stands for more than {MOST} {what}"), at, "here the limit is reached")
         .help("split the system into several")
 }
 

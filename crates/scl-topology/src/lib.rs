@@ -65,6 +65,7 @@ mod confusable;
 #[cfg(test)]
 mod cost;
 pub mod diagnostic;
+mod everyone;
 pub mod external;
 pub mod fingerprint;
 pub mod grammar;

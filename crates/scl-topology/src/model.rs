@@ -1,9 +1,10 @@
-//! The topology as written: every leaf with its place, nothing rejected yet, and nothing resolved but kinds.
+//! The topology as written: every leaf with its place, nothing rejected yet, and nothing resolved but kinds and
+//! `everyone`.
 //!
 //! The parser creates it and leaves out malformed parts; the checks read it. A component of a kind has the gates of the
-//! kind, and `each motor.state` is a connection of each component of the kind, so that the checks see components,
-//! gates and pairs only. For a broken file, the macro still
-//! generates the structs that it can read from the model, so that completion in editors keeps working.
+//! kind, `each motor.state` is a connection of each component of the kind, and each component has the gates of
+//! `everyone`, so that the checks see components, gates and pairs only. For a broken file, the macro still generates
+//! the structs that it can read from the model, so that completion in editors keeps working.
 
 use crate::source::{Span, Spanned};
 
@@ -22,6 +23,8 @@ pub struct Model {
     pub kinds: Vec<ComponentModel>,
     /// Some kinds could not be read, and a problem says so. A kind that seems to be unknown may be one of them.
     pub kinds_unread: bool,
+    /// `everyone:`, in file order.
+    pub everyone: Vec<SharedGateModel>,
     /// `components:`, in file order.
     pub components: Vec<ComponentModel>,
     /// `connections:`, in file order.
@@ -84,6 +87,19 @@ pub struct GateModel {
     pub span: Span,
 }
 
+/// One entry of `everyone`.
+#[derive(Debug, Clone)]
+pub struct SharedGateModel {
+    /// The gate, as every component gets it.
+    pub gate: GateModel,
+    /// `to:`, the gate at the other end.
+    pub to: Option<Spanned<String>>,
+    /// `except:`, the components and kinds that do not get it.
+    pub except: Vec<Spanned<String>>,
+    /// Some keys could not be read, and a problem says so. `to` may be one of them.
+    pub unread: bool,
+}
+
 /// One option of a gate.
 #[derive(Debug, Clone)]
 pub struct OptionModel {
@@ -102,6 +118,8 @@ pub struct ConnectionModel {
     pub ends: [Spanned<String>; 2],
     /// The kind of each end that is written `each kind.gate`.
     pub each: [Option<String>; 2],
+    /// It comes from `everyone`: its first end is not written, and has the place of the gate there.
+    pub from_everyone: bool,
     /// The whole pair.
     pub span: Span,
 }
@@ -124,6 +142,6 @@ impl Model {
 
 impl ConnectionModel {
     pub(crate) fn new(ends: [Spanned<String>; 2], span: Span) -> Self {
-        Self { ends, each: [None, None], span }
+        Self { ends, each: [None, None], from_everyone: false, span }
     }
 }

@@ -21,6 +21,7 @@ mod pitfall;
 mod repair;
 mod sections;
 mod shape;
+mod shared_gate;
 mod syntax_error;
 #[cfg(test)]
 mod testing;
@@ -37,17 +38,17 @@ pub(crate) use pitfall::{MISREAD, RULES as PITFALLS};
 pub(crate) use shape::RULES as SHAPES;
 
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit};
-use crate::kinds;
 use crate::model::Model;
 use crate::source::{FileId, SourceFile, Sources, Span, Spanned};
 use crate::yaml::{self, Node, NodeKind};
+use crate::{everyone, kinds};
 use entry::Entry;
 use topology_dialect::TOPOLOGY;
 
-/// Reads a topology file, and gives the components of a kind the gates and connections of the kind.
+/// Reads a topology file, and gives each component the gates and connections of its kind and of `everyone`.
 ///
-/// Malformed parts are left out of the model, and each of them is reported in `problems`: all of `SCL01xx`,
-/// `SCL02xx` and `SCL13xx`. After a syntax error, the model holds what precedes it, and only problems of the text
+/// Malformed parts are left out of the model, and each of them is reported in `problems`: all of `SCL01xx`, `SCL02xx`,
+/// `SCL13xx` and `SCL14xx`. After a syntax error, the model holds what precedes it, and only problems of the text
 /// itself are reported, as the others may be its consequences. Takes linear time and does not panic, whatever the text.
 ///
 /// ```
@@ -68,6 +69,7 @@ pub fn parse(sources: &Sources, file: FileId, problems: &mut Diagnostics) -> Mod
     reader.read_root(&document);
     reader.read_controls(document.root.as_ref());
     let Reader { mut model, problems: mut found, .. } = reader;
+    everyone::expand(&mut model, sources, &mut found);
     kinds::expand(&mut model, sources, &mut found);
     // Problems with the shape may follow from a syntax error, so report them only if the whole text could be read.
     match document.is_partial {

@@ -15,6 +15,7 @@ use json::to_json;
 use sarif::{CheckedFile, to_sarif};
 use scl_terminal::{print_err, print_out};
 use scl_topology::diagnostic::Severity;
+use scl_topology::model::Model;
 use scl_topology::topology::Topology;
 use std::path::{Path, PathBuf};
 
@@ -100,7 +101,7 @@ fn closing_line(checked: &Checked) -> String {
         counted(number_of(Severity::Lint), "lint"),
     ];
     let problems = problems.into_iter().filter(|it| !it.starts_with("0 ")).collect::<Vec<_>>().join(", ");
-    let words = match checked.loaded.topology.as_ref().map(size_of) {
+    let words = match checked.loaded.topology.as_ref().map(|topology| size_of(topology, &checked.loaded.model)) {
         Some(size) if problems.is_empty() => size,
         Some(size) => format!("{size}; {problems}"),
         None if problems.is_empty() => "no mistakes".to_owned(),
@@ -109,10 +110,16 @@ fn closing_line(checked: &Checked) -> String {
     format!("{}: {words}\n", shown_path(&checked.path))
 }
 
-fn size_of(topology: &Topology) -> String {
+fn size_of(topology: &Topology, model: &Model) -> String {
     let gates = topology.components().map(|(_, component)| component.gates().len()).sum();
     let components = counted(topology.components().len(), "component");
-    format!("{components}, {}, {}", counted(gates, "gate"), counted(topology.connections().len(), "connection"))
+    let connections = counted(topology.connections().len(), "connection");
+    let size = format!("{components}, {}, {connections}", counted(gates, "gate"));
+    // Each of them costs a gate and a connection, which are not written in the file.
+    match model.connections.iter().filter(|connection| connection.from_everyone).count() {
+        0 => size,
+        number => format!("{size} ({number} of them by `everyone`)"),
+    }
 }
 
 fn counted(number: usize, noun: &str) -> String {

@@ -1,6 +1,6 @@
 //! The schema of the file: its sections, and the keys of a component.
 
-use super::gate::gate_schema;
+use super::gate::{gate_schema, shared_gate_schema};
 use super::names::{NAME, Names};
 use super::shape::shape_schema;
 use scl_topology::grammar::{COMPONENT_KEYS, Item, KIND, Key, OWN_PREFIX, SECTIONS, Shape, without_references};
@@ -55,6 +55,7 @@ fn list_schema(key: &Key, item: Item, names: &Names) -> Value {
             json!({ "type": "string", "pattern": "\\S", "description": "A folder, for example `proto`." })
         }
         Item::Gate => gate_schema(names),
+        Item::SharedGate => shared_gate_schema(names),
     };
     // A list of components or gates that is still empty is a warning, not an error.
     match (key.is_required(), item) {

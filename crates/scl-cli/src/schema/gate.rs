@@ -1,8 +1,8 @@
 //! The schema of a gate: six kinds, each with its options.
 
-use super::names::{NAME, Names};
+use super::names::{NAME, Names, PATH};
 use super::shape::shape_schema;
-use scl_topology::grammar::{GateKind, GateOption, KindRow, OPTIONS, without_references};
+use scl_topology::grammar::{GateKind, GateOption, KindRow, OPTIONS, SHARED_GATE_KEYS, without_references};
 use serde_json::{Map, Value, json};
 
 /// A gate: `name: kind`, or `name: {kind: type, option: value}`.
@@ -14,13 +14,36 @@ pub(super) fn gate_schema(names: &Names) -> Value {
         "enumDescriptions": GateKind::ALL.map(|kind| KindRow::of(kind).summary),
         "description": "The kind of the gate. Its type is taken from the other end, or it carries bytes.",
     });
+    let forms = std::iter::once(short).chain(long).collect();
+    named("A gate: `name: kind`, or `name: {kind: type, option: value}`.", forms)
+}
+
+/// A gate of `everyone`: `name: {kind: type, to: component.gate}`.
+pub(super) fn shared_gate_schema(names: &Names) -> Value {
+    let forms = GateKind::ALL.map(|kind| {
+        let mut schema = long_schema(kind, names);
+        let [to, except] = SHARED_GATE_KEYS;
+        schema["required"] = json!([kind.word(), to]);
+        let end = "The gate at the other end: `component.gate`.";
+        schema["properties"][to] = json!({ "type": "string", "pattern": PATH, "description": end });
+        schema["properties"][except] = json!({
+            "description": "The components and kinds that do not get the gate.",
+            "type": ["string", "array"], "pattern": NAME, "items": { "type": "string", "pattern": NAME },
+        });
+        schema
+    });
+    named("A gate of every component: `name: {kind: type, to: component.gate}`.", forms.to_vec())
+}
+
+/// A mapping from a name to one of these forms.
+fn named(description: &str, forms: Vec<Value>) -> Value {
     json!({
         "type": "object",
-        "description": "A gate: `name: kind`, or `name: {kind: type, option: value}`.",
+        "description": description,
         "propertyNames": { "pattern": NAME },
         "minProperties": 1,
         "maxProperties": 1,
-        "additionalProperties": { "anyOf": std::iter::once(short).chain(long).collect::<Vec<_>>() },
+        "additionalProperties": { "anyOf": forms },
     })
 }
 

@@ -6,6 +6,9 @@ use serde_json::{Value, json};
 /// A word of letters, digits, `_` and single `-`.
 pub(super) const NAME: &str = "^[A-Za-z_](-?[A-Za-z0-9_])*-?$";
 
+/// `component.gate`.
+pub(super) const PATH: &str = "^[A-Za-z_](-?[A-Za-z0-9_])*-?\\.[A-Za-z_](-?[A-Za-z0-9_])*-?$";
+
 /// `component.gate` or `each kind.gate`.
 const END: &str = "^(each\\s+)?[A-Za-z_](-?[A-Za-z0-9_])*-?\\.[A-Za-z_](-?[A-Za-z0-9_])*-?$";
 

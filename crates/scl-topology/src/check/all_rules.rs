@@ -2,12 +2,20 @@
 
 use super::RULES;
 use crate::diagnostic::Rule;
-use crate::{diagnostic, external, kinds, parse};
+use crate::{diagnostic, everyone, external, kinds, parse};
 use std::sync::LazyLock;
 
 /// All rules, sorted by code.
 pub static ALL: LazyLock<Vec<&'static Rule>> = LazyLock::new(|| {
-    let groups = [parse::PITFALLS, parse::SHAPES, kinds::RULES, RULES, &[&diagnostic::TOO_MANY], external::RULES];
+    let groups = [
+        parse::PITFALLS,
+        parse::SHAPES,
+        kinds::RULES,
+        everyone::RULES,
+        RULES,
+        &[&diagnostic::TOO_MANY],
+        external::RULES,
+    ];
     let mut all = groups.concat();
     all.sort_by_key(|rule| rule.code);
     all

@@ -45,7 +45,8 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
             .at("this connection is already declared", span, label)
             .label(draft.links[earlier].model.span, "first declared here");
         let ends = draft.links[at].ends.map(|end| end.unwrap_or(a));
-        let meant = if draft.may_search() { meant(draft, ends) } else { Vec::new() };
+        let is_written = !draft.links[at].model.from_everyone;
+        let meant = if is_written && draft.may_search() { meant(draft, ends) } else { Vec::new() };
         let mut found = meant.iter().fold(found, |found, pair| {
             let paths = pair.map(|gate| draft.path(gate));
             let places = draft.links[at].model.ends.iter().zip(pair.iter().zip(ends)).zip(&paths);
@@ -53,9 +54,10 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
             let edits = changed.map(|((end, _), path)| Edit::new(end.span, draft.sources.quoted_as(end.span, path)));
             found.suggest(format!("write `[{}]`", paths.join(", ")), edits)
         });
-        // The other connections of an `each` are needed.
-        let needless =
-            [at, earlier].into_iter().find(|link| draft.links[*link].model.each == [None, None]).unwrap_or(at);
+        // The other connections of an `each` and of `everyone` are needed.
+        let written = [at, earlier].into_iter().filter(|link| !draft.links[*link].model.from_everyone);
+        let alone = |link: &usize| draft.links[*link].model.each == [None, None];
+        let needless = written.clone().find(alone).or(written.clone().next()).unwrap_or(at);
         let needless = draft.links[needless].model.span;
         found = found.propose_removal("remove one of the two", draft.sources.file(needless.file), needless);
         if !meant.is_empty() {

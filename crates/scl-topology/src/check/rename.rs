@@ -21,6 +21,8 @@ pub(super) struct Renames<'m> {
     /// The ends by the gate that they name, and the component or kind that declares it: their places, and what they
     /// name in the place of the component.
     by_gate: HashMap<(&'m str, &'m str), Vec<(Span, Owner<'m>)>>,
+    /// The components and kinds that `except` names.
+    excepted: HashMap<&'m str, Vec<Span>>,
 }
 
 /// What stands before the dot of an end.
@@ -49,7 +51,11 @@ impl<'m> Renames<'m> {
             of_kind: HashMap::new(),
             ends: HashMap::new(),
             by_gate: HashMap::new(),
+            excepted: HashMap::new(),
         };
+        for name in model.everyone.iter().flat_map(|shared| &shared.except) {
+            renames.excepted.entry(&name.value).or_default().push(name.span);
+        }
         for component in &model.components {
             if let Some(kind) = &component.kind {
                 renames.kinds.insert(&component.name.value, &kind.value);
@@ -61,7 +67,9 @@ impl<'m> Renames<'m> {
     }
 
     fn add(&mut self, connection: &'m ConnectionModel) {
-        for (end, each) in connection.ends.iter().zip(&connection.each) {
+        // The first end of a connection from `everyone` is not written.
+        let written = connection.ends.iter().zip(&connection.each).skip(usize::from(connection.from_everyone));
+        for (end, each) in written {
             // A wrong name may contain dots.
             let splits = [end.value.split_once('.'), end.value.rsplit_once('.')];
             let is_same = splits[0] == splits[1];
@@ -79,6 +87,10 @@ impl<'m> Renames<'m> {
         let edit = |span: Span, text: &str| Edit::new(span, self.sources.quoted_as(span, text));
         let mut edits = vec![edit(name.span, to)];
         let ends = |owner| self.ends.get(&owner).into_iter().flatten();
+        if noun.is_type() {
+            let excepted = self.excepted.get(name.value.as_str()).into_iter().flatten();
+            edits.extend(excepted.map(|span| edit(*span, to)));
+        }
         match noun {
             Noun::System => {}
             Noun::Component => {

@@ -33,7 +33,7 @@ pub const FORMAT: u32 = 1;
 pub const OWN_PREFIX: &str = "x-";
 
 /// The sections, in the order in which messages list them.
-pub static SECTIONS: [Key; 8] = [
+pub static SECTIONS: [Key; 9] = [
     Key {
         key: "components",
         shape: Shape::List(Item::Component),
@@ -80,6 +80,22 @@ connections:
 ",
     },
     Key {
+        key: EVERYONE,
+        shape: Shape::List(Item::SharedGate),
+        default: "none",
+        summary: "Gates that every component has, each connected to the same gate: a log, for example.",
+        text: "`to` names that other gate, whose component does not get one. See [everyone](#everyone).",
+        example: "components:
+  - name: sensor
+    gates: []
+  - name: logger
+    gates:
+      - records: {pull: rover.Record}
+everyone:
+  - log: {push: rover.Record, to: logger.records}
+",
+    },
+    Key {
         key: "system",
         shape: Shape::Name,
         default: "the file's name without its extension",
@@ -122,6 +138,13 @@ connections:
         example: "scl: 1\n",
     },
 ];
+
+/// The section of the gates that every component has.
+pub const EVERYONE: &str = "everyone";
+
+/// The keys of a gate in the section `everyone`, beside its options: the gate at the other end, and the components that
+/// do not get one.
+pub const SHARED_GATE_KEYS: [&str; 2] = ["to", "except"];
 
 /// The key that gives a component the gates of a kind.
 pub const KIND: &str = "kind";

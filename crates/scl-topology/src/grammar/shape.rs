@@ -66,6 +66,8 @@ pub enum Item {
     Gate,
     /// Kinds of components.
     Kind,
+    /// Gates of every component.
+    SharedGate,
 }
 
 /// A value that has the right form, but is out of its range.
@@ -127,6 +129,7 @@ impl Shape {
             Shape::List(Item::Folder) => "a list of folders".to_owned(),
             Shape::List(Item::Gate) => "a list of gates".to_owned(),
             Shape::List(Item::Kind) => "a list of kinds".to_owned(),
+            Shape::List(Item::SharedGate) => "a list of gates with `to`".to_owned(),
         }
     }
 

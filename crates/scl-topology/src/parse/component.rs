@@ -263,7 +263,7 @@ fn second_component(entries: &[(Node, Node)]) -> Option<usize> {
     keys[second..].iter().any(comes_again).then_some(second)
 }
 
-fn unread_component(name: Spanned<String>) -> ComponentModel {
+pub(super) fn unread_component(name: Spanned<String>) -> ComponentModel {
     let span = name.span;
     ComponentModel {
         name,

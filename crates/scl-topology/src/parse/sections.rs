@@ -23,7 +23,7 @@ impl Reader<'_> {
                     self.model.schema_roots = self.read_files(*field, "folder of schemas", "a folder of schemas");
                 }
                 "scl" => self.problems.extend(shape::version::find(*field, self.source)),
-                "components" | "connections" | "kinds" => self.read_lists(&fields, field.key),
+                "components" | "connections" | "kinds" | grammar::EVERYONE => self.read_lists(&fields, field.key),
                 key if key.starts_with(grammar::OWN_PREFIX) => self.check_extension(*field),
                 _ => self.report_unknown_section(*field),
             }
@@ -44,6 +44,9 @@ impl Reader<'_> {
             match key {
                 "components" if number > 0 => self.model.components_unread = true,
                 "kinds" if number > 0 => self.model.kinds_unread = true,
+                // The names in it are broken, and everything else in the file is sound without it.
+                grammar::EVERYONE if number > 0 => {}
+                grammar::EVERYONE => self.read_everyone(section),
                 "connections" if number > 0 => self.remember_broken_ends(section.value),
                 "components" => self.read_components(section),
                 "kinds" => self.read_kinds(section),

@@ -84,14 +84,17 @@ fn every_key() {
             Some("rover") ["rover.proto"] Some("protobuf")
             sensor optional Some("Reads the inertial unit.")
               measurements: pub Some("rover.Measurement") doc=One reading per period.
+              log: pub Some("rover.Event")
             actuator None
               setpoint: sub Some("rover.Setpoint") queue=1
+              log: pub Some("rover.Event")
             controller None
               sensor: sub Some("rover.Measurement") queue=1
               actuator: pub None
               events: pub Some("rover.Event") backpressure=true codec=my_crate::Flat
               commands: rep Some("rover.Command -> rover.Status") unconnected=ok
               work: push Some("rover.Job") share=true
+              log: pub Some("rover.Event")
             user_interface None
               events: sub Some("rover.Event") queue=1000 when_full=wait max_size=8MiB
               commands: req Some("rover.Command -> rover.Status") timeout=500ms
@@ -103,6 +106,9 @@ fn every_key() {
             actuator.setpoint - controller.actuator
             controller.actuator - left_motor.setpoint
             controller.actuator - right_motor.setpoint
+            sensor.log - user_interface.events
+            actuator.log - user_interface.events
+            controller.log - user_interface.events
         "#]],
     );
 }

@@ -61,6 +61,10 @@ pub(crate) fn filled(size: usize) -> Vec<(&'static str, String)> {
         ("components of a kind", of_a_kind(size, 0)),
         ("connections of a kind", of_a_kind(size, size / 100)),
         ("wrong gates of a kind", of_a_kind(size, 2).replace("each k.g00", "each k.h00")),
+        ("gates of everyone", everyone(size, 4)),
+        ("many components of everyone", everyone(size, size / 100)),
+        ("wrong gates of everyone", everyone(size, 4).replace("to: l.r", "to: l.s, except: [b, b, c]")),
+        ("taken gates of everyone", everyone(size, 40).replace("gates: []", "gates: [g000001: pub, g000002: pub]")),
         ("kinds without components", kinds(size)),
         ("unknown kinds", fill("components:\n", "  - {name: a, kind: b}\n")),
         ("comments for the checker", fill("components: []\n", "# scl: allow(SCL0799)\n")),
@@ -136,6 +140,14 @@ fn of_a_kind(size: usize, connections: usize) -> String {
         "kinds:\n  - name: k\n    gates:\n{gates}components:\n{components}  - {{name: b, gates: [x: sub]}}\n\
          connections:\n{pairs}"
     )
+}
+
+/// Components, and gates of everyone.
+fn everyone(size: usize, components: usize) -> String {
+    let components: String = (0..components).map(|at| format!("  - {{name: c{at:06}, gates: []}}\n")).collect();
+    let left = size.saturating_sub(components.len()) / 40;
+    let gates: String = (0..left).map(|at| format!("  - g{at:06}: {{push: T, to: l.r}}\n")).collect();
+    format!("components:\n{components}  - {{name: l, gates: [r: pull]}}\neveryone:\n{gates}connections: []\n")
 }
 
 /// Kinds, and connections of kinds with similar names.

@@ -11,7 +11,7 @@ use crate::parse::entry::Entry;
 use crate::parse::field::{Field, Fields};
 use crate::parse::scalar;
 use crate::parse::words::{COMPONENT_KEYS, SECTIONS};
-use crate::source::{SourceFile, Span};
+use crate::source::{SourceFile, Span, Spanned};
 use crate::suggest::similar;
 use crate::topology::GateKind;
 use crate::yaml::{Node, NodeKind};
@@ -179,6 +179,12 @@ pub(in crate::parse) fn of_gate(field: Field<'_>, kind: Field<'_>, path: &str, s
     }
 }
 
+/// A misspelt key of a gate in `everyone`.
+pub(in crate::parse) fn of_shared_gate(key: &Spanned<String>, meant: &str, gate: &str) -> Diagnostic {
+    let message = format!("unknown key `{}` in gate `{}.{gate}`", key.value, grammar::EVERYONE);
+    OF_GATE.at(message, key.span, "").did_you_mean(&key.value, &[meant])
+}
+
 /// `{pub: , type: Fix}`: the type belongs after the kind.
 fn with_type(problem: Diagnostic, field: Field<'_>, kind: Field<'_>, source: &SourceFile) -> Diagnostic {
     let is_type = habits::GATE.find(field.key).is_some_and(|habit| habit.is_type());
@@ -266,7 +272,7 @@ mod tests {
                   | ^^^^^^^^^^ not a section of a topology
                   |
                   = help: did you mean `connections`?
-                  = note: sections: `components`, `connections`, `kinds`, `system`, `schemas`, `schema_roots`, `codec`, `scl`
+                  = note: sections: `components`, `connections`, `kinds`, `everyone`, `system`, `schemas`, `schema_roots`, `codec`, `scl`
                   = note: keys that start with `x-` are ignored, for your own use"#]],
         );
     }
