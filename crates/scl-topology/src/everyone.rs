@@ -69,6 +69,9 @@ const NOBODY: Rule = Rule {
 
 /// Gives each component and each kind the gates of `everyone`, and connects them.
 pub(crate) fn expand(model: &mut Model, sources: &Sources, problems: &mut Diagnostics) {
+    if model.everyone.is_empty() {
+        return;
+    }
     let Added { gates, connections, broken, is_cut_off } = Added::of(model, sources, problems);
     let kinds = model.kinds.len();
     for (owner, gate) in gates {

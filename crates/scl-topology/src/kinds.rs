@@ -15,7 +15,7 @@ use crate::model::{ComponentModel, Model};
 use crate::source::{Sources, Span, Spanned};
 use std::collections::{HashMap, HashSet};
 
-pub(crate) use each::{EACH, each_end, each_of};
+pub(crate) use each::{EACH, choose, each_end, each_of};
 
 /// The rules of this stage, by their codes.
 pub(crate) const RULES: &[&Rule] = &[
@@ -103,12 +103,13 @@ pub(crate) const MOST: usize = 100_000;
 
 /// Gives each component of a kind the gates of the kind, and replaces `each` in connections.
 pub(crate) fn expand(model: &mut Model, sources: &Sources, problems: &mut Diagnostics) {
+    let connections = std::mem::take(&mut model.connections);
     let known = Known::of(model);
     known.report_repeated(problems);
-    let meant = unknown::check(&known, sources, problems);
+    let meant = unknown::check(&known, &connections, sources, problems);
     known.report_unused(&meant, problems);
     known.report_own_gates(sources, problems);
-    let ends = each::replace(&known, sources, problems);
+    let ends = each::replace(&known, connections, sources, problems);
     let kind_of = known.kind_of;
     model.cut_off |= ends.is_cut_off;
     model.connections = ends.connections;

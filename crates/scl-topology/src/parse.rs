@@ -40,6 +40,7 @@ pub(crate) use shape::RULES as SHAPES;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit};
 use crate::model::Model;
 use crate::source::{FileId, SourceFile, Sources, Span, Spanned};
+use crate::suggest::Searches;
 use crate::yaml::{self, Node, NodeKind};
 use crate::{everyone, kinds};
 use entry::Entry;
@@ -121,7 +122,7 @@ struct Reader<'s> {
     /// Connections stand where they do not belong, and a problem says so.
     has_stray_connections: bool,
     /// How many problems may still search the whole file, so that time stays linear.
-    searches_left: usize,
+    searches: Searches,
     /// What the items of the list declare that is being read.
     reads: Entry,
     /// The component that is being read, or else the last one.
@@ -129,9 +130,6 @@ struct Reader<'s> {
     /// The last item of the list of connections.
     last_connection: Option<Span>,
 }
-
-/// Maximum number of problems that search the whole file.
-const MOST_SEARCHES: usize = 20;
 
 impl<'s> Reader<'s> {
     fn new(source: &'s SourceFile) -> Self {
@@ -141,7 +139,7 @@ impl<'s> Reader<'s> {
             problems,
             model,
             has_stray_connections: false,
-            searches_left: MOST_SEARCHES,
+            searches: Searches::default(),
             reads: Entry::Component,
             component: None,
             last_connection: None,

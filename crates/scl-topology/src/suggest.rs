@@ -18,6 +18,35 @@ pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
     scl_text::suggest::nearest(word, others, work::add)
 }
 
+/// How many more unknown names may be compared with all others: each reads all of them, so in a file with very many
+/// mistakes the later ones do without, and time stays linear.
+#[derive(Debug)]
+pub(crate) struct Searches(usize);
+
+impl Default for Searches {
+    fn default() -> Self {
+        Self(20)
+    }
+}
+
+impl Searches {
+    pub(crate) fn new(most: usize) -> Self {
+        Self(most)
+    }
+
+    /// Counts a search, and returns whether it may take place.
+    pub(crate) fn may_search(&mut self) -> bool {
+        let may_search = self.0 > 0;
+        self.0 = self.0.saturating_sub(1);
+        may_search
+    }
+
+    /// [`similar`] names, or none if no search is left.
+    pub(crate) fn similar<'n>(&mut self, word: &str, names: impl IntoIterator<Item = &'n str>) -> Vec<&'n str> {
+        if self.may_search() { similar(word, names) } else { Vec::new() }
+    }
+}
+
 /// The candidates that one typing error makes of a word, at most three.
 pub(crate) fn one_edit_away<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     scl_text::suggest::one_edit_away(word, candidates, work::add).take(MOST).collect()

@@ -9,9 +9,6 @@ pub(super) const NAME: &str = "^[A-Za-z_](-?[A-Za-z0-9_])*-?$";
 /// `component.gate`.
 pub(super) const PATH: &str = "^[A-Za-z_](-?[A-Za-z0-9_])*-?\\.[A-Za-z_](-?[A-Za-z0-9_])*-?$";
 
-/// `component.gate` or `each kind.gate`.
-const END: &str = "^(each\\s+)?[A-Za-z_](-?[A-Za-z0-9_])*-?\\.[A-Za-z_](-?[A-Za-z0-9_])*-?$";
-
 /// A word of a dotted type.
 const WORD: &str = "([A-Za-z][A-Za-z0-9_]*|_[A-Za-z0-9_]+)";
 
@@ -53,7 +50,7 @@ impl Names {
         offered(
             known,
             self.ends.is_empty(),
-            &json!({ "type": "string", "pattern": END }),
+            &json!({ "type": "string", "pattern": PATH.replacen('^', "^(each\\s+)?", 1) }),
             "One end of a connection: `component.gate` or `each kind.gate`.",
         )
     }

@@ -5,6 +5,7 @@
 use crate::kinds::each_end;
 use crate::model::{ComponentModel, ConnectionModel, GateModel, Model};
 use crate::source::{Sources, Span, Spanned};
+use crate::suggest::Searches;
 use crate::topology::{Codec, DeclaredOptions, GateKind, Payload, TypeName};
 use crate::work;
 use std::collections::{HashMap, HashSet};
@@ -27,7 +28,7 @@ pub(super) struct Draft<'m> {
     /// The names of all components, sorted, once each.
     pub(super) component_names: Vec<&'m str>,
     /// How many unknown names may still be compared with all others, see [`Draft::may_search`].
-    searches_left: usize,
+    searches: Searches,
     components_by_name: HashMap<&'m str, Vec<usize>>,
     gate_by_name: HashMap<(&'m str, &'m str), usize>,
     gates_by_name: HashMap<&'m str, Vec<usize>>,
@@ -84,7 +85,7 @@ impl<'m> Draft<'m> {
             links,
             first_of_kind: vec![None; model.kinds.len()],
             component_names: sorted_names(model),
-            searches_left: searches(model),
+            searches: Searches::new(searches(model)),
             components_by_name: HashMap::new(),
             gate_by_name: HashMap::new(),
             gates_by_name: HashMap::new(),
@@ -138,9 +139,7 @@ impl<'m> Draft<'m> {
     /// all names, so in a file with very many mistakes the later messages do without: time stays linear, and nobody
     /// reads that many.
     pub(super) fn may_search(&mut self) -> bool {
-        let may_search = self.searches_left > 0;
-        self.searches_left = self.searches_left.saturating_sub(1);
-        may_search
+        self.searches.may_search()
     }
 
     /// All declarations of a component.

@@ -1,6 +1,5 @@
-//! Types and codecs that one end leaves out are taken over from the other, and so by the components of a kind from each
-//! other. SCL0607, a lint, says where; SCL0402, a
-//! lint, finds the connections on which neither end has a type.
+//! Types and codecs that one end leaves out are taken over from the other, and by the components of a kind from each
+//! other. SCL0607, a lint, says where; SCL0402, a lint, finds the connections on which neither end has a type.
 
 use super::draft::Draft;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};

@@ -3,10 +3,10 @@
 use super::{Checked, NO_TO};
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::grammar::EVERYONE;
-use crate::kinds::each_of;
+use crate::kinds::{choose, each_of};
 use crate::model::{ComponentModel, Model, SharedGateModel};
 use crate::source::{Sources, Span, Spanned};
-use crate::suggest::similar;
+use crate::suggest::Searches;
 use scl_text::list::listed;
 use std::collections::{HashMap, HashSet};
 
@@ -65,9 +65,6 @@ pub(super) const NEEDLESS_EXCEPT: Rule = Rule {
 ",
 };
 
-/// Maximum number of unknown names that are compared with all others.
-const MOST_SEARCHES: usize = 20;
-
 /// The declarations of a file.
 pub(super) struct Known<'m> {
     model: &'m Model,
@@ -76,15 +73,13 @@ pub(super) struct Known<'m> {
     kinds: HashMap<&'m str, &'m ComponentModel>,
     /// The places of gates by the number of their owner (first the kinds, then the components) and their names.
     gates: HashMap<(usize, &'m str), Span>,
-    searches_left: usize,
+    searches: Searches,
 }
 
 impl<'m> Known<'m> {
     pub(super) fn of(model: &'m Model, sources: &'m Sources) -> Self {
         let by_name = |of: &'m [ComponentModel]| of.iter().map(|owner| (owner.name.value.as_str(), owner)).collect();
         let owners = model.kinds.iter().chain(&model.components).enumerate();
-        // Without `everyone`, nobody asks.
-        let owners = owners.filter(|_| !model.everyone.is_empty());
         let gates = owners.flat_map(|(at, owner)| {
             owner.gates.iter().map(move |gate| ((at, gate.name.value.as_str()), gate.name.span))
         });
@@ -94,7 +89,7 @@ impl<'m> Known<'m> {
             components: by_name(&model.components),
             kinds: by_name(&model.kinds),
             gates: gates.collect(),
-            searches_left: MOST_SEARCHES,
+            searches: Searches::default(),
         }
     }
 
@@ -130,18 +125,19 @@ impl<'m> Known<'m> {
     fn check_to(&mut self, to: &Spanned<String>, problems: &mut Diagnostics) -> bool {
         if each_of(&to.value).is_some() {
             let found = UNKNOWN_TO.at("`to` is one gate, not one of each component of a kind", to.span, "");
-            problems.push(found.help("`to` names a gate that a component declares: `logger.records`"));
+            problems.push(self.choose(found, to, Vec::new()));
             return false;
         }
         let Some((name, gate)) = to.value.split_once('.') else {
             let found = UNKNOWN_TO.at("`to` is written `component.gate`", to.span, "");
-            problems.push(found.help("`to` names a gate that a component declares: `logger.records`"));
+            problems.push(self.choose(found, to, Vec::new()));
             return false;
         };
         let Some(owner) = self.components.get(name) else {
             if !self.model.components_unread && !self.model.cut_off {
                 let model = self.model;
-                let near = self.similar(name, model.components.iter().map(|component| component.name.value.as_str()));
+                let near =
+                    self.searches.similar(name, model.components.iter().map(|component| component.name.value.as_str()));
                 let ways = near.iter().map(|name| format!("{name}.{gate}"));
                 let found = UNKNOWN_TO.at(format!("unknown component `{name}`"), to.span, "");
                 let found = self.choose(found, to, ways.collect());
@@ -156,7 +152,7 @@ impl<'m> Known<'m> {
         let gates = || declares.gates.iter().map(|gate| gate.name.value.as_str());
         let exists = gates().any(|known| known == gate);
         if !exists && !declares.gates_unread {
-            let near = self.similar(gate, gates());
+            let near = self.searches.similar(gate, gates());
             let found = UNKNOWN_TO.at(format!("component `{name}` has no gate `{gate}`"), to.span, "");
             let found = self.choose(found, to, near.iter().map(|gate| format!("{name}.{gate}")).collect());
             problems.push(match declares.gates.is_empty() {
@@ -186,7 +182,7 @@ impl<'m> Known<'m> {
             let gate_of = word.split_once('.').map(|(owner, _)| owner);
             let near = match gate_of.filter(|owner| self.components.contains_key(owner)) {
                 Some(owner) => vec![owner],
-                None => self.similar(word, model.owners().map(|owner| owner.name.value.as_str())),
+                None => self.searches.similar(word, model.owners().map(|owner| owner.name.value.as_str())),
             };
             let found = UNKNOWN_EXCEPT.at(format!("unknown component `{word}`"), name.span, "");
             problems.push(found.did_you_mean(word, &near).otherwise("`except` lists components and kinds"));
@@ -194,14 +190,7 @@ impl<'m> Known<'m> {
     }
 
     fn choose(&self, found: Diagnostic, to: &Spanned<String>, ways: Vec<String>) -> Diagnostic {
-        let edit = |way: &String| Edit::new(to.span, self.sources.quoted_as(to.span, way));
-        let found = found.choose(("write ", ""), ways.iter().map(|way| (way.as_str(), edit(way))));
-        found.otherwise("`to` names a gate that a component declares: `logger.records`")
-    }
-
-    fn similar<'n>(&mut self, word: &str, names: impl Iterator<Item = &'n str>) -> Vec<&'n str> {
-        let may_search = self.searches_left > 0;
-        self.searches_left = self.searches_left.saturating_sub(1);
-        if may_search { similar(word, names) } else { Vec::new() }
+        choose(found, to.span, ways.into_iter(), self.sources)
+            .otherwise("`to` names a gate that a component declares: `logger.records`")
     }
 }

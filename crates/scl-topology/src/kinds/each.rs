@@ -3,8 +3,8 @@
 use super::{Known, MOST, too_many};
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::model::ConnectionModel;
-use crate::source::{Sources, Spanned};
-use crate::suggest::similar;
+use crate::source::{Sources, Span, Spanned};
+use crate::suggest::Searches;
 use scl_text::list::listed;
 
 /// SCL1305.
@@ -102,9 +102,6 @@ pub(crate) const EACH: &str = "each";
 /// Maximum number of gates that a help names.
 const MOST_GATES: usize = 3;
 
-/// Maximum number of ends for which similar names are searched.
-const MOST_SEARCHES: usize = 20;
-
 /// What connections become.
 #[derive(Default)]
 pub(super) struct Ends {
@@ -136,12 +133,18 @@ fn without_mark(end: &str) -> (&str, &str) {
 }
 
 /// Replaces each connection with `each` by one of each component of the kind.
-pub(super) fn replace(known: &Known<'_>, sources: &Sources, problems: &mut Diagnostics) -> Ends {
-    let mut reader = Reader { known, sources, searches_left: MOST_SEARCHES, ends_left: MOST, problems };
+pub(super) fn replace(
+    known: &Known<'_>,
+    connections: Vec<ConnectionModel>,
+    sources: &Sources,
+    problems: &mut Diagnostics,
+) -> Ends {
+    let mut reader = Reader { known, sources, searches: Searches::default(), ends_left: MOST, problems };
     let mut ends = Ends::default();
-    for connection in &known.model.connections {
+    for connection in connections {
+        let span = connection.span;
         if reader.read(connection, &mut ends).is_none() {
-            reader.problems.push(too_many(connection.span, "connections"));
+            reader.problems.push(too_many(span, "connections"));
             ends.is_cut_off = true;
             break;
         }
@@ -162,7 +165,7 @@ enum End {
 struct Reader<'a, 'm> {
     known: &'a Known<'m>,
     sources: &'a Sources,
-    searches_left: usize,
+    searches: Searches,
     /// How many ends `each` may still stand for.
     ends_left: usize,
     problems: &'a mut Diagnostics,
@@ -170,7 +173,7 @@ struct Reader<'a, 'm> {
 
 impl Reader<'_, '_> {
     /// Reads a connection; `None` if it stands for too many.
-    fn read(&mut self, connection: &ConnectionModel, ends: &mut Ends) -> Option<()> {
+    fn read(&mut self, connection: ConnectionModel, ends: &mut Ends) -> Option<()> {
         let found = connection.ends.each_ref().map(|end| self.end(end));
         for end in &found {
             let number = if let End::Each(kind, _) = end { self.known.components_of[*kind].len() } else { 0 };
@@ -178,16 +181,16 @@ impl Reader<'_, '_> {
         }
         let (at, kind, gate) = match &found {
             [End::Gate, End::Gate] => {
-                ends.connections.push(connection.clone());
+                ends.connections.push(connection);
                 return Some(());
             }
             [End::Each(kind, gate), End::Gate] => (0, *kind, gate),
             [End::Gate, End::Each(kind, gate)] => (1, *kind, gate),
             _ => {
                 if let [End::Each(..), End::Each(..)] = found {
-                    self.report_twice(connection);
+                    self.report_twice(&connection);
                 }
-                self.leave_out(connection, &found, ends);
+                self.leave_out(&connection, &found, ends);
                 return Some(());
             }
         };
@@ -243,7 +246,7 @@ impl Reader<'_, '_> {
         let name = &kind.name.value;
         let gates = || kind.gates.iter().map(|gate| gate.name.value.as_str());
         let found = NO_GATE.at(format!("kind `{name}` has no gate `{gate}`"), end.span, "");
-        let near = self.similar(gate, gates());
+        let near = self.searches.similar(gate, gates());
         let found = self.choose(found, end, near.iter().map(|gate| each_end(name, gate)));
         let only = kind.gates.iter().find(|declared| near == [declared.name.value.as_str()]);
         let found = match only.map(|declared| declared.name.span) {
@@ -278,7 +281,7 @@ impl Reader<'_, '_> {
             self.problems.push(found);
             return End::Broken;
         }
-        let near = self.similar(name, names.iter().copied());
+        let near = self.searches.similar(name, names.iter().copied());
         let found = self.choose(found, end, near.iter().map(|name| each_end(name, gate)));
         self.problems.push(match names.is_empty() {
             true => found.help("kinds are declared in the section `kinds`"),
@@ -339,14 +342,13 @@ impl Reader<'_, '_> {
 
     /// Proposes what may be meant by an end.
     fn choose(&self, found: Diagnostic, end: &Spanned<String>, ways: impl Iterator<Item = String>) -> Diagnostic {
-        let ways: Vec<String> = ways.collect();
-        let edit = |way: &String| Edit::new(end.span, self.sources.quoted_as(end.span, way));
-        found.choose(("write ", ""), ways.iter().map(|way| (way.as_str(), edit(way))))
+        choose(found, end.span, ways, self.sources)
     }
+}
 
-    fn similar<'n>(&mut self, word: &str, names: impl Iterator<Item = &'n str>) -> Vec<&'n str> {
-        let may_search = self.searches_left > 0;
-        self.searches_left = self.searches_left.saturating_sub(1);
-        if may_search { similar(word, names) } else { Vec::new() }
-    }
+/// Proposes what may be written in a place.
+pub(crate) fn choose(found: Diagnostic, at: Span, ways: impl Iterator<Item = String>, sources: &Sources) -> Diagnostic {
+    let ways: Vec<String> = ways.collect();
+    let edit = |way: &String| Edit::new(at, sources.quoted_as(at, way));
+    found.choose(("write ", ""), ways.iter().map(|way| (way.as_str(), edit(way))))
 }

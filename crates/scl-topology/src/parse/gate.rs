@@ -284,8 +284,7 @@ impl Reader<'_> {
             return Ok(Some(Spanned { value: written.to_owned(), span }));
         }
         if !matches!(kind.value.kind, NodeKind::Scalar { .. } | NodeKind::Unread) {
-            let source = (self.searches_left > 0).then_some(self.source);
-            self.searches_left = self.searches_left.saturating_sub(1);
+            let source = self.searches.may_search().then_some(self.source);
             let (problem, meant) = shape::gate::type_is_not_text(kind, source);
             self.report(problem);
             return meant.map(|value| Some(Spanned { value, span })).ok_or(Ambiguous);
