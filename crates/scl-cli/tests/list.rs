@@ -2,6 +2,7 @@
 
 use crate::rover::{COMPONENTS, Rover};
 use expect_test::expect;
+use scl_tests::wait_for;
 use serde_json::Value;
 
 #[test]
@@ -27,9 +28,11 @@ fn components_and_their_states_are_listed() {
 #[test]
 fn gates_are_listed_with_types_and_peers() {
     let rover = Rover::start();
-    rover.wait_for(&["list"], |list| {
-        let running = list["components"].as_array()?.iter().filter(|component| component["state"] == "running");
-        running.into_iter().all(|component| component["ready"] == true).then_some(())
+    // Gates that listen for any number of peers do not wait for them to be ready.
+    let listening = ["logger.events pull rover.Event protobuf 2/2", "rover.Status protobuf 1/1\ncontroller.log"];
+    let text = wait_for("the peers of all gates", || {
+        let text = shown(&rover, &["list", "-v"]);
+        (!text.contains("waiting") && listening.iter().all(|gate| text.contains(gate))).then_some(text)
     });
     expect![[r#"
         rover: 4 running, 1 stopped
@@ -55,7 +58,7 @@ fn gates_are_listed_with_types_and_peers() {
         sensor.log push rover.Event protobuf 1/1
         user_interface.commands req rover.Command -> rover.Status protobuf 1/1
     "#]]
-    .assert_eq(&shown(&rover, &["list", "-v"]));
+    .assert_eq(&text);
 }
 
 #[test]
