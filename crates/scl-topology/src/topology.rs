@@ -3,6 +3,7 @@
 pub use crate::grammar::{Codec, DeclaredOptions, GateKind, WhenFull};
 
 use crate::source::Span;
+use std::collections::HashSet;
 use std::fmt;
 
 /// The index of a component.
@@ -341,6 +342,23 @@ impl Topology {
     /// The connection with this id.
     pub fn connection(&self, id: ConnectionId) -> &Connection {
         &self.connections[id.0 as usize]
+    }
+    /// The gates at the other ends of a gate; for a kind, of this gate of each of its components.
+    pub fn peers_of_type(&self, id: GateId) -> Vec<GateId> {
+        let component = self.gate(id).component;
+        let components = match self.component(component).kind.map(|kind| self.kind(kind).components()) {
+            Some(components) => components,
+            None => &[component],
+        };
+        let index = self.component(component).gates.iter().position(|gate| *gate == id);
+        // All components of a kind have the same gates in the same order.
+        let gates = components.iter().filter_map(|of| self.component(*of).gates.get(index?).copied());
+        let peers = gates.flat_map(|gate| self.peers(gate));
+        let mut seen = HashSet::new();
+        peers.filter(|peer| seen.insert(*peer)).collect()
+    }
+    fn peers(&self, id: GateId) -> impl Iterator<Item = GateId> {
+        self.gate(id).connections.iter().map(move |connection| self.connection(*connection).peer_of(id))
     }
     /// `component.gate`.
     pub fn gate_path(&self, id: GateId) -> String {

@@ -1,7 +1,7 @@
 //! The documentation of generated items, which editors show on hover.
 
 use super::context::Context;
-use scl_text::list::{listed, quoted_list};
+use scl_text::list::listed;
 use scl_topology::grammar::OPTIONS;
 use scl_topology::model::{ComponentModel, GateModel};
 use scl_topology::source::Span;
@@ -26,12 +26,11 @@ impl GateDoc {
     /// Describes a gate of a file without errors.
     pub(super) fn new(context: &Context<'_>, topology: &Topology, id: GateId) -> Self {
         let gate = topology.gate(id);
-        let peers = gate.connections().iter().map(|&connection| topology.connection(connection).peer_of(id));
         Self {
             name: gate.name().to_owned(),
             kind: gate.kind().word().to_owned(),
             payload: gate.payload().to_string(),
-            peers: peers.map(|peer| topology.gate_path(peer)).collect(),
+            peers: topology.peers_of_type(id).into_iter().map(|peer| topology.gate_path(peer)).collect(),
             words: gate.doc().map(str::to_owned),
             options: options(gate),
             location: context.location(gate.span()),
@@ -79,7 +78,7 @@ impl GateDoc {
     }
 
     fn peers(&self) -> String {
-        if self.peers.is_empty() { "no peer".to_owned() } else { quoted_list(&self.peers) }
+        if self.peers.is_empty() { "no peer".to_owned() } else { listed(&self.peers) }
     }
 }
 
