@@ -81,6 +81,6 @@ fn plan(topology: &Topology) {
         }
         assert_eq!(gate.contract.len(), CONTRACT_LENGTH);
     }
-    let system = SystemPlan { system: topology.system().to_owned(), components };
+    let system = SystemPlan { system: topology.system().to_owned(), components, kinds: Vec::new() };
     assert_eq!(SystemPlan::from_json(&system.to_json()).expect("the plan is read as it was written"), system);
 }

@@ -10,6 +10,7 @@ mod outcome;
 mod realtime;
 mod transports;
 
+pub(crate) use kind::started_as;
 pub use main::{run_async, run_blocking};
 pub use opener::Opener;
 pub use outcome::Returned;

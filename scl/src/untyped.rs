@@ -43,6 +43,7 @@ mod driver;
 mod error;
 mod gate;
 mod readiness;
+mod started_as;
 mod wait;
 
 pub use closer::Closer;
@@ -50,6 +51,7 @@ pub use driver::Driver;
 pub use error::{GateError, WaitError};
 pub use gate::Gate;
 pub use readiness::Readiness;
+pub use started_as::started_as;
 
 use crate::component::{Opener, only_failures, wait_for_peers};
 use crate::error::{GateName, NotFlushed, NotReady, OpenError};

@@ -228,7 +228,9 @@ const char *scl_error(void);
  * order the programs start.
  *
  * `plan_json`, of `plan_len` bytes, is the plan of the system or of one component, as `scl plan` prints it; generated
- * code contains it. `options_json` is NULL for the defaults, or an object with any of these keys:
+ * code contains it. `component` is the name of the component, or that of a kind: then the program is the component of
+ * the kind that the environment variable SCL_COMPONENT names, which `scl run` sets. `options_json` is NULL for the
+ * defaults, or an object with any of these keys:
  *
  *     {"runtime_dir": "/run/rover", "system": "rover-2", "transport": "ipc", "signals": true}
  *
@@ -240,8 +242,8 @@ const char *scl_error(void);
  *
  * On success, `*opened` is the new component, to be closed with scl_close; otherwise it is NULL.
  *
- * Errors: SCL_PLAN, SCL_NAME (the plan has no such component), SCL_TAKEN, SCL_FOLDER, SCL_ENVIRONMENT, SCL_SYSTEM,
- * SCL_ARGUMENT.
+ * Errors: SCL_PLAN, SCL_NAME (the plan has no such component or kind), SCL_TAKEN, SCL_FOLDER, SCL_ENVIRONMENT (also if
+ * SCL_COMPONENT names none of the kind), SCL_SYSTEM, SCL_ARGUMENT.
  */
 scl_status scl_open(const char *plan_json,
                     size_t plan_len,
@@ -254,10 +256,10 @@ scl_status scl_open(const char *plan_json,
  * same name: where the component receives, its counterpart sends. Both are connected within this process, without
  * sockets or files, so any number of tests may run at the same time. Signals and the environment have no effect.
  *
- * The first three arguments are those of scl_open. On success, `*opened` and `*peer` are the new components, each to
- * be closed with scl_close; otherwise they are NULL.
+ * The first three arguments are those of scl_open; of a kind, its first component is opened. On success, `*opened` and
+ * `*peer` are the new components, each to be closed with scl_close; otherwise they are NULL.
  *
- * Errors: SCL_PLAN, SCL_NAME (the plan has no such component), SCL_SYSTEM, SCL_ARGUMENT.
+ * Errors: SCL_PLAN, SCL_NAME (the plan has no such component or kind), SCL_SYSTEM, SCL_ARGUMENT.
  */
 scl_status scl_open_test(const char *plan_json,
                          size_t plan_len,
@@ -285,6 +287,14 @@ scl_status scl_ready(scl_component *component,
  */
 scl_status scl_close(scl_component *component,
                      int64_t timeout_ns);
+
+/**
+ * Returns the name of the component in the topology file, or NULL for a handle that is not valid. For a kind, it says
+ * which component of the kind was opened.
+ *
+ * The text belongs to the component and is valid until scl_close.
+ */
+const char *scl_component_name(scl_component *component);
 
 /**
  * Returns a gate of the component, or NULL if it has none with this name; scl_error then names the nearest one.

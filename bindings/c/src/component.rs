@@ -7,10 +7,10 @@ use crate::options::Options;
 use crate::registry::Registry;
 use crate::status::*;
 use scl::host;
-use scl::plan::{Plan, SystemPlan};
-use scl::untyped::{Closer, Component, GateError, Readiness};
+use scl::plan::SystemPlan;
+use scl::untyped::{Closer, Component, GateError, Readiness, started_as};
 use scl_text::suggest::closest_name;
-use std::ffi::{c_char, c_void};
+use std::ffi::{CString, c_char, c_void};
 use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 
 /// A component, opened by this process.
@@ -22,6 +22,8 @@ pub struct scl_component {
 /// An open component.
 pub(crate) struct Opened {
     name: &'static str,
+    /// The name for C.
+    c_name: CString,
     /// `None` once closed. Calls that wait hold a read lock.
     component: RwLock<Option<Component>>,
     /// Ends the calls of the component and its gates.
@@ -38,7 +40,9 @@ static COMPONENTS: Registry<Arc<Opened>> = Registry::new(3, "component");
 /// order the programs start.
 ///
 /// `plan_json`, of `plan_len` bytes, is the plan of the system or of one component, as `scl plan` prints it; generated
-/// code contains it. `options_json` is NULL for the defaults, or an object with any of these keys:
+/// code contains it. `component` is the name of the component, or that of a kind: then the program is the component of
+/// the kind that the environment variable SCL_COMPONENT names, which `scl run` sets. `options_json` is NULL for the
+/// defaults, or an object with any of these keys:
 ///
 ///     {"runtime_dir": "/run/rover", "system": "rover-2", "transport": "ipc", "signals": true}
 ///
@@ -50,8 +54,8 @@ static COMPONENTS: Registry<Arc<Opened>> = Registry::new(3, "component");
 ///
 /// On success, `*opened` is the new component, to be closed with scl_close; otherwise it is NULL.
 ///
-/// Errors: SCL_PLAN, SCL_NAME (the plan has no such component), SCL_TAKEN, SCL_FOLDER, SCL_ENVIRONMENT, SCL_SYSTEM,
-/// SCL_ARGUMENT.
+/// Errors: SCL_PLAN, SCL_NAME (the plan has no such component or kind), SCL_TAKEN, SCL_FOLDER, SCL_ENVIRONMENT (also if
+/// SCL_COMPONENT names none of the kind), SCL_SYSTEM, SCL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_open(
     plan_json: *const c_char,
@@ -80,10 +84,10 @@ pub unsafe extern "C" fn scl_open(
 /// same name: where the component receives, its counterpart sends. Both are connected within this process, without
 /// sockets or files, so any number of tests may run at the same time. Signals and the environment have no effect.
 ///
-/// The first three arguments are those of scl_open. On success, `*opened` and `*peer` are the new components, each to
-/// be closed with scl_close; otherwise they are NULL.
+/// The first three arguments are those of scl_open; of a kind, its first component is opened. On success, `*opened` and
+/// `*peer` are the new components, each to be closed with scl_close; otherwise they are NULL.
 ///
-/// Errors: SCL_PLAN, SCL_NAME (the plan has no such component), SCL_SYSTEM, SCL_ARGUMENT.
+/// Errors: SCL_PLAN, SCL_NAME (the plan has no such component or kind), SCL_SYSTEM, SCL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_open_test(
     plan_json: *const c_char,
@@ -134,6 +138,16 @@ pub unsafe extern "C" fn scl_close(component: *mut scl_component, timeout_ns: i6
     border::status(|| close(component as usize, Wait::of(timeout_ns)))
 }
 
+/// Returns the name of the component in the topology file, or NULL for a handle that is not valid. For a kind, it says
+/// which component of the kind was opened.
+///
+/// The text belongs to the component and is valid until scl_close.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_component_name(component: *mut scl_component) -> *const c_char {
+    let name = border::value(|| Ok(find(component)?.c_name.as_ptr()));
+    name.unwrap_or(std::ptr::null())
+}
+
 /// Returns a gate of the component, or NULL if it has none with this name; scl_error then names the nearest one.
 ///
 /// The gate belongs to the component and is valid until scl_close. The same name gives the same gate.
@@ -152,15 +166,17 @@ pub unsafe extern "C" fn scl_gate_by_name(component: *mut scl_component, name: *
 }
 
 fn open(plan: &[u8], name: &str, options: &Options) -> Result<usize, Failure> {
-    let plan = read(plan, name)?;
+    let plan = read(plan)?;
+    let plan = started_as(&plan, name)?;
     set_up(options)?;
-    insert(Component::open_blocking_with(&plan, options.for_opening())?)
+    insert(Component::open_blocking_with(plan, options.for_opening())?)
 }
 
 fn open_test(plan: &[u8], name: &str) -> Result<[usize; 2], Failure> {
-    let plan = read(plan, name)?;
+    let plan = read(plan)?;
+    let plan = plan.component_or_first(name).map_err(|error| Failure::of(SCL_NAME, &error))?;
     host::start_log()?;
-    let (component, peer) = Component::test_blocking(&plan)?;
+    let (component, peer) = Component::test_blocking(plan)?;
     let component = insert(component)?;
     match insert(peer) {
         Ok(peer) => Ok([component, peer]),
@@ -171,12 +187,10 @@ fn open_test(plan: &[u8], name: &str) -> Result<[usize; 2], Failure> {
     }
 }
 
-/// Reads the plan of a component.
-fn read(plan: &[u8], name: &str) -> Result<Plan, Failure> {
+fn read(plan: &[u8]) -> Result<SystemPlan, Failure> {
     let utf8 = |error| Failure::new(SCL_PLAN, format!("the plan is not UTF-8: {error}"));
     let text = std::str::from_utf8(plan).map_err(utf8)?;
-    let system = SystemPlan::from_json(text).map_err(|error| Failure::of(SCL_PLAN, &error))?;
-    system.component(name).cloned().map_err(|error| Failure::of(SCL_NAME, &error))
+    SystemPlan::from_json(text).map_err(|error| Failure::of(SCL_PLAN, &error))
 }
 
 /// Registers a component and its gates, and returns the handle of the component.
@@ -194,7 +208,9 @@ fn insert(mut component: Component) -> Result<usize, Failure> {
         }
     }
     let (closer, component) = (component.closer(), RwLock::new(Some(component)));
-    COMPONENTS.insert(Arc::new(Opened { name, component, closer, gates, readiness: OnceLock::new() }))
+    // No name contains a NUL: sockets are named after it.
+    let c_name = CString::new(name).unwrap_or_default();
+    COMPONENTS.insert(Arc::new(Opened { name, c_name, component, closer, gates, readiness: OnceLock::new() }))
 }
 
 /// Does what `#[scl::main]` does for a Rust program before its first component is opened.

@@ -90,7 +90,9 @@ fn opening(error: &OpenError) -> scl_status {
         OpenError::Environment { .. }
         | OpenError::NoSuchGate { .. }
         | OpenError::TransportOff { .. }
-        | OpenError::Unexpected { .. } => SCL_ENVIRONMENT,
+        | OpenError::Unexpected { .. }
+        | OpenError::WhichComponent { .. } => SCL_ENVIRONMENT,
+        OpenError::UnknownComponent(_) => SCL_NAME,
         OpenError::Gate { .. } | OpenError::Timer { .. } | OpenError::Runtime { .. } => SCL_SYSTEM,
         _ => SCL_FAILED,
     }

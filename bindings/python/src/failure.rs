@@ -34,6 +34,7 @@ impl Failure {
             ErrorKind::Blocking(_) if host::gates_stopped() => "Stopped",
             ErrorKind::Blocking(_) => "Closed",
             ErrorKind::Open(OpenError::Plan { .. }) => "PlanError",
+            ErrorKind::Open(OpenError::UnknownComponent(_)) => "UnknownComponent",
             ErrorKind::Open(_) => "OpenError",
             ErrorKind::NotReady => "NotReady",
             ErrorKind::NotFlushed => "NotFlushed",

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use scl::host::text_with_causes;
 use scl::plan::SystemPlan;
-use scl::untyped::GateError;
+use scl::untyped::{GateError, started_as};
 use scl_loader::{Request, load};
 use scl_text::suggest::closest_name;
 use scl_topology::diagnostic::{Severity, render};
@@ -51,6 +51,14 @@ impl Plan {
         self.plan.components.iter().map(|plan| plan.component.as_str()).collect()
     }
 
+    /// The name of a component or, for a kind, of the component that `SCL_COMPONENT` names.
+    fn started_as(&self, name: &str) -> PyResult<&str> {
+        match started_as(&self.plan, name) {
+            Ok(plan) => Ok(&plan.component),
+            Err(error) => Err(Failure::of(&error).into()),
+        }
+    }
+
     /// The gates of a component, in the order of the topology file.
     fn gates(&self, component: &str) -> PyResult<Vec<GateFacts<'_>>> {
         let gates = self.component(component)?.gates.iter();
@@ -66,7 +74,9 @@ impl Plan {
     fn counterpart(&self, component: &str) -> PyResult<Self> {
         let plan = self.component(component)?;
         let counterpart = scl::plan::Plan { schema: plan.schema.clone(), ..plan.counterpart() };
-        Ok(Self { plan: SystemPlan { system: self.plan.system.clone(), components: vec![counterpart] } })
+        Ok(Self {
+            plan: SystemPlan { system: self.plan.system.clone(), components: vec![counterpart], kinds: Vec::new() },
+        })
     }
 
     /// The messages of all components: serialized `google.protobuf.FileDescriptorSet`s.
@@ -84,8 +94,9 @@ impl Plan {
 }
 
 impl Plan {
+    /// The plan of a component or, for a kind, of its first component.
     pub(crate) fn component(&self, name: &str) -> Result<&scl::plan::Plan, Failure> {
-        self.plan.component(name).map_err(|error| Failure::new("UnknownComponent", text_with_causes(&error)))
+        self.plan.component_or_first(name).map_err(|error| Failure::new("UnknownComponent", text_with_causes(&error)))
     }
 }
 

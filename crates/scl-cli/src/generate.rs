@@ -3,8 +3,7 @@
 use crate::exit::COULD_NOT_DO;
 use crate::load::{MaxSize, load_file, show_diagnostics, show_problems};
 use clap::{Args, ValueEnum};
-use scl_generate::{Component, File, Format, Outcome, OutputError, System, Target, is_current, write};
-use scl_plan::SystemPlan;
+use scl_generate::{File, Format, Outcome, OutputError, System, Target, is_current, write};
 use scl_terminal::{Problem, print_err, print_out};
 use scl_topology::diagnostic::Severity;
 use std::error::Error;
@@ -39,7 +38,7 @@ pub(crate) struct GenerateArguments {
     /// How `zmq` is written [default: json].
     #[arg(long, value_name = "FORMAT")]
     format: Option<TextFormat>,
-    /// Generate only this component; may be repeated.
+    /// Generate only this component, or this kind with all of its components; may be repeated.
     #[arg(long = "component", value_name = "NAME")]
     components: Vec<String>,
     /// For unit tests, also generate `test()` of each component, which opens it together with the other ends of its
@@ -84,8 +83,10 @@ pub(crate) fn generate(arguments: &GenerateArguments) -> Result<ExitCode, Proble
     let Some(mut system) = System::of(&loaded) else {
         return Ok(ExitCode::from(if loaded.file.is_some() { 1 } else { COULD_NOT_DO }));
     };
-    if let Err(text) = select(&mut system, &arguments.components) {
-        print_err(&text);
+    if !arguments.components.is_empty()
+        && let Err(unknown) = system.select(&arguments.components)
+    {
+        unknown.iter().for_each(|error| print_err(&format!("error: {error}\n")));
         return Ok(ExitCode::FAILURE);
     }
     if arguments.testable {
@@ -153,20 +154,6 @@ impl Language {
             Language::Python => Target::Python,
         }
     }
-}
-
-/// Keeps only the components with these names, or all if there are no names. Returns error messages for unknown names.
-fn select(system: &mut System, names: &[String]) -> Result<(), String> {
-    let plans = system.components.iter().map(|component| component.plan.clone()).collect();
-    let plan = SystemPlan { system: system.name.clone(), components: plans };
-    let unknown = names.iter().filter_map(|name| plan.component(name).err());
-    let told: String = unknown.map(|error| format!("error: {error}\n")).collect();
-    if !told.is_empty() {
-        return Err(told);
-    }
-    let is_wanted = |component: &Component| names.is_empty() || names.contains(&component.name);
-    system.components.retain(is_wanted);
-    Ok(())
 }
 
 fn check_files(folder: &Path, files: &[File]) -> ExitCode {

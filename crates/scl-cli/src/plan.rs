@@ -27,7 +27,7 @@ pub(crate) struct PlanArguments {
     /// The topology file; `-` is standard input.
     #[arg(default_value = "topology.yaml")]
     file: PathBuf,
-    /// Print the plan of this component only.
+    /// Print the plan of this component only, or those of the components of this kind.
     #[arg(long, value_name = "NAME")]
     component: Option<String>,
     #[command(flatten)]
@@ -40,8 +40,8 @@ pub(crate) fn plan(arguments: &PlanArguments) -> ExitCode {
     let Some(system) = loaded.system_plan() else { return unsound(&loaded) };
     let text = match &arguments.component {
         None => system.to_json(),
-        Some(name) => match system.component(name) {
-            Ok(plan) => plan.to_json(),
+        Some(name) => match system.part(name) {
+            Ok(part) => part.to_json(),
             Err(error) => {
                 print_err(&format!("error: {error}\n{}", listed(&system)));
                 return ExitCode::FAILURE;

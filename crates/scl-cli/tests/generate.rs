@@ -155,6 +155,36 @@ fn arguments_without_effect_are_refused() {
 }
 
 #[test]
+fn a_kind_is_generated_with_all_of_its_components() {
+    let lamps = "\
+system: lamps
+kinds:
+  - {name: lamp, gates: []}
+components:
+  - {name: red, kind: lamp}
+  - {name: white, gates: []}
+  - {name: green, kind: lamp}
+";
+    let system = System::of_files(&[("topology.yaml", lamps)]);
+    let classes = |names: &[&str]| {
+        let names = names.iter().flat_map(|name| ["--component", name]);
+        let arguments: Vec<&str> = ["--for", "python"].into_iter().chain(names).collect();
+        assert!(generate(&system, &arguments).status.success());
+        let module = std::fs::read_to_string(system.path("lamps_scl.py")).unwrap();
+        let plan = module.replace('\n', "");
+        let planned = ["red", "white", "green"].map(|name| plan.contains(&format!("{{\"name\": \"{name}\"")));
+        let line = module.lines().find(|line| line.starts_with("__all__")).unwrap().to_owned();
+        (line, planned)
+    };
+    assert_eq!(classes(&[]), ("__all__ = [\"Lamp\", \"LampInstance\", \"White\"]".to_owned(), [true; 3]));
+    for names in [&["lamp"][..], &["green"], &["green", "lamp"]] {
+        let lamp = "__all__ = [\"Lamp\", \"LampInstance\"]".to_owned();
+        assert_eq!(classes(names), (lamp, [true, false, true]), "{names:?}");
+    }
+    assert_eq!(classes(&["white"]), ("__all__ = [\"White\"]".to_owned(), [false, true, false]));
+}
+
+#[test]
 fn mistakes_are_told_and_nothing_is_written() {
     let system = rover();
     check(

@@ -20,7 +20,7 @@ fn system() -> System {
     let system = System::of_files(&[]);
     let gates = BTreeMap::from([("sensor.measurements".to_owned(), GateTotals { recorded: 2, lost: 3, latched: 0 })]);
     let totals = Totals { system: "rover".to_owned(), gates };
-    let plan = SystemPlan { system: "rover".to_owned(), components: Vec::new() };
+    let plan = SystemPlan { system: "rover".to_owned(), components: Vec::new(), kinds: Vec::new() };
     Recorder::new()
         .attach_plan(&plan)
         .messages(&SAMPLES)

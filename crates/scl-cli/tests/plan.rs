@@ -97,6 +97,31 @@ fn every_component_is_planned_in_file_order() {
     assert_eq!(system.component("sensor").unwrap().gates[0].declared_at, "rover.yaml:5:9");
 }
 
+/// Two lamps of a kind, and one that is not.
+const LAMPS: &str = "\
+kinds:
+  - {name: lamp, gates: []}
+components:
+  - {name: red, kind: lamp}
+  - {name: white, gates: []}
+  - {name: green, kind: lamp}
+";
+
+#[test]
+fn the_plan_of_a_kind_is_that_of_its_components() {
+    let of = |arguments: &[&str]| {
+        let output = scl_plan(&[("topology.yaml", LAMPS)], arguments);
+        let plan = SystemPlan::from_json(&String::from_utf8(output.stdout).unwrap()).unwrap();
+        let kinds: Vec<String> =
+            plan.kinds.iter().map(|kind| format!("{}={}", kind.name, kind.components.join("+"))).collect();
+        let names: Vec<String> = plan.components.into_iter().map(|plan| plan.component).collect();
+        format!("{} {}", names.join(","), kinds.join(","))
+    };
+    assert_eq!(of(&[]), "red,white,green lamp=red+green");
+    assert_eq!(of(&["--component", "lamp"]), "red,green lamp=red+green");
+    assert_eq!(of(&["--component", "green"]), "green ");
+}
+
 #[test]
 fn messages_are_in_the_plan() {
     let schema = "syntax = \"proto3\"; package rover; message Measurement { double speed = 1; }";
@@ -173,6 +198,8 @@ fn the_format_is_documented() {
         "gates:\n      - measurements",
         "gates:\n      - ask: {req: A -> B, unconnected: ok}\n      - measurements",
     );
+    let yaml = yaml
+        .replace("components:\n", "kinds:\n  - {name: lamp, gates: []}\ncomponents:\n  - {name: red, kind: lamp}\n");
     let text = String::from_utf8(scl_plan(&[("topology.yaml", &yaml)], &[]).stdout).unwrap();
     let keys = text.lines().filter_map(|line| line.trim().strip_prefix('"')?.split_once("\":"));
     let printed: BTreeSet<&str> = keys.map(|(key, _)| key).collect();

@@ -9,6 +9,7 @@ mod function;
 mod gate;
 mod header;
 mod helpers;
+mod instance;
 mod literal;
 mod protobuf_c;
 mod recursion;
@@ -38,6 +39,14 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
         let functions = component_functions(system, component).into_iter().map(|function| function.name);
         for name in [prefix.clone()].into_iter().chain(functions).chain([format!("{prefix}_wait")]) {
             declare(C, name, Origin::component(component));
+        }
+        if let Some(enumeration) = instance::enumeration(system, component) {
+            for instance in &component.instances {
+                declare(C, instance::constant(&enumeration, instance), Origin::instance(instance));
+            }
+            for name in [instance::names(&enumeration), enumeration] {
+                declare(C, name, Origin::component(component));
+            }
         }
         for gate in &component.gates {
             let origin = Origin::gate(component, gate);

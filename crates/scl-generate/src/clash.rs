@@ -1,6 +1,6 @@
 //! Names of the topology that would become the same name in another language: SCL1101 and SCL1102.
 
-use crate::system::{Component, Gate, MessageUse};
+use crate::system::{Component, Gate, Instance, MessageUse};
 use scl_topology::diagnostic::Diagnostic;
 use scl_topology::external::{MESSAGE_CLASH, NAME_CLASH};
 use scl_topology::source::Span;
@@ -45,10 +45,18 @@ enum Kind {
 impl Origin {
     pub(crate) fn component(component: &Component) -> Self {
         let (what, kind) = match &component.counterpart_of {
-            None => (format!("component `{}`", component.name), Kind::Component),
+            None => {
+                let word = if component.is_kind() { "kind" } else { "component" };
+                (format!("{word} `{}`", component.name), Kind::Component)
+            }
             Some(tested) => (format!("the counterpart of `{tested}`"), Kind::Generated),
         };
         Self { what, span: Some(component.span), kind }
+    }
+
+    /// A component of a kind.
+    pub(crate) fn instance(instance: &Instance) -> Self {
+        Self { what: format!("component `{}`", instance.name), span: Some(instance.span), kind: Kind::Component }
     }
 
     pub(crate) fn gate(component: &Component, gate: &Gate) -> Self {

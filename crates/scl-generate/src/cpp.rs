@@ -7,7 +7,7 @@ use crate::clash::{Declaration, Origin};
 use crate::comment;
 use crate::identifier;
 use crate::output::File;
-use crate::system::{Component, Gate, MessageUse, System};
+use crate::system::{Component, Gate, Instance, MessageUse, System};
 use crate::writer::Writer;
 use messages::Messages;
 pub(crate) use messages::unwritable;
@@ -26,10 +26,20 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
         |component: &Component| Declaration::new(&inside, &component.class_name, Origin::component(component));
     let mut declarations = messages::declarations(system, &namespace, &inside);
     declarations.extend(system.components_and_counterparts().map(component));
+    for component in system.components.iter().filter(|component| component.is_kind()) {
+        let enumeration = instance_class(component);
+        let scope = format!("the C++ enum `{namespace}::{enumeration}`");
+        let instance = |of| Declaration::new(&scope, variant(of), Origin::instance(of));
+        declarations.extend(component.instances.iter().map(instance));
+        declarations.push(Declaration::new(&inside, enumeration, Origin::component(component)));
+    }
     for component in system.components_and_counterparts() {
         let scope = format!("the C++ struct `{namespace}::{}`", component.class_name);
         if component.counterpart.is_some() {
             declarations.push(Declaration::new(&scope, "test", Origin::generated("function `test`")));
+        }
+        if component.is_kind() {
+            declarations.push(Declaration::new(&scope, "instance", Origin::generated("function `instance`")));
         }
         let gate = |gate| Declaration::new(&scope, member(gate), Origin::gate(component, gate));
         declarations.extend(component.gates.iter().map(gate));
@@ -57,6 +67,11 @@ pub(crate) fn files(system: &System) -> Vec<File> {
     out.line(format!("\nnamespace {namespace} {{\n\nnamespace scl_generated {{\n"));
     out.line("/// What the programs need of the topology file, as `scl plan` prints it.");
     out.line(format!("inline constexpr ::std::string_view plan = {};", plan_text::literal(&system.plan_json())));
+    for component in system.components.iter().filter(|component| component.is_kind()) {
+        let names: Vec<String> = component.instances.iter().map(|it| format!("\"{}\"", it.name)).collect();
+        let array = instance_names(component);
+        out.line(format!("\ninline constexpr const char* {array}[] = {{\n    {},\n}};", names.join(",\n    ")));
+    }
     out.line("\n} // namespace scl_generated");
     for component in system.components_and_counterparts() {
         out.blank();
@@ -73,7 +88,10 @@ fn namespace(system: &System) -> String {
 
 fn write_component(out: &mut Writer, component: &Component, messages: &Messages) {
     let class = &component.class_name;
-    let default = format!("The component `{}`.", component.name);
+    if component.is_kind() {
+        write_instances(out, component);
+    }
+    let default = format!("{}.", component.what());
     write_comment(out, component.doc.as_deref().unwrap_or(&default));
     out.block(format!("struct {class} : ::scl::Component {{"), "};", |out| {
         write_opening(out, component);
@@ -84,18 +102,63 @@ fn write_component(out: &mut Writer, component: &Component, messages: &Messages)
     });
 }
 
+/// Writes the enum of the components of a kind.
+fn write_instances(out: &mut Writer, component: &Component) {
+    write_comment(out, &format!("The components of the kind `{}`.", component.name));
+    out.block(format!("enum class {} {{", instance_class(component)), "};\n", |out| {
+        for instance in &component.instances {
+            instance.doc.iter().for_each(|doc| write_comment(out, doc));
+            out.line(format!("{},", variant(instance)));
+        }
+    });
+}
+
+/// `MotorInstance`.
+fn instance_class(component: &Component) -> String {
+    format!("{}Instance", component.class_name)
+}
+
+/// The constant with the names of the components of a kind.
+fn instance_names(component: &Component) -> String {
+    format!("{}Names", component.class_name)
+}
+
+fn variant(instance: &Instance) -> String {
+    identifier::c_family(&instance.class_name)
+}
+
 /// Writes the functions that open the component.
 fn write_opening(out: &mut Writer, component: &Component) {
     let (class, name) = (&component.class_name, &component.name);
+    let first = component.instances.first().map_or(name, |instance| &instance.name);
     let for_test =
-        format!("explicit {class}(::scl::TestEnd&& end) : ::scl::Component(::std::move(end), \"{name}\") {{}}");
+        format!("explicit {class}(::scl::TestEnd&& end) : ::scl::Component(::std::move(end), \"{first}\") {{}}");
     if let Some(tested) = &component.counterpart_of {
-        out.line(format!("/// For the function `test` of the component `{tested}`.\n{for_test}"));
+        out.line(format!("/// For the function `test` of `{tested}`.\n{for_test}"));
         return;
     }
-    out.line("/// Opens the component. Throws `scl::Taken` if it is already running.");
+    match component.is_kind() {
+        true => out.line(
+            "/// Opens the component of the kind that `SCL_COMPONENT` names. Throws `scl::Error` if it names none of them,\n\
+             /// and `scl::Taken` if the component is already running.",
+        ),
+        false => out.line("/// Opens the component. Throws `scl::Taken` if it is already running."),
+    }
     out.line(format!("explicit {class}(const ::scl::Options& options = {{}})"));
     out.line(format!("    : ::scl::Component(scl_generated::plan, \"{name}\", options) {{}}"));
+    if component.is_kind() {
+        let (enumeration, names) = (instance_class(component), instance_names(component));
+        out.line(format!(
+            "\n\
+             /// Opens this component of the kind. Throws `scl::Taken` if it is already running.\n\
+             explicit {class}({enumeration} instance, const ::scl::Options& options = {{}})\n    \
+                 : ::scl::Component(scl_generated::plan, ::scl::detail::name_of(instance, scl_generated::{names}), options) {{}}\n\n\
+             /// Which component of the kind it is.\n\
+             {enumeration} instance() const {{\n    \
+                 return ::scl::detail::instance_of<{enumeration}>(name(), scl_generated::{names});\n\
+             }}"
+        ));
+    }
     if let Some(peer) = component.counterpart.as_deref().map(|peer| &peer.class_name) {
         out.line(format!(
             "\n\
@@ -157,7 +220,7 @@ fn carries_messages(gate: &Gate) -> bool {
 }
 
 fn peers(gate: &Gate) -> String {
-    match gate.plan.connections.is_empty() {
+    match gate.peers.is_empty() {
         true => "Not connected.".to_owned(),
         false => format!("Connected to {}.", gate.quoted_peers()),
     }

@@ -38,6 +38,14 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
         if component.counterpart.is_some() {
             found.push(Declaration::new(&inside, "test", Origin::generated("method `test`")));
         }
+        if component.is_kind() {
+            found.push(Declaration::new(&inside, "instance", Origin::generated("property `instance`")));
+            let enumeration = names::instance_class(component);
+            let inside = format!("class `{enumeration}`");
+            let instance = |of| Declaration::new(&inside, names::instance(of), Origin::instance(of));
+            found.extend(component.instances.iter().map(instance));
+            found.push(declare(&enumeration, Origin::component(component)));
+        }
         let gate = |gate| Declaration::new(&inside, names::gate(gate), Origin::gate(component, gate));
         found.extend(component.gates.iter().map(gate));
         found.push(declare(&class, Origin::component(component)));
@@ -70,7 +78,9 @@ pub(crate) fn files(system: &System) -> Vec<File> {
     out.line("\nfrom __future__ import annotations\n\nfrom typing import TYPE_CHECKING\n\nimport scl as _scl\n");
     imports.write(&mut out);
     let components = system.components_and_counterparts().map(names::class);
-    let exported = components.chain(names.top_level().map(|(name, _)| name.to_owned()));
+    let kinds = system.components.iter().filter(|component| component.is_kind());
+    let exported =
+        components.chain(kinds.map(names::instance_class)).chain(names.top_level().map(|(name, _)| name.to_owned()));
     let quoted = exported.collect::<BTreeSet<_>>().into_iter().map(|name| Doc::text(format!("\"{name}\"")));
     let all = Doc::concat([Doc::text("__all__ = "), Doc::group("[", quoted.collect(), "]")]);
     out.line(Layout::at(0).print(&all));

@@ -1,8 +1,8 @@
 //! `--for zmq`: the sockets of a system, for programs with only a ZeroMQ library. docs/generate.md has the format.
 
 use crate::output::File;
-use crate::system::{Component, Gate, System};
-use scl_plan::Payload;
+use crate::system::{Gate, System};
+use scl_plan::{GatePlan, Payload, Plan};
 use serde::{Serialize, Serializer};
 
 /// The version of the format. It grows when a field changes its meaning or is removed, but not when a field is added.
@@ -76,28 +76,31 @@ enum PayloadEntry<'a> {
 impl<'a> Document<'a> {
     fn of(system: &'a System) -> Self {
         let files = system.descriptors.iter().flat_map(|set| &set.file).map(|file| file.name());
-        let component = |component: &'a Component| (component.name.clone(), ComponentEntry::of(component));
+        let entries = system.plan.components.iter().filter_map(|plan| ComponentEntry::of(system, plan));
         Self {
             version: VERSION,
             topology: &system.topology_file,
             system: &system.name,
             schemas: files.collect(),
             schema_folders: &system.schema_folders,
-            components: InOrder(system.components.iter().map(component).collect()),
+            components: InOrder(entries.collect()),
         }
     }
 }
 
 impl<'a> ComponentEntry<'a> {
-    fn of(component: &'a Component) -> Self {
-        let gates = component.gates.iter().map(|gate| (gate.name.clone(), GateEntry::of(gate)));
-        Self { doc: component.doc.as_deref(), gates: InOrder(gates.collect()) }
+    fn of(system: &'a System, plan: &'a Plan) -> Option<(String, Self)> {
+        let component = system.components.iter().find(|component| component.includes(&plan.component))?;
+        let instance = component.instances.iter().find(|instance| instance.name == plan.component);
+        let doc = instance.and_then(|instance| instance.doc.as_ref()).or(component.doc.as_ref());
+        let gates = component.gates.iter().zip(&plan.gates);
+        let gates = gates.map(|(gate, plan)| (plan.name.clone(), GateEntry::of(gate, plan)));
+        Some((plan.component.clone(), Self { doc: doc.map(String::as_str), gates: InOrder(gates.collect()) }))
     }
 }
 
 impl<'a> GateEntry<'a> {
-    fn of(gate: &'a Gate) -> Self {
-        let plan = &gate.plan;
+    fn of(gate: &'a Gate, plan: &'a GatePlan) -> Self {
         // A gate that listens for all its peers has one endpoint, the others have one per connection.
         let endpoints: Vec<&str> = match &plan.endpoint {
             Some(endpoint) => vec![endpoint],
@@ -114,7 +117,7 @@ impl<'a> GateEntry<'a> {
             zmq_method: if plan.kind.listens() { "bind" } else { "connect" },
             zmq_endpoints: endpoints.into_iter().map(address).collect(),
             zmq_tap: plan.tap.as_deref().map(address),
-            peers: gate.peers().collect(),
+            peers: plan.connections.iter().map(|it| format!("{}.{}", it.peer_component, it.peer_gate)).collect(),
             queue: plan.options.queue,
             when_full: plan.options.when_full.word(),
             max_size: plan.options.max_size,

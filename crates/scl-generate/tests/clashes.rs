@@ -176,3 +176,61 @@ connections:
           = help: rename the component `measurement`
     "#]].assert_eq(&told.concat());
 }
+
+#[test]
+fn names_of_a_kind_that_are_taken_are_refused() {
+    let yaml = "\
+system: rover
+kinds:
+  - name: motor
+    gates:
+      - instance: {pub: , unconnected: ok}
+components:
+  - {name: front_left, kind: motor}
+  - {name: GPSFix, kind: motor}
+  - {name: gps_fix, kind: motor}
+  - {name: motor_open_as, gates: []}
+  - {name: motor_instance_names, gates: []}
+";
+    expect![[r#"
+        error: [SCL1102] component `GPSFix` and component `gps_fix` would both become `ROVER_MOTOR_INSTANCE_GPS_FIX` in C
+         --> topology.yaml:9:12
+          |
+        8 |   - {name: GPSFix, kind: motor}
+          |            ------ component `GPSFix` becomes `ROVER_MOTOR_INSTANCE_GPS_FIX`
+        9 |   - {name: gps_fix, kind: motor}
+          |            ^^^^^^^ becomes `ROVER_MOTOR_INSTANCE_GPS_FIX`
+          |
+          = help: rename the component `gps_fix`
+        error: [SCL1102] kind `motor` and component `motor_open_as` would both become `rover_motor_open_as` in C
+          --> topology.yaml:10:12
+           |
+         3 |   - name: motor
+           |           ----- kind `motor` becomes `rover_motor_open_as`
+        ...
+        10 |   - {name: motor_open_as, gates: []}
+           |            ^^^^^^^^^^^^^ becomes `rover_motor_open_as`
+           |
+           = help: rename the component `motor_open_as`
+        error: [SCL1102] kind `motor` and component `motor_instance_names` would both become `rover_motor_instance_names` in C
+          --> topology.yaml:11:12
+           |
+         3 |   - name: motor
+           |           ----- kind `motor` becomes `rover_motor_instance_names`
+        ...
+        11 |   - {name: motor_instance_names, gates: []}
+           |            ^^^^^^^^^^^^^^^^^^^^ becomes `rover_motor_instance_names`
+           |
+           = help: rename the component `motor_instance_names`
+    "#]].assert_eq(&clashes(yaml, SCHEMA, Target::C));
+    for target in [Target::Cpp, Target::Python] {
+        let told = clashes(yaml, SCHEMA, target);
+        assert!(told.contains("`instance` and gate `motor.instance` would both become `instance` in "), "{told}");
+    }
+    let good = yaml.replace("- instance:", "- state:").replace("gps_fix", "rear_left");
+    for target in [Target::Cpp, Target::Python] {
+        assert_eq!(clashes(&good, SCHEMA, target), "");
+    }
+    let good = good.replace("motor_open_as", "open_motor").replace("motor_instance_names", "names");
+    assert_eq!(clashes(&good, SCHEMA, Target::C), "");
+}

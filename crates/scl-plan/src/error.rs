@@ -2,6 +2,7 @@
 
 #[cfg(feature = "json")]
 use crate::version::VERSION;
+use scl_text::list::either;
 use thiserror::Error;
 
 /// A plan could not be read, or contradicts itself.
@@ -71,7 +72,7 @@ pub enum PlanError {
 /// A system has no component with a given name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
-#[error("system `{system}` has no component `{component}`{}", suggestion(nearest))]
+#[error("system `{system}` has no component `{component}`{}", instead(nearest, of_kind))]
 pub struct UnknownComponent {
     /// The system.
     pub system: String,
@@ -79,6 +80,15 @@ pub struct UnknownComponent {
     pub component: String,
     /// The component that may have been meant.
     pub nearest: Option<String>,
+    /// The components of the kind of this name, if there is one.
+    pub of_kind: Vec<String>,
+}
+
+fn instead(nearest: &Option<String>, of_kind: &[String]) -> String {
+    match of_kind {
+        [] => suggestion(nearest),
+        names => format!(", but a kind of this name: name one of its components, {}", either(names)),
+    }
 }
 
 fn suggestion(nearest: &Option<impl std::fmt::Display>) -> String {

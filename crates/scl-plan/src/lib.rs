@@ -52,6 +52,6 @@ pub use error::{PlanError, UnknownComponent};
 pub use kind::{GateKind, Undecodable, WhenFull};
 pub use options::{GateOptions, OptionAccess, OptionField};
 pub use plan::{ConnectionPlan, GatePlan, Payload, Plan, Schema};
-pub use system::SystemPlan;
+pub use system::{KindPlan, SystemPlan};
 #[cfg(feature = "json")]
 pub use version::VERSION;

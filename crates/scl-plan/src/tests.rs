@@ -1,6 +1,8 @@
 //! Plans as text: both directions, damaged texts, and what errors say.
 
-use crate::{ConnectionPlan, GateKind, GateOptions, GatePlan, Payload, Plan, PlanError, Schema, SystemPlan, WhenFull};
+use crate::{
+    ConnectionPlan, GateKind, GateOptions, GatePlan, KindPlan, Payload, Plan, PlanError, Schema, SystemPlan, WhenFull,
+};
 use expect_test::expect;
 use proptest::prelude::*;
 use std::time::Duration;
@@ -55,12 +57,19 @@ fn rover() -> SystemPlan {
     SystemPlan {
         system: "rover".to_owned(),
         components: vec![plan("controller", all), plan("twin", Vec::new()), clock],
+        kinds: Vec::new(),
     }
+}
+
+/// The same with a kind of two components.
+fn with_a_kind() -> SystemPlan {
+    let components = ["twin", "clock"].map(str::to_owned).into();
+    SystemPlan { kinds: vec![KindPlan { name: "idler".to_owned(), components }], ..rover() }
 }
 
 #[test]
 fn the_format_is_this() {
-    let SystemPlan { system, mut components } = rover();
+    let SystemPlan { system, mut components, .. } = rover();
     components[0].gates = vec![gate(GateKind::Rep, vec![connection("panel", "ask", "controller.rep_gate.hl75aqsl")])];
     components.truncate(1);
     expect![[r#"
@@ -114,7 +123,62 @@ fn the_format_is_this() {
           }
         }
     "#]]
-    .assert_eq(&SystemPlan { system, components }.to_json());
+    .assert_eq(&SystemPlan { system, components, kinds: Vec::new() }.to_json());
+}
+
+#[test]
+fn kinds_are_named_with_their_components() {
+    let text = with_a_kind().to_json();
+    let start = "{\n  \"version\": 1,\n  \"system\": \"rover\",\n  \"kinds\": [\n    {\n      \"name\": \"idler\",\n      \
+                 \"components\": [\n        \"twin\",\n        \"clock\"\n      ]\n    }\n  ],\n  \"components\": [\n";
+    assert!(text.starts_with(start), "{text}");
+    assert_eq!(SystemPlan::from_json(&text).unwrap(), with_a_kind());
+}
+
+#[test]
+fn a_kind_whose_components_do_not_fit_is_refused() {
+    let refused = |change: fn(&mut SystemPlan)| {
+        let mut system = with_a_kind();
+        change(&mut system);
+        format!("{}\n", SystemPlan::from_json(&system.to_json()).unwrap_err())
+    };
+    let told = [
+        refused(|system| system.kinds[0].components.clear()),
+        refused(|system| system.kinds[0].components.push("clok".to_owned())),
+        refused(|system| system.kinds[0].components.push("clock".to_owned())),
+        refused(|system| system.kinds[0].components.push("controller".to_owned())),
+        refused(|system| system.kinds[0].name = "controller".to_owned()),
+        refused(|system| system.kinds.push(system.kinds[0].clone())),
+        error("\"gates\": [", "\"kinds\": [], \"gates\": ["),
+    ];
+    expect![[r#"
+        kind `idler` has no components
+        kind `idler` has `clok`, which is not among the components
+        kind `idler` has `clock` twice, or together with another kind
+        kind `idler` has `controller`, whose gates differ from those of its first component
+        kind `controller` has the name of a component
+        kind `idler` is declared twice
+        unknown field `kinds` in `components[0]`"#]]
+    .assert_eq(&told.concat());
+}
+
+#[test]
+fn the_part_of_a_plan_is_a_component_or_a_kind() {
+    let system = with_a_kind();
+    let names = |part: &SystemPlan| part.components.iter().map(|it| it.component.clone()).collect::<Vec<_>>();
+    let kind = system.part("idler").unwrap();
+    assert_eq!((names(&kind), &kind.kinds), (vec!["twin".to_owned(), "clock".to_owned()], &system.kinds));
+    let component = system.part("clock").unwrap();
+    assert_eq!((names(&component), component.kinds.len()), (vec!["clock".to_owned()], 0));
+    assert_eq!(system.component_or_first("idler").unwrap().component, "twin");
+    let told = ["idler", "idlr", "clok"].map(|name| system.component(name).unwrap_err().to_string());
+    let start = "system `rover` has no component";
+    assert_eq!(
+        told[0],
+        format!("{start} `idler`, but a kind of this name: name one of its components, `twin` or `clock`")
+    );
+    assert_eq!(told[1], format!("{start} `idlr`; did you mean `idler`?"));
+    assert_eq!(told[2], format!("{start} `clok`; did you mean `clock`?"));
 }
 
 #[test]

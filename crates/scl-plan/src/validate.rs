@@ -1,12 +1,51 @@
 //! Checks that the values of a plan are consistent. Those of a plan that was made from a checked topology always are.
 
 use crate::error::PlanError;
+use crate::kind::GateKind;
 use crate::plan::{GatePlan, Payload, Plan};
-use std::collections::HashSet;
+use crate::system::SystemPlan;
+use std::collections::{HashMap, HashSet};
 use std::time::Duration;
 
 /// The longest timeout of a call: a day. Far longer ones could not be added to a time.
 const LONGEST_TIMEOUT: Duration = Duration::from_secs(24 * 60 * 60);
+
+impl SystemPlan {
+    /// Checks each component, that names are unique, and that the components of a kind have the same gates.
+    ///
+    /// # Errors
+    /// [`PlanError::Inconsistent`] names the part and says what is wrong with it.
+    pub fn validate(&self) -> Result<(), PlanError> {
+        let mut plans = HashMap::new();
+        for plan in &self.components {
+            plan.validate()?;
+            let is_new = plans.insert(plan.component.as_str(), plan).is_none();
+            ensure(is_new, &format!("component `{}`", plan.component), "is declared twice")?;
+        }
+        let (mut names, mut of_kinds) = (HashSet::new(), HashSet::new());
+        for kind in &self.kinds {
+            let part = format!("kind `{}`", kind.name);
+            ensure(names.insert(&kind.name), &part, "is declared twice")?;
+            ensure(!plans.contains_key(kind.name.as_str()), &part, "has the name of a component")?;
+            ensure(!kind.components.is_empty(), &part, "has no components")?;
+            let mut gates = None;
+            for name in &kind.components {
+                ensure(of_kinds.insert(name), &part, &format!("has `{name}` twice, or together with another kind"))?;
+                let Some(plan) = plans.get(name.as_str()) else {
+                    return ensure(false, &part, &format!("has `{name}`, which is not among the components"));
+                };
+                let is_same = gates.get_or_insert_with(|| shape(plan)) == &shape(plan);
+                ensure(is_same, &part, &format!("has `{name}`, whose gates differ from those of its first component"))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What the components of a kind have in common: all that a program knows of its gates.
+fn shape(plan: &Plan) -> Vec<(&str, GateKind, &Payload, &str)> {
+    plan.gates.iter().map(|gate| (gate.name.as_str(), gate.kind, &gate.payload, gate.codec.as_str())).collect()
+}
 
 impl Plan {
     /// Checks that the plan contradicts neither itself nor the kinds of its gates.
@@ -54,7 +93,7 @@ fn validate_gate(part: &str, gate: &GatePlan) -> Result<(), PlanError> {
         part,
         "has a timeout of zero or of more than a day",
     )?;
-    let one_replier = kind != crate::GateKind::Req || gate.connections.len() <= 1;
+    let one_replier = kind != GateKind::Req || gate.connections.len() <= 1;
     ensure(one_replier, part, "is a `req` gate with several repliers")?;
     let mut peers = HashSet::new();
     for connection in &gate.connections {

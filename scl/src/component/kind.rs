@@ -2,6 +2,7 @@
 
 use super::Component;
 use super::expected::Started;
+use crate::environment::Variables;
 use crate::error::OpenError;
 use crate::intern::intern;
 use crate::options::OpenOptions;
@@ -15,14 +16,29 @@ use scl_plan::{Plan, Schema};
 /// [`OpenError::WhichComponent`] if a program of a kind was started as none of its components, or as several.
 pub(super) fn spec<C: Component>(options: &OpenOptions) -> Result<&'static ComponentSpec, OpenError> {
     let Some(kind) = C::KIND.filter(|_| !options.is_test) else { return Ok(C::SPEC) };
-    let started = Started::read(&|name: &str| options.variable(name))?;
-    let names = || kind.components.iter().map(|(name, _)| *name);
-    let mut started_as = (0..).zip(names()).filter(|(_, name)| started.includes(C::SPEC.system, name));
-    match (started_as.next(), started_as.next()) {
-        (Some((only, _)), None) => spec_at::<C>(only),
-        _ => {
-            Err(OpenError::WhichComponent { kind: kind.name, components: names().collect(), started: started.shown() })
-        }
+    let names: Vec<&str> = kind.components.iter().map(|(name, _)| *name).collect();
+    spec_at::<C>(started_as(C::SPEC.system, kind.name, &names, &|name: &str| options.variable(name))?)
+}
+
+/// The index of the component that the program was started as.
+///
+/// # Errors
+/// [`OpenError::WhichComponent`] if it was started as none of them, or as several.
+pub(crate) fn started_as(
+    system: &str,
+    kind: &str,
+    components: &[&str],
+    variables: Variables<'_>,
+) -> Result<usize, OpenError> {
+    let started = Started::read(variables)?;
+    let mut found = (0..).zip(components).filter(|(_, name)| started.includes(system, name));
+    match (found.next(), found.next()) {
+        (Some((only, _)), None) => Ok(only),
+        _ => Err(OpenError::WhichComponent {
+            kind: kind.to_owned(),
+            components: components.iter().map(|&name| name.to_owned()).collect(),
+            started: started.shown(),
+        }),
     }
 }
 

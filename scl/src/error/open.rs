@@ -56,6 +56,9 @@ pub enum OpenError {
         /// What it was started as, for messages: `` `gps` of system `rover` ``.
         expected: String,
     },
+    /// The plan has no component of this name.
+    #[error(transparent)]
+    UnknownComponent(#[from] scl_plan::UnknownComponent),
     /// The program is of a kind of components, and was not told which of them it is.
     #[error(
         "this program is a `{kind}`{}: set SCL_COMPONENT to {}",
@@ -64,9 +67,9 @@ pub enum OpenError {
     )]
     WhichComponent {
         /// The kind.
-        kind: &'static str,
+        kind: String,
         /// Its components.
-        components: Vec<&'static str>,
+        components: Vec<String>,
         /// What the program was started as, for messages: `` `gps` of system `rover` ``.
         started: Option<String>,
     },

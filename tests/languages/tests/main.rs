@@ -3,6 +3,7 @@
 mod cpp;
 mod interoperability;
 mod json;
+mod kinds;
 mod languages;
 mod plain;
 #[allow(dead_code, reason = "the other tests start the rest")]

@@ -11,7 +11,10 @@
 #include <scl/time.hpp>
 #include <scl/uncaught.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -25,7 +28,8 @@ namespace scl {
 class Component {
   public:
     /// Opens a component from a plan, the text that `scl plan` prints: registers it in the runtime folder and opens its
-    /// gates. Peers connect by themselves, in whatever order the programs start.
+    /// gates. Peers connect by themselves, in whatever order the programs start. If `name` is that of a kind, it is the
+    /// component of the kind that `SCL_COMPONENT` names.
     ///
     /// Throws `Taken` if the component is already running, and `Error` if the runtime folder or the plan cannot be
     /// used.
@@ -36,6 +40,7 @@ class Component {
         }
         detail::check(
             scl_open(plan_json.data(), plan_json.size(), name.c_str(), options.to_json().c_str(), &handle_));
+        name_ = scl_component_name(handle_);
         detail::OpenComponents::instance().add(handle_);
     }
 
@@ -129,6 +134,26 @@ class Component {
     std::string name_;
     std::int64_t linger_ = detail::linger;
 };
+
+namespace detail {
+
+/// The name of a component of a kind.
+template <class Instance, std::size_t Count>
+const char* name_of(Instance instance, const char* const (&names)[Count]) {
+    const auto index = static_cast<std::size_t>(instance);
+    if (index >= Count) {
+        raise(Errc::argument, "the instance is not one of the kind");
+    }
+    return names[index];
+}
+
+/// The component of a kind that has this name; every open one has one of them.
+template <class Instance, std::size_t Count>
+Instance instance_of(const std::string& name, const char* const (&names)[Count]) {
+    return static_cast<Instance>(std::find(std::begin(names), std::end(names), name) - std::begin(names));
+}
+
+} // namespace detail
 
 /// Opens a component for a unit test, together with its counterpart. Generated code calls it.
 template <class Tested, class Counterpart>

@@ -14,6 +14,7 @@ from scl._component import Component, DynamicComponent, Transport, open, open_pl
 from scl._errors import *
 from scl._gates import Gate, Pub, Pull, Push, Rep, Req, Request, Sub
 from scl._generated import GeneratedComponent
+from scl._kinds import ComponentOfKind, Instance
 from scl._native import __version__
 from scl._signals import stop_requested
 from scl._tasks import until_stopped
@@ -22,11 +23,13 @@ from scl._testing import Counterpart, DynamicCounterpart, TestableComponent, tes
 __all__ = [
     "Buffer",
     "Component",
+    "ComponentOfKind",
     "Counterpart",
     "DynamicComponent",
     "DynamicCounterpart",
     "Gate",
     "GeneratedComponent",
+    "Instance",
     "Pub",
     "Pull",
     "Push",

@@ -53,10 +53,13 @@ class Component:
     ) -> None:
         """Opens the component `name` of a plan, the JSON text of `scl plan`.
 
+        If `name` is that of a kind, it is the component of the kind that `SCL_COMPONENT` names.
+
         Missing options come from the environment: `SCL_RUNTIME_DIR`, `SCL_SYSTEM` and `SCL_TRANSPORT`. With
         `signals`, SIGTERM and SIGINT ask the program to stop, unless the program has handlers of its own.
         """
         plan = _native.Plan(plan) if isinstance(plan, str) else plan
+        name = plan.started_as(name)
         # Before opening, so that no peer sees a component that cannot run.
         facts = facts_of(plan, name)
         _process.prepare(signals)
@@ -212,11 +215,12 @@ def open(
 ) -> DynamicComponent:
     """Checks a topology file, with the same messages as `scl check`, and opens one of its components.
 
-    Raises `TopologyError` if the file has errors. The other arguments are those of `Component`.
+    The name of a kind opens the component of the kind that `SCL_COMPONENT` names. Raises `TopologyError` if the file has errors. The other arguments are those of `Component`.
     """
     plan, found = _native.Plan.of_file(os.fspath(topology))
     for warning in found:
         warnings.warn(f"\n{warning}", stacklevel=2)
+    component = plan.started_as(component)
     return described(DynamicComponent, plan, component)(
         plan, component, runtime_dir=runtime_dir, system=system, transport=transport, signals=signals
     )
@@ -233,6 +237,7 @@ def open_plan(
 ) -> DynamicComponent:
     """Like `open`, but takes the plans that `scl plan` printed instead of a topology file."""
     plans = _native.Plan(plan)
+    component = plans.started_as(component)
     return described(DynamicComponent, plans, component)(
         plans, component, runtime_dir=runtime_dir, system=system, transport=transport, signals=signals
     )

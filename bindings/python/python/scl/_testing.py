@@ -63,7 +63,7 @@ class TestableComponent(GeneratedComponent, Generic[PEER]):
 def test(topology: str | os.PathLike[str], component: str) -> tuple[DynamicComponent, DynamicCounterpart]:
     """Checks a topology file, and opens one of its components for a unit test, as `test()` of a generated class does.
 
-    Raises `TopologyError` if the file has errors.
+    The name of a kind opens its first component. Raises `TopologyError` if the file has errors.
     """
     plan, found = _native.Plan.of_file(os.fspath(topology))
     for warning in found:

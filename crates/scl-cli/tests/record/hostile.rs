@@ -41,7 +41,7 @@ const LENGTHS: [(u8, usize); 6] =
 #[test]
 fn announced_lengths_reserve_no_memory() {
     let system = System::of_files(&[]);
-    let plan = SystemPlan { system: "rover".to_owned(), components: Vec::new() };
+    let plan = SystemPlan { system: "rover".to_owned(), components: Vec::new(), kinds: Vec::new() };
     let totals = Totals { system: "rover".to_owned(), gates: BTreeMap::new() };
     let sound = |compression| {
         let recorder = Recorder::with_compression(Some(compression)).attach_plan(&plan);

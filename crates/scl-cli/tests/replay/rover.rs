@@ -12,7 +12,8 @@ impl Rover {
     pub(super) fn new() -> Self {
         let system = System::of_files(&[]);
         std::fs::create_dir(system.path("run")).unwrap();
-        let mut rover = Self { system, plan: SystemPlan { system: String::new(), components: Vec::new() } };
+        let mut rover =
+            Self { system, plan: SystemPlan { system: String::new(), components: Vec::new(), kinds: Vec::new() } };
         rover.plan = rover.plan_of(ROVER);
         rover
     }

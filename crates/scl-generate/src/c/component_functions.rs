@@ -2,6 +2,7 @@
 
 use super::function::Function;
 use super::gate::{member, refuse_null};
+use super::instance::{enumeration, names};
 use super::literal::literal;
 use super::prefix;
 use crate::system::{Component, System};
@@ -11,9 +12,20 @@ pub(super) fn component_functions(system: &System, component: &Component) -> Vec
     let own = prefix(system, component);
     let function =
         |call, doc, parameter: &str, body| Function::new(&own, call, doc, format!("{own} *self, {parameter}"), body);
+    let enumeration = enumeration(system, component);
     let open = component.counterpart_of.is_none().then(|| {
-        let doc = "Opens the component; `options_json` may be NULL, see scl_open.";
-        function("open", doc, "const char *options_json", open_body(component))
+        let doc = match enumeration {
+            None => "Opens the component; `options_json` may be NULL, see scl_open.",
+            Some(_) => {
+                "Opens the component of the kind that SCL_COMPONENT names; `options_json` may be NULL, see scl_open."
+            }
+        };
+        function("open", doc, "const char *options_json", open_body(component, enumeration.as_deref()))
+    });
+    let open_as = enumeration.as_ref().map(|enumeration| {
+        let doc = "Opens this component of the kind; `options_json` may be NULL, see scl_open.";
+        let parameters = format!("{enumeration} instance, const char *options_json");
+        function("open_as", doc, &parameters, open_as_body(component, enumeration))
     });
     let test = component.counterpart.as_ref().map(|peer| {
         let doc = "Opens the component for a unit test, with the other ends of its gates, see scl_open_test.";
@@ -27,43 +39,68 @@ pub(super) fn component_functions(system: &System, component: &Component) -> Vec
     );
     let doc = "Waits until running peers have taken all messages, then closes the component, see scl_close.";
     let close = function("close", doc, "int64_t timeout_ns", close_body());
-    open.into_iter().chain(test).chain([ready, close]).collect()
+    open.into_iter().chain(open_as).chain(test).chain([ready, close]).collect()
 }
 
-fn open_body(component: &Component) -> String {
-    let (refuse, name, find) = (refuse_null("self"), literal(&component.name), find_gates(component, &["self"]));
+fn open_body(component: &Component, enumeration: Option<&str>) -> String {
+    let (refuse, name) = (refuse_null("self"), literal(&component.name));
+    let find_instance = enumeration.map_or(String::new(), |enumeration| {
+        let names = names(enumeration);
+        format!(
+            "    size_t count = sizeof {names} / sizeof *{names};\n    \
+                 self->instance = ({enumeration})find_instance(self->component, {names}, count);\n"
+        )
+    });
+    let once_open = once_open(find_instance + &find_gates(component, &["self"]));
     format!(
         "{refuse}\n\
          memset(self, 0, sizeof *self);\n\
          scl_status status = open_component({name}, options_json, &self->component);\n\
-         {find}return status;"
+         {once_open}return status;"
+    )
+}
+
+fn open_as_body(component: &Component, enumeration: &str) -> String {
+    let (refuse, names, once_open) =
+        (refuse_null("self"), names(enumeration), once_open(find_gates(component, &["self"])));
+    format!(
+        "{refuse}\n\
+         memset(self, 0, sizeof *self);\n\
+         if ((size_t)instance >= sizeof {names} / sizeof *{names}) {{\n    \
+             return scl_fail(SCL_ARGUMENT, \"`instance` is not one of the kind\");\n\
+         }}\n\
+         self->instance = instance;\n\
+         scl_status status = open_component({names}[instance], options_json, &self->component);\n\
+         {once_open}return status;"
     )
 }
 
 fn test_body(component: &Component) -> String {
     let [refuse_self, refuse_peer] = ["self", "peer"].map(refuse_null);
-    let (name, find) = (literal(&component.name), find_gates(component, &["self", "peer"]));
+    let (name, once_open) = (literal(&component.name), once_open(find_gates(component, &["self", "peer"])));
     format!(
         "{refuse_self}\n{refuse_peer}\n\
          memset(self, 0, sizeof *self);\n\
          memset(peer, 0, sizeof *peer);\n\
          scl_status status = open_test({name}, &self->component, &peer->component);\n\
-         {find}return status;"
+         {once_open}return status;"
     )
 }
 
-/// Lines that store the handles of the gates in these structs if the component was opened.
+/// Lines that are run if the component was opened.
+fn once_open(lines: String) -> String {
+    if lines.is_empty() { lines } else { format!("if (status == SCL_OK) {{\n{lines}}}\n") }
+}
+
+/// Lines that store the handles of the gates in these structs.
 fn find_gates(component: &Component, structs: &[&str]) -> String {
-    if component.gates.is_empty() {
-        return String::new();
-    }
     let find = structs.iter().flat_map(|of| {
         component.gates.iter().map(move |gate| {
             let (member, name) = (member(gate), literal(&gate.name));
             format!("    {of}->gates.{member} = scl_gate_by_name({of}->component, {name});\n")
         })
     });
-    format!("if (status == SCL_OK) {{\n{}}}\n", find.collect::<String>())
+    find.collect()
 }
 
 /// The body of the function that closes the component. The handles become invalid with it; clearing them prevents their

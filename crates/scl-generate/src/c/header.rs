@@ -1,7 +1,7 @@
 //! `<system>_scl.h`.
 
 use super::component_functions::component_functions;
-use super::{content, functions, gate, messages, prefix, protobuf_c, source, wait};
+use super::{content, functions, gate, instance, messages, prefix, protobuf_c, source, wait};
 use crate::comment;
 use crate::system::{Component, Gate, System};
 use crate::writer::Writer;
@@ -55,14 +55,19 @@ fn includes(system: &System) -> BTreeSet<String> {
 
 fn write_component(system: &System, component: &Component, out: &mut Writer) {
     let prefix = prefix(system, component);
+    instance::declare(system, component, out);
     out.blank();
-    let headline = format!("Component `{}` ({})", component.name, component.plan.declared_at);
+    let noun = if component.is_kind() { "Kind" } else { "Component" };
+    let headline = format!("{noun} `{}` ({})", component.name, component.declared_at);
     match (&component.counterpart_of, &component.doc) {
         (Some(_), Some(doc)) => write_comment(doc, None, out),
         (_, doc) => write_comment(&headline, doc.as_deref(), out),
     }
     out.block(format!("typedef struct {prefix} {{"), &format!("}} {prefix};"), |out| {
         out.line("scl_component *component;");
+        if let Some(enumeration) = instance::enumeration(system, component) {
+            out.line(format!("{enumeration} instance;"));
+        }
         if component.gates.is_empty() {
             return;
         }

@@ -10,6 +10,7 @@ use scl_plan::GateKind;
 
 /// Writes the class with its gates.
 pub(super) fn write(system: &System, component: &Component, names: &Names, imports: &Imports, out: &mut Writer) {
+    write_instances(component, out);
     let class = Doc::text(format!("class {}", names::class(component)));
     let head = Doc::concat([class, Doc::group("(", arguments(component), ")"), Doc::text(":")]);
     out.line(format!("\n\n{}", Layout::at(0).print(&head)));
@@ -24,17 +25,42 @@ pub(super) fn write(system: &System, component: &Component, names: &Names, impor
     });
 }
 
+/// Writes the enum of the components of a kind.
+fn write_instances(component: &Component, out: &mut Writer) {
+    if !component.is_kind() {
+        return;
+    }
+    out.line(format!("\n\nclass {}(_scl.Instance):", names::instance_class(component)));
+    out.indented(|out| {
+        docs::write(&format!("The components of the kind `{}`.", component.name), out);
+        out.blank();
+        for instance in &component.instances {
+            out.line(format!("{} = \"{}\"", names::instance(instance), instance.name));
+            instance.doc.iter().for_each(|doc| docs::write(doc, out));
+        }
+    });
+}
+
 /// The bases of the class, and the arguments that its base takes.
 fn arguments(component: &Component) -> Vec<Doc> {
     if component.counterpart_of.is_some() {
         return vec![Doc::text("_scl.Counterpart")];
     }
-    let opened = [Doc::text("plan=_PLAN"), Doc::text(format!("component=\"{}\"", component.name))];
-    let Some(peer) = component.counterpart.as_deref().map(names::class) else {
-        return [vec![Doc::text("_scl.GeneratedComponent")], opened.into()].concat();
+    let generic = |base: &str, of: &str| {
+        Doc::concat([Doc::text(format!("_scl.{base}")), Doc::group("[", vec![Doc::text(of.to_owned())], "]")])
     };
-    let base = Doc::concat([Doc::text("_scl.TestableComponent"), Doc::group("[", vec![Doc::text(peer.clone())], "]")]);
-    [vec![base], opened.into(), vec![Doc::text(format!("counterpart={peer}"))]].concat()
+    let instance = component.is_kind().then(|| names::instance_class(component));
+    let peer = component.counterpart.as_deref().map(names::class);
+    let mut arguments = Vec::new();
+    arguments.extend(instance.as_ref().map(|instance| generic("ComponentOfKind", instance)));
+    arguments.extend(peer.as_ref().map(|peer| generic("TestableComponent", peer)));
+    if arguments.is_empty() {
+        arguments.push(Doc::text("_scl.GeneratedComponent"));
+    }
+    arguments.extend([Doc::text("plan=_PLAN"), Doc::text(format!("component=\"{}\"", component.name))]);
+    arguments.extend(instance.map(|instance| Doc::text(format!("instances={instance}"))));
+    arguments.extend(peer.map(|peer| Doc::text(format!("counterpart={peer}"))));
+    arguments
 }
 
 fn annotation(gate: &Gate, names: &Names, imports: &Imports) -> Doc {

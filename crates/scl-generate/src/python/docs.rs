@@ -41,10 +41,7 @@ pub(super) fn escape(text: &str) -> String {
 pub(super) fn of_component(system: &System, component: &Component, attribute: impl Fn(&Gate) -> String) -> String {
     let mut parts: Vec<String> = component.doc.iter().map(|doc| doc.trim().to_owned()).collect();
     if component.counterpart_of.is_none() {
-        parts.push(format!(
-            "The component `{}` of `{}`, declared at `{}`.",
-            component.name, system.name, component.plan.declared_at
-        ));
+        parts.push(format!("{} of `{}`, declared at `{}`.", component.what(), system.name, component.declared_at));
     }
     let gates = component.gates.iter();
     let gates = gates.map(|gate| format!("    {}: `{}` {}", attribute(gate), gate.plan.kind.word(), sentence(gate)));
@@ -75,7 +72,7 @@ fn sentence(gate: &Gate) -> String {
         Payload::Message(name) => format!("`{name}`"),
         Payload::Exchange { request, reply } => format!("`{request}` -> `{reply}`"),
     };
-    let peers = if gate.plan.connections.is_empty() { "no peer".to_owned() } else { gate.quoted_peers() };
+    let peers = if gate.peers.is_empty() { "no peer".to_owned() } else { gate.quoted_peers() };
     gate.plan.kind.sentence(&message, &peers)
 }
 

@@ -130,7 +130,7 @@ inline constexpr ::std::string_view plan = R"plan({"version": 1,"system": "testa
 
 /// The other ends of all gates of `controller`, for its unit tests.
 struct ControllerPeer : ::scl::Component {
-    /// For the function `test` of the component `controller`.
+    /// For the function `test` of `controller`.
     explicit ControllerPeer(::scl::TestEnd&& end) : ::scl::Component(::std::move(end), "controller's peers") {}
 
     /// The other end of `controller.readings`.
@@ -201,7 +201,7 @@ struct Controller : ::scl::Component {
 
 /// The other ends of all gates of `empty`, for its unit tests.
 struct EmptyPeer : ::scl::Component {
-    /// For the function `test` of the component `empty`.
+    /// For the function `test` of `empty`.
     explicit EmptyPeer(::scl::TestEnd&& end) : ::scl::Component(::std::move(end), "empty's peers") {}
 };
 
@@ -223,7 +223,7 @@ struct Empty : ::scl::Component {
 
 /// The other ends of all gates of `world`, for its unit tests.
 struct WorldPeer : ::scl::Component {
-    /// For the function `test` of the component `world`.
+    /// For the function `test` of `world`.
     explicit WorldPeer(::scl::TestEnd&& end) : ::scl::Component(::std::move(end), "world's peers") {}
 
     /// The other end of `world.readings`.
@@ -287,7 +287,7 @@ struct World : ::scl::Component {
 
 /// The other ends of all gates of `recorder`, for its unit tests.
 struct RecorderPeer : ::scl::Component {
-    /// For the function `test` of the component `recorder`.
+    /// For the function `test` of `recorder`.
     explicit RecorderPeer(::scl::TestEnd&& end) : ::scl::Component(::std::move(end), "recorder's peers") {}
 
     /// The other end of `recorder.setpoints`.

@@ -2,7 +2,7 @@
 //! them. Those in C++ and Python are tested beside their bindings.
 
 use crate::c::Project;
-use crate::fixture::{clashes, clashes_of_testable, testable, text, topology};
+use crate::fixture::{clashes, clashes_of_testable, repository, testable, text, topology};
 use expect_test::{expect, expect_file};
 use scl_generate::Target;
 use scl_tests::{Compile, System};
@@ -18,6 +18,19 @@ fn counterparts_have_the_opposite_gates() {
     expect_file!["../expected/testable.scl.hpp"].assert_eq(&header);
     let module = text(&testable(&path, Target::Python), "testable_scl.py");
     expect_file!["../python/expected/testable_scl.py"].assert_eq(&module);
+}
+
+/// Their programs are in `tests/languages/motors`.
+#[test]
+fn a_kind_becomes_one_type() {
+    let path = repository().join("tests/topologies/motors.yaml");
+    let files = testable(&path, Target::C);
+    expect_file!["../expected/motors_scl.h"].assert_eq(&text(&files, "motors_scl.h"));
+    expect_file!["../expected/motors_scl.c"].assert_eq(&text(&files, "motors_scl.c"));
+    let header = text(&testable(&path, Target::Cpp), "motors.scl.hpp");
+    expect_file!["../expected/motors.scl.hpp"].assert_eq(&header);
+    let module = text(&testable(&path, Target::Python), "motors_scl.py");
+    expect_file!["../python/expected/motors_scl.py"].assert_eq(&module);
 }
 
 #[test]

@@ -6,10 +6,9 @@ use crate::error::PlanError;
 use crate::kind::{GateKind, Undecodable, WhenFull};
 use crate::options::{GateOptions, OptionAccess};
 use crate::plan::{ConnectionPlan, GatePlan, Payload, Plan, Schema};
-use crate::system::SystemPlan;
+use crate::system::{KindPlan, SystemPlan};
 use crate::version::VERSION;
 use serde_json::Value;
-use std::collections::HashSet;
 use std::time::Duration;
 
 impl SystemPlan {
@@ -22,18 +21,15 @@ impl SystemPlan {
         let value: Value = serde_json::from_str(text).map_err(PlanError::Syntax)?;
         let document = At::document(&value);
         check_version(&document)?;
-        let fields = document.object(&["version", "system", "components", "schemas"])?;
+        let fields = document.object(&["version", "system", "kinds", "components", "schemas"])?;
         let (system, schemas) = (fields.text("system")?, read_schemas(&fields.field("schemas")?)?);
         let components = fields.field("components")?.list(|it| component(&it, &system, &schemas))?;
-        let plan = Self { system, components };
-        let mut names = HashSet::new();
-        for component in &plan.components {
-            component.validate()?;
-            if !names.insert(&component.component) {
-                let part = format!("component `{}`", component.component);
-                return Err(PlanError::Inconsistent { part, reason: "is declared twice".to_owned() });
-            }
-        }
+        let kinds = match fields.has("kinds") {
+            true => fields.field("kinds")?.list(|it| kind(&it))?,
+            false => Vec::new(),
+        };
+        let plan = Self { system, components, kinds };
+        plan.validate()?;
         Ok(plan)
     }
 }
@@ -93,6 +89,12 @@ fn component(at: &At<'_>, system: &str, schemas: &[Schema]) -> Result<Plan, Plan
         schema: schema.transpose()?,
         gates: fields.field("gates")?.list(|it| gate(&it))?,
     })
+}
+
+fn kind(at: &At<'_>) -> Result<KindPlan, PlanError> {
+    let fields = at.object(&["name", "components"])?;
+    let components = fields.field("components")?.list(|it| it.text().map(str::to_owned))?;
+    Ok(KindPlan { name: fields.text("name")?, components })
 }
 
 fn gate(at: &At<'_>) -> Result<GatePlan, PlanError> {

@@ -4,7 +4,7 @@ use crate::base64;
 use crate::kind::{GateKind, Undecodable, WhenFull};
 use crate::options::{GateOptions, OptionAccess};
 use crate::plan::{Plan, Schema};
-use crate::system::SystemPlan;
+use crate::system::{KindPlan, SystemPlan};
 use crate::version::VERSION;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::collections::BTreeMap;
@@ -12,14 +12,14 @@ use std::collections::BTreeMap;
 impl SystemPlan {
     /// The plans as JSON, indented, with a line break at the end.
     pub fn to_json(&self) -> String {
-        document(&self.system, &self.components)
+        document(&self.system, &self.kinds, &self.components)
     }
 }
 
 impl Plan {
     /// The plan as JSON: a document with one component.
     pub fn to_json(&self) -> String {
-        document(&self.system, std::slice::from_ref(self))
+        document(&self.system, &[], std::slice::from_ref(self))
     }
 }
 
@@ -28,14 +28,16 @@ impl Plan {
 struct Document<'p> {
     version: u64,
     system: &'p str,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    kinds: &'p [KindPlan],
     components: &'p [Plan],
     schemas: BTreeMap<&'p str, String>,
 }
 
-fn document(system: &str, components: &[Plan]) -> String {
+fn document(system: &str, kinds: &[KindPlan], components: &[Plan]) -> String {
     let schemas = components.iter().filter_map(|plan| plan.schema.as_ref());
     let schemas = schemas.map(|schema| (schema.hash.as_str(), base64::encode(&schema.descriptors))).collect();
-    let document = Document { version: VERSION, system, components, schemas };
+    let document = Document { version: VERSION, system, kinds, components, schemas };
     // Cannot fail: all map keys are strings, and serializing does no I/O.
     serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
 }

@@ -40,6 +40,6 @@ impl Plans {
 
     fn text(&self, system: &System) -> Bytes {
         let components = self.by_component.values().cloned().collect();
-        SystemPlan { system: system.name().to_owned(), components }.to_json().into()
+        SystemPlan { system: system.name().to_owned(), components, kinds: Vec::new() }.to_json().into()
     }
 }

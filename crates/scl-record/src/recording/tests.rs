@@ -14,7 +14,7 @@ const SAMPLES: [Sample<'_>; 4] = [
 ];
 
 fn plan() -> SystemPlan {
-    SystemPlan { system: "rover".to_owned(), components: Vec::new() }
+    SystemPlan { system: "rover".to_owned(), components: Vec::new(), kinds: Vec::new() }
 }
 
 /// Two chunks, an attachment before and the totals behind them.
