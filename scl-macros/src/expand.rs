@@ -16,6 +16,7 @@ mod names;
 mod problems;
 mod rustc_notes;
 mod schemas;
+mod senders;
 mod skeleton;
 mod spec;
 mod structs;

@@ -111,6 +111,7 @@ pub mod private;
 mod registration;
 pub mod registry;
 pub mod runtime_dir;
+mod senders;
 mod service;
 pub mod spec;
 mod state;
@@ -138,6 +139,7 @@ pub use gate::{AnyGate, GateStats, Loaned, PeerStats, Pub, Pull, Push, Receiving
 pub use options::OpenOptions;
 pub use scl_macros::main;
 pub use scl_plan as plan;
+pub use senders::Senders;
 pub use stop::{is_stop_requested, stop_requested, stop_requested_blocking};
 pub use transport_choice::{TransportChoice, TransportChoiceError};
 pub use transport_kind::TransportKind;

@@ -13,6 +13,7 @@ pub use crate::__kind_methods as kind_methods;
 pub use crate::__message_json as message_json;
 #[cfg(not(all(feature = "json", feature = "protobuf")))]
 pub use crate::__no_message_json as message_json;
+pub use crate::__senders as senders;
 #[cfg(all(feature = "json", feature = "protobuf"))]
 pub use crate::codec::message_json::{MessagePool, MessageType};
 pub use crate::codec::{self, Codec, by_name as codecs};
@@ -23,6 +24,7 @@ pub use crate::component::{
 pub use crate::error::OpenError;
 pub use crate::gate::{AnyGate, Pub, Pull, Push, Rep, Req, Sub};
 pub use crate::named_type::NamedType;
+pub use crate::senders::Senders;
 pub use crate::spec::{
     ComponentSpec, ConnectionSpec, GateKind, GateOptions, GateSpec, KindSpec, Schema, Undecodable, WhenFull,
 };

@@ -1,6 +1,10 @@
 //! One struct for all components of a kind, and the gates of every component.
 
+use futures_core::Stream;
 use scl::{Component, OpenError, OpenOptions, Result};
+use std::future::poll_fn;
+use std::pin::Pin;
+use std::task::Context;
 use std::time::Duration;
 
 scl::topology!("kinds.yaml");
@@ -78,5 +82,60 @@ async fn a_kind_is_tested_like_a_component() -> Result<()> {
     peer.setpoint.send(&7).await?;
     assert_eq!(motor.setpoint.recv().await?, 7);
     assert_eq!(motor.instance(), MotorInstance::LeftMotor);
+    Ok(())
+}
+
+#[tokio::test]
+async fn components_of_a_kind_are_told_apart_by_its_enum() -> Result<()> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut left = Motor::open_as_with(MotorInstance::LeftMotor, in_folder(&folder)).await?;
+    let mut right = Motor::open_as_with(MotorInstance::RightMotor, in_folder(&folder)).await?;
+    let mut controller = Controller::open_with(in_folder(&folder)).await?;
+    assert_eq!(controller.states.sender(), None);
+    for number in 0..3 {
+        left.state.send(&number).await?;
+        assert_eq!(controller.states.recv_from().await?, (MotorInstance::LeftMotor, number));
+        right.state.send(&(10 + number)).await?;
+        assert_eq!(controller.states.recv_from().await?, (MotorInstance::RightMotor, 10 + number));
+        assert_eq!(controller.states.sender(), Some(MotorInstance::RightMotor));
+    }
+    left.state.send(&7).await?;
+    let next = |cx: &mut Context<'_>| Pin::new(&mut controller.states).poll_next(cx);
+    let received = poll_fn(next).await.expect("a stream never ends")?;
+    assert_eq!((controller.states.sender(), received), (Some(MotorInstance::LeftMotor), 7));
+    let connection = controller.states.last_connection().expect("a message was received");
+    assert_eq!((connection.peer_component, connection.peer_gate), ("left_motor", "state"));
+    Ok(())
+}
+
+#[test]
+fn gates_of_different_components_are_told_apart_by_an_enum_of_their_own() -> Result<()> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut left = Motor::open_blocking_as_with(MotorInstance::LeftMotor, in_folder(&folder))?;
+    let mut controller = Controller::open_blocking_with(in_folder(&folder))?;
+    let mut display = Display::open_blocking_with(in_folder(&folder))?;
+    left.state.send_blocking(&1)?;
+    assert_eq!(display.numbers.recv_from_blocking()?, (DisplayNumbersSender::LeftMotor, 1));
+    controller.left.send_blocking(&2)?;
+    assert_eq!(display.numbers.recv_from_blocking()?, (DisplayNumbersSender::ControllerLeft, 2));
+    controller.right.send_blocking(&3)?;
+    assert_eq!(display.numbers.recv_timeout(LONG)?, 3);
+    assert_eq!(display.numbers.sender(), Some(DisplayNumbersSender::ControllerRight));
+    left.state.send_blocking(&4)?;
+    let newest = loop {
+        if let Some(newest) = display.numbers.latest()? {
+            break newest;
+        }
+        std::thread::yield_now();
+    };
+    assert_eq!((display.numbers.sender(), newest), (Some(DisplayNumbersSender::LeftMotor), 4));
+    Ok(())
+}
+
+#[tokio::test]
+async fn in_a_unit_test_the_first_peer_sends() -> Result<()> {
+    let (mut controller, mut peer) = Controller::test().await?;
+    peer.states.send(&1).await?;
+    assert_eq!(controller.states.recv_from().await?, (MotorInstance::LeftMotor, 1));
     Ok(())
 }

@@ -15,14 +15,16 @@ fn each_process_is_the_component_that_it_was_started_as() {
         let mut controller = open_with(&system, MOTORS, "controller");
         let _left = motor(&system, "left_motor");
         let right = motor(&system, "motors.right_motor");
-        for (command, answer) in [("left 1", "10"), ("right 2", "20"), ("left 3", "30")] {
+        for (command, answer) in
+            [("left 1", "left_motor 10"), ("right 2", "right_motor 20"), ("left 3", "left_motor 30")]
+        {
             controller.tell(command);
             controller.expect(answer);
         }
         right.kill();
         let _right = motor(&system, "right_motor");
         controller.tell("right 4");
-        controller.expect("40");
+        controller.expect("right_motor 40");
     });
 }
 

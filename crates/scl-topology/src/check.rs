@@ -49,6 +49,7 @@ mod schema_names;
 mod schema_package;
 mod schema_type;
 mod self_connection;
+mod sender_enum;
 mod shared_socket;
 mod short_timeout;
 mod similar_name;
@@ -243,6 +244,7 @@ fn check_names(model: &Model, sources: &Sources, problems: &mut Diagnostics) {
     name_spelling::check(model, &renames, problems);
     keyword::check(model, &renames, problems);
     similar_name::check(model, sources, &renames, problems);
+    sender_enum::check(model, &renames, problems);
     reserved_name::check(model, &renames, problems);
     name_style::check(model, &renames, problems);
 }

@@ -76,6 +76,7 @@ pub mod model;
 pub mod parse;
 pub mod resolve;
 pub mod rust_name;
+pub mod senders;
 pub mod socket_paths;
 pub mod source;
 pub mod suggest;

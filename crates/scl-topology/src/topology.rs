@@ -343,17 +343,18 @@ impl Topology {
     pub fn connection(&self, id: ConnectionId) -> &Connection {
         &self.connections[id.0 as usize]
     }
+    /// The gate and, for a kind, the same gate of its other components.
+    pub(crate) fn gates_of_type(&self, id: GateId) -> impl Iterator<Item = GateId> {
+        let component = self.gate(id).component;
+        let index = self.component(component).gates.iter().position(|gate| *gate == id);
+        let kind = self.component(component).kind.map(|kind| self.kind(kind));
+        let components = kind.map_or_else(|| vec![component], |kind| kind.components.clone());
+        // All components of a kind have the same gates in the same order.
+        components.into_iter().filter_map(move |of| self.component(of).gates.get(index?).copied())
+    }
     /// The gates at the other ends of a gate; for a kind, of this gate of each of its components.
     pub fn peers_of_type(&self, id: GateId) -> Vec<GateId> {
-        let component = self.gate(id).component;
-        let components = match self.component(component).kind.map(|kind| self.kind(kind).components()) {
-            Some(components) => components,
-            None => &[component],
-        };
-        let index = self.component(component).gates.iter().position(|gate| *gate == id);
-        // All components of a kind have the same gates in the same order.
-        let gates = components.iter().filter_map(|of| self.component(*of).gates.get(index?).copied());
-        let peers = gates.flat_map(|gate| self.peers(gate));
+        let peers = self.gates_of_type(id).flat_map(|gate| self.peers(gate));
         let mut seen = HashSet::new();
         peers.filter(|peer| seen.insert(*peer)).collect()
     }

@@ -62,20 +62,25 @@ fn expand_opened(
     side: Side,
 ) -> Vec<TokenStream> {
     let private = &context.private;
-    let gates = component.gates().iter().map(|&id| topology.gate(id)).enumerate();
-    let fields = gates.map(|(index, gate)| {
+    let fields = component.gates().iter().enumerate().map(|(index, &id)| {
+        let gate = topology.gate(id);
         let field = field_name(gate);
         let kind = side.kind(gate.kind());
         let method = opener_method(kind, context.span);
+        // The enum is inferred from the struct, too.
+        let with_senders = match side {
+            Side::Component => topology.senders(id).map(|_| quote_spanned!(context.span => .with_senders()?)),
+            Side::Counterpart => None,
+        };
         match traits.of(gate) {
             // The message types are inferred from the struct, so a wrong type is reported only once, at the struct.
             Some(CodecTrait { name, .. }) => {
-                quote_spanned! { context.span => #field: #name::#method(__opener, #index)? }
+                quote_spanned! { context.span => #field: #name::#method(__opener, #index)? #with_senders }
             }
             None => {
                 let bytes = bytes(context, kind);
                 quote_spanned! { context.span =>
-                    #field: __opener.#method::<#bytes, #private::codec::Opaque>(#index)?
+                    #field: __opener.#method::<#bytes, #private::codec::Opaque>(#index)? #with_senders
                 }
             }
         }

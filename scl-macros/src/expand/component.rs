@@ -10,6 +10,7 @@ use super::gate_types::gate_type;
 use super::kind;
 use super::names::{counterpart_name, field_name, instance_name, struct_name};
 use super::schemas::EmbeddedSchemas;
+use super::senders::{self, kinds_told_apart, sender_type};
 use super::spec::expand_spec;
 use super::structs::{GateField, expand_struct};
 use super::type_agreement;
@@ -18,19 +19,24 @@ use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use scl_plan::Plan;
 use scl_topology::topology::{ComponentType, Topology};
+use std::collections::HashSet;
 use syn::Ident;
 
 /// All generated components, with the checks that only rustc can make.
 pub(super) fn expand_components(context: &Context<'_>, topology: &Topology) -> TokenStream {
     let included = || topology.types().filter(|it| context.includes(it.name()));
     let structs = included().map(|it| expand_structs(context, topology, it));
-    let kinds = included().map(|it| kind::expand_enum(context, topology, it));
+    let told_apart: HashSet<&str> = included().flat_map(|it| kinds_told_apart(topology, it)).collect();
+    let kinds = topology.types().filter(|it| context.includes(it.name()) || told_apart.contains(it.name()));
+    let kinds = kinds.map(|it| kind::expand_enum(context, topology, it));
+    let senders = included().map(|it| senders::expand_enums(context, topology, it));
+    let enums = quote!(#(#kinds)* #(#senders)*);
     if context.for_editor {
         let methods = included().map(|it| {
-            let instance = it.kind.map(|_| instance_name(it));
+            let instance = it.kind.map(|kind| instance_name(kind.name()));
             expand_unopened(context, &struct_name(it), instance.as_ref(), Some(&counterpart_name(it)))
         });
-        return quote!(#(#structs)* #(#kinds)* #(#methods)*);
+        return quote!(#(#structs)* #enums #(#methods)*);
     }
     let location = |span| context.location(span);
     let components: Vec<(ComponentType<'_>, Plan)> =
@@ -48,7 +54,7 @@ pub(super) fn expand_components(context: &Context<'_>, topology: &Topology) -> T
     // With the span of the literal, rustc's own errors about a type point at the literal and not into a macro.
     quote_spanned! { context.span =>
         #(#structs)*
-        #(#kinds)*
+        #enums
         #[allow(
             dead_code, non_camel_case_types, non_snake_case, private_bounds, private_interfaces, clippy::all,
             clippy::pedantic
@@ -74,7 +80,14 @@ fn expand_structs(context: &Context<'_>, topology: &Topology, component: Compone
                 Side::Component => GateDoc::new(context, topology, id).text(),
                 Side::Counterpart => docs::of_other_end(&topology.gate_path(id)),
             };
-            GateField { name: field_name(gate), doc, gate_type: gate_type(context, gate, side.kind(gate.kind())) }
+            let gate_type = match side {
+                Side::Component => {
+                    let senders = topology.senders(id);
+                    gate_type(context, gate, gate.kind(), senders.as_ref().map(sender_type))
+                }
+                Side::Counterpart => gate_type(context, gate, side.kind(gate.kind()), None),
+            };
+            GateField { name: field_name(gate), doc, gate_type }
         });
         let (name, doc) = match side {
             Side::Component => (struct_name(component), docs::of_component(context, topology, component)),
@@ -120,8 +133,8 @@ fn expand_implementation(
     let counterpart = spec(&plan.counterpart(), &EmbeddedSchemas::default());
     let counterpart = implementation(&peer, counterpart, Side::Counterpart);
     let bounds = requirements.expand_bounds(context, topology, component.component);
-    let kind_methods = component.kind.map(|_| {
-        let instance = instance_name(component);
+    let kind_methods = component.kind.map(|kind| {
+        let instance = instance_name(kind.name());
         quote_spanned!(context.span => #private::kind_methods!(#name, #instance #bounds);)
     });
     quote_spanned! { context.span =>

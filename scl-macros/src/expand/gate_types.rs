@@ -5,20 +5,25 @@ use super::kinds::gate_struct;
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use scl_topology::topology::{Gate, GateKind, Payload};
+use syn::Ident;
 
-/// The type of a gate for a kind: the gate's own kind, or the opposite one for its counterpart.
-pub(super) fn gate_type(context: &Context<'_>, gate: &Gate, kind: GateKind) -> TokenStream {
-    let private = &context.private;
-    let name = gate_struct(kind);
-    let messages = match gate.payload() {
+/// The type of a gate for a kind, the gate's own or the opposite one for its counterpart, perhaps with an enum of its
+/// senders.
+pub(super) fn gate_type(context: &Context<'_>, gate: &Gate, kind: GateKind, senders: Option<Ident>) -> TokenStream {
+    let (private, name) = (&context.private, gate_struct(kind));
+    let (messages, senders) = (messages(context, gate, kind), senders.into_iter());
+    quote!(#private::#name<#messages #(, #senders)*>)
+}
+
+fn messages(context: &Context<'_>, gate: &Gate, kind: GateKind) -> TokenStream {
+    match gate.payload() {
         Payload::Bytes => bytes(context, kind),
         Payload::Message(message) => message_type(context, message.dotted()),
         Payload::Exchange { request, reply } => {
             let (request, reply) = (message_type(context, request.dotted()), message_type(context, reply.dotted()));
             quote!(#request, #reply)
         }
-    };
-    quote!(#private::#name<#messages>)
+    }
 }
 
 /// The type arguments of a gate without a message type: bytes in each direction.

@@ -16,7 +16,7 @@ pub(super) fn expand_enum(context: &Context<'_>, topology: &Topology, of: Compon
         name: component.name(),
         doc: docs::of_instance(context, component.name(), component.doc(), component.span()),
     });
-    expand_instances(context, &instance_name(of), kind.name(), components)
+    expand_instances(context, &instance_name(kind.name()), kind.name(), components)
 }
 
 /// A component of a kind.

@@ -2,7 +2,7 @@
 
 use proc_macro2::Span;
 use quote::format_ident;
-use scl_topology::rust_name::is_keyword;
+use scl_topology::rust_name::{component_type, is_keyword};
 use scl_topology::topology::{Component, ComponentType, Gate};
 use syn::Ident;
 
@@ -23,8 +23,8 @@ pub(super) fn struct_name(component: ComponentType<'_>) -> Ident {
 }
 
 /// The enum of the components of a kind: `MotorInstance`.
-pub(super) fn instance_name(component: ComponentType<'_>) -> Ident {
-    format_ident!("{}Instance", struct_name(component))
+pub(super) fn instance_name(kind: &str) -> Ident {
+    format_ident!("{}Instance", checked(&component_type(kind)))
 }
 
 /// The variant of a component of a kind.
@@ -43,7 +43,7 @@ pub(super) fn field_name(gate: &Gate) -> Ident {
 }
 
 /// The identifier of a name that the checks have accepted.
-fn checked(name: &str) -> Ident {
+pub(super) fn checked(name: &str) -> Ident {
     let span = Span::call_site();
     // The checks refuse every name that is not an identifier; if one slips through, rustc reports it without a panic.
     identifier(name, span).unwrap_or_else(|| Ident::new("name_that_is_not_an_identifier", span))

@@ -7,14 +7,16 @@ use super::context::Context;
 use super::docs::{self, GateDoc};
 use super::kind::{Instance, expand_instances};
 use super::kinds::gate_struct;
-use super::names::identifier;
+use super::names::{identifier, instance_name};
 use super::problems::expand_unknown_type;
+use super::senders::{expand_enum, sender_type};
 use super::structs::{GateField, expand_struct};
 use super::unopened::expand_unopened;
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote};
-use scl_topology::model::{ComponentModel, GateModel};
+use scl_topology::model::{ComponentModel, GateModel, Model};
 use scl_topology::rust_name::{component_type, gate_field};
+use scl_topology::senders::{Peer, Senders, enum_name};
 use scl_topology::topology::GateKind;
 use std::collections::HashSet;
 use syn::Ident;
@@ -25,9 +27,13 @@ const HANDLE_FIELD: &str = "__scl";
 /// One struct for each component whose name can be a Rust type, with its counterpart.
 pub(super) fn expand_skeleton(context: &Context<'_>) -> TokenStream {
     let mut seen = HashSet::new();
-    let included = context.loaded.model.owners().filter(|component| context.includes(&component.name.value));
-    let distinct = included.filter(|component| seen.insert(component_type(&component.name.value)));
-    let structs = distinct.filter_map(|component| expand_component(context, component));
+    let owners = context.loaded.model.owners();
+    let distinct = owners.filter(|component| seen.insert(component_type(&component.name.value)));
+    let structs = distinct.filter_map(|component| match context.includes(&component.name.value) {
+        true => expand_component(context, component),
+        // The gates of other components may tell the components of a kind apart.
+        false => expand_instances_of(context, component).map(|(_, instances)| instances),
+    });
     quote! { #(#structs)* }
 }
 
@@ -47,17 +53,22 @@ fn expand_component(context: &Context<'_>, component: &ComponentModel) -> Option
         gates.iter().zip(docs).filter_map(|(gate, doc)| gate.field(context, doc.text())).collect();
     let expanded = expand_struct(context, &name, &doc, &fields);
     let peer = expand_peer(context, component, &gates, &name);
-    let instances = expand_instances_of(context, component, &name);
+    let instances = expand_instances_of(context, component);
+    let senders = gates.iter().filter_map(|gate| {
+        expand_enum(context, &format!("{}.{}", component.name.value, gate.gate.name.value), gate.senders.as_ref()?)
+    });
+    let senders = quote!(#(#senders)*);
     let instance = instances.as_ref().map(|(name, _)| name);
     let methods = expand_unopened(context, &name, instance, peer.as_ref().map(|(name, _)| name));
     let (peer, instances) = (peer.map(|(_, peer)| peer), instances.map(|(_, instances)| instances));
-    Some(quote!(#expanded #peer #instances #methods))
+    Some(quote!(#expanded #peer #instances #senders #methods))
 }
 
 /// The enum of the components of a kind, as far as their names can be variants; `None` for a component.
-fn expand_instances_of(context: &Context<'_>, kind: &ComponentModel, name: &Ident) -> Option<(Ident, TokenStream)> {
+fn expand_instances_of(context: &Context<'_>, kind: &ComponentModel) -> Option<(Ident, TokenStream)> {
     let model = &context.loaded.model;
     model.kinds.iter().find(|it| std::ptr::eq(*it, kind))?;
+    identifier(&component_type(&kind.name.value), Span::call_site())?;
     let mut seen = HashSet::new();
     let components =
         model.components.iter().filter(|it| it.kind.as_ref().is_some_and(|it| it.value == kind.name.value));
@@ -67,7 +78,7 @@ fn expand_instances_of(context: &Context<'_>, kind: &ComponentModel, name: &Iden
         let doc = docs::of_instance(context, &name.value, doc, name.span);
         seen.insert(variant.clone()).then_some(Instance { variant, name: &name.value, doc })
     });
-    let instance = format_ident!("{name}Instance");
+    let instance = instance_name(&kind.name.value);
     let expanded = expand_instances(context, &instance, &kind.name.value, instances);
     Some((instance, expanded))
 }
@@ -98,22 +109,34 @@ struct ReadGate<'a> {
     payload: Option<&'a str>,
     /// The paths of the gates that it is connected to.
     peers: Vec<&'a str>,
+    /// How a program tells its senders apart, if there are several.
+    senders: Option<Senders<'a>>,
 }
 
 impl<'a> ReadGate<'a> {
     fn new(context: &'a Context<'_>, component: &ComponentModel, gate: &'a GateModel) -> Self {
         let model = &context.loaded.model;
-        // Of a kind, the peers of its first component are shown.
+        // Of a kind, the peers of all its components.
         let is_of_kind =
             |other: &&ComponentModel| other.kind.as_ref().is_some_and(|it| it.value == component.name.value);
-        let first = model.components.iter().find(is_of_kind).unwrap_or(component);
-        let path = format!("{}.{}", first.name.value, gate.name.value);
+        let paths: HashSet<String> = model
+            .components
+            .iter()
+            .filter(is_of_kind)
+            .chain([component])
+            .map(|of| format!("{}.{}", of.name.value, gate.name.value))
+            .collect();
         let peers = model.connections.iter().filter_map(|connection| match &connection.ends {
-            [a, b] if a.value == path => Some(b.value.as_str()),
-            [a, b] if b.value == path => Some(a.value.as_str()),
+            [a, b] if paths.contains(&a.value) => Some((a.value.as_str(), b.value.as_str())),
+            [a, b] if paths.contains(&b.value) => Some((b.value.as_str(), a.value.as_str())),
             _ => None,
         });
-        let peers: Vec<&str> = peers.collect();
+        let (mut seen, mut own_ends, mut has_several) = (HashSet::new(), HashSet::new(), false);
+        let distinct = peers.filter(|(own, peer)| {
+            has_several |= !own_ends.insert(*own);
+            seen.insert(*peer)
+        });
+        let peers: Vec<&str> = distinct.map(|(_, peer)| peer).collect();
         let own = gate.payload.as_ref().map(|payload| payload.value.as_str());
         let of_peer = |peer: &&'a str| {
             let (owner, name) = peer.split_once('.')?;
@@ -122,7 +145,18 @@ impl<'a> ReadGate<'a> {
             gate.payload.as_ref().map(|payload| payload.value.as_str())
         };
         let payload = own.or_else(|| peers.iter().find_map(of_peer));
-        Self { gate, kind: GateKind::of(&gate.kind.value), payload, peers }
+        let kind = GateKind::of(&gate.kind.value);
+        let is_free = |name: &str| !model.owners().any(|owner| component_type(&owner.name.value) == name);
+        let tells_apart =
+            kind == Some(GateKind::Sub) && has_several && is_free(&enum_name(&component.name.value, &gate.name.value));
+        let senders = tells_apart.then(|| {
+            let mut seen = HashSet::new();
+            let known = peers.iter().filter_map(|peer| sender(model, peer));
+            let distinct =
+                known.filter(|peer| seen.insert((component_type(peer.component), component_type(peer.gate))));
+            Senders::of(&component.name.value, &gate.name.value, &distinct.collect::<Vec<_>>())
+        });
+        Self { gate, kind, payload, peers, senders }
     }
 
     fn doc(&self, context: &Context<'_>) -> GateDoc {
@@ -133,18 +167,19 @@ impl<'a> ReadGate<'a> {
     /// Its field; `None` if its name cannot be one.
     fn field(&self, context: &Context<'_>, doc: String) -> Option<GateField> {
         let name = identifier(&gate_field(&self.gate.name.value), Span::call_site())?;
-        Some(GateField { name, doc, gate_type: self.expand_type(context, self.kind) })
+        let senders = self.senders.as_ref().map(sender_type);
+        Some(GateField { name, doc, gate_type: self.expand_type(context, self.kind, senders) })
     }
 
     /// The field of the counterpart.
     fn field_of_peer(&self, context: &Context<'_>, component: &str) -> Option<GateField> {
         let doc = docs::of_other_end(&format!("{component}.{}", self.gate.name.value));
         let field = self.field(context, doc)?;
-        Some(GateField { gate_type: self.expand_type(context, self.kind.map(GateKind::opposite)), ..field })
+        Some(GateField { gate_type: self.expand_type(context, self.kind.map(GateKind::opposite), None), ..field })
     }
 
     /// The gate's type, with the unknown type for each part that cannot be read.
-    fn expand_type(&self, context: &Context<'_>, kind: Option<GateKind>) -> TokenStream {
+    fn expand_type(&self, context: &Context<'_>, kind: Option<GateKind>, senders: Option<Ident>) -> TokenStream {
         let private = &context.private;
         let unknown = expand_unknown_type(context);
         let Some(kind) = kind else { return unknown };
@@ -155,7 +190,17 @@ impl<'a> ReadGate<'a> {
             let path = messages.next().and_then(|dotted| context.types.path(dotted, context.span));
             path.unwrap_or_else(|| unknown.clone())
         });
-        let messages = messages.take(count);
-        quote!(#private::#gate_type<#(#messages),*>)
+        let (messages, senders) = (messages.take(count), senders.into_iter());
+        quote!(#private::#gate_type<#(#messages),* #(, #senders)*>)
     }
+}
+
+/// The gate at the end of a connection, if it can be a variant of an enum.
+fn sender<'a>(model: &'a Model, path: &'a str) -> Option<Peer<'a>> {
+    let (owner, gate) = path.split_once('.')?;
+    let component = model.components.iter().find(|component| component.name.value == owner)?;
+    let kind = component.kind.as_ref().map(|kind| kind.value.as_str());
+    let kind = kind.filter(|kind| model.kinds.iter().any(|it| it.name.value == *kind));
+    let peer = Peer { component: owner, kind, gate };
+    identifier(&component_type(&format!("{owner}_{gate}")), Span::call_site()).map(|_| peer)
 }

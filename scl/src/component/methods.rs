@@ -196,6 +196,37 @@ macro_rules! __instances {
                 out.write_str(self.name())
             }
         }
+
+        impl $crate::private::Senders for $name {
+            fn of(connection: &$crate::private::ConnectionSpec) -> ::core::option::Option<Self> {
+                Self::ALL.iter().copied().find(|component| component.name() == connection.peer_component)
+            }
+        }
+    };
+}
+
+/// The enum of the senders of a gate.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __senders {
+    ($(#[$doc:meta])* $name:ident {
+        $($(#[$variant_doc:meta])* $variant:ident = ($component:literal, $gate:literal),)*
+    }) => {
+        $(#[$doc])*
+        #[allow(dead_code, non_camel_case_types)]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum $name {
+            $($(#[$variant_doc])* $variant,)*
+        }
+
+        impl $crate::private::Senders for $name {
+            fn of(connection: &$crate::private::ConnectionSpec) -> ::core::option::Option<Self> {
+                match (connection.peer_component, connection.peer_gate) {
+                    $(($component, $gate) => ::core::option::Option::Some(Self::$variant),)*
+                    _ => ::core::option::Option::None,
+                }
+            }
+        }
     };
 }
 

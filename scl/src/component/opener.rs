@@ -63,7 +63,7 @@ impl Opener {
         let spec = self.gate(index);
         let subscribe = |link| self.transports.of(spec, from_ref(link)).subscribe(&self.connecting(spec, link));
         let links = self.links(spec).iter().map(subscribe).collect::<Result<_, _>>();
-        Ok(Sub { incoming: self.incoming::<T, C>(index, links, GateTap::new(None, false))? })
+        Ok(Sub::new(self.incoming::<T, C>(index, links, GateTap::new(None, false))?))
     }
 
     /// Opens the `pull` gate at an index of the component's list.

@@ -15,7 +15,7 @@ use crate::codec::Raw;
 use crate::codec::{Codec, DecodeError};
 use crate::error::{BlockingError, GateName, Missing, Peers, RecvError, RecvTimeoutError};
 use crate::figures::FigureSource;
-use crate::spec::GateSpec;
+use crate::spec::{ConnectionSpec, GateSpec};
 use crate::state::Owner;
 use crate::sync::lock;
 use crate::transport::Receiver;
@@ -33,8 +33,8 @@ pub(crate) struct Incoming<T> {
     name: GateName,
     inbox: SharedInbox,
     decoder: Decoder<T>,
-    /// The link of the last message.
-    last: usize,
+    /// The link of the last message; `None` before the first one.
+    last: Option<usize>,
     /// Reused memory, empty between calls, for the messages from which `latest` chooses.
     arrived: VecDeque<Arrived>,
     /// When the message given to the program last was sent, if that was before this gate had joined.
@@ -59,7 +59,7 @@ impl<T> Incoming<T> {
             name,
             inbox,
             decoder: Decoder::new::<C>(&state, spec),
-            last: 0,
+            last: None,
             arrived: VecDeque::new(),
             latched: None,
             #[cfg(feature = "raw")]
@@ -238,7 +238,7 @@ impl<T> Incoming<T> {
     }
 
     fn decode(&mut self, Arrived { link, frame, latched }: Arrived) -> Result<T, RecvError> {
-        (self.last, self.latched) = (link, latched);
+        (self.last, self.latched) = (Some(link), latched);
         self.decoder.decode(frame).map_err(|source| self.undecodable(link, source))
     }
 
@@ -252,7 +252,7 @@ impl<T> Incoming<T> {
 
     /// Reports the last message, which the program itself could not decode.
     pub(crate) fn reject(&mut self, source: DecodeError) -> Result<(), RecvError> {
-        let rejected = Err(self.undecodable(self.last, source));
+        let rejected = Err(self.undecodable(self.last.unwrap_or_default(), source));
         if skips(self.spec) { Ok(()) } else { rejected }
     }
 
@@ -260,6 +260,17 @@ impl<T> Incoming<T> {
     fn senders(&self, link: usize) -> Peers {
         let links = self.spec.connections;
         if self.spec.endpoint.is_empty() { Peers(&links[link..=link]) } else { Peers(links) }
+    }
+
+    /// The connection of the message given to the program last, of a gate with one link per peer.
+    pub(crate) fn last_connection(&self) -> Option<&'static ConnectionSpec> {
+        self.spec.connections.get(self.last?)
+    }
+
+    /// The index of that connection, after a message was received.
+    pub(crate) fn last_link(&self) -> usize {
+        debug_assert!(self.last.is_some(), "no message was received");
+        self.last.unwrap_or_default()
     }
 
     /// The age of the message given to the program last, if its publisher had sent it before this gate joined.
@@ -327,7 +338,7 @@ impl<T: FromBytes + KnownLayout + Immutable> Incoming<T> {
     }
 
     fn view(&mut self, Arrived { link, frame, latched }: Arrived) -> Result<View<T>, RecvError> {
-        self.latched = latched;
+        (self.last, self.latched) = (Some(link), latched);
         let received = frame.len();
         View::new(frame).ok_or_else(|| self.undecodable(link, Raw::wrong_length::<T>(received)))
     }

@@ -5,7 +5,9 @@ use super::incoming::Incoming;
 use super::receiving_gate::receiving_gate;
 #[cfg(feature = "raw")]
 use super::view::View;
-use crate::error::{RecvError, RecvTimeoutError};
+use crate::error::{OpenError, RecvError, RecvTimeoutError};
+use crate::senders::{Senders, senders};
+use crate::spec::ConnectionSpec;
 use std::time::Duration;
 
 /// Receives messages from one or several publishers, in order of arrival.
@@ -22,11 +24,84 @@ use std::time::Duration;
 ///     }
 /// }
 /// ```
-pub struct Sub<T> {
+///
+/// `S` is the enum of its senders, if a program has to tell several apart, see [`recv_from`](Self::recv_from).
+pub struct Sub<T, S = ()> {
     pub(crate) incoming: Incoming<T>,
+    /// In the order of the connections; empty without an enum.
+    senders: Box<[S]>,
 }
 
 impl<T> Sub<T> {
+    pub(crate) fn new(incoming: Incoming<T>) -> Self {
+        Self { incoming, senders: Box::new([]) }
+    }
+
+    /// The same gate, which tells its senders apart. Only generated code calls it.
+    #[doc(hidden)]
+    pub fn with_senders<S: Senders>(self) -> Result<Sub<T, S>, OpenError> {
+        let (component, spec) = (self.incoming.state.spec.name, self.incoming.spec);
+        Ok(Sub { senders: senders(component, spec)?, incoming: self.incoming })
+    }
+}
+
+impl<T, S: Senders> Sub<T, S> {
+    /// [`recv`](Self::recv) that also returns who sent the message: its connection tells, so nothing is added to the
+    /// message. Only a gate with several peers has this method.
+    ///
+    /// If all peers are components of one kind, and each sends to this gate with one of its gates, `S` is the enum of
+    /// the kind. Otherwise it is an enum of the gate's own, `ControllerStatesSender`, with a variant for each component
+    /// that sends; a component that sends with several gates has one for each, `GpsFix` and `GpsError`.
+    ///
+    /// ```no_run
+    /// scl::topology!("doc/motors.yaml");
+    ///
+    /// #[scl::main]
+    /// async fn main(mut controller: Controller) -> scl::Result<()> {
+    ///     loop {
+    ///         let (motor, state) = controller.states.recv_from().await?;
+    ///         match motor {
+    ///             MotorInstance::LeftMotor => println!("left: {state} rad/s"),
+    ///             MotorInstance::RightMotor => println!("right: {state} rad/s"),
+    ///         }
+    ///     }
+    /// }
+    /// ```
+    ///
+    /// In a unit test, the counterpart sends for all peers, and the sender is the first of them.
+    ///
+    /// # Errors
+    /// Those of `recv`.
+    ///
+    /// # Cancel safety
+    /// Cancel safe: no message is lost if this is dropped before it is ready.
+    pub async fn recv_from(&mut self) -> Result<(S, T), RecvError> {
+        let message = self.incoming.recv().await?;
+        Ok((self.last_sender(), message))
+    }
+
+    /// [`recv_from`](Self::recv_from) from a plain thread.
+    ///
+    /// # Errors
+    /// Those of `recv_from`, and [`RecvError::Blocking`] inside async code or after a stop request.
+    pub fn recv_from_blocking(&mut self) -> Result<(S, T), RecvError> {
+        let message = self.incoming.recv_blocking()?;
+        Ok((self.last_sender(), message))
+    }
+
+    /// Returns who sent the message that the last call returned, whichever call that was: for
+    /// [`try_recv`](Self::try_recv), [`latest`](Self::latest), [`recv_timeout`](Self::recv_timeout), views and the
+    /// stream. Returns `None` before the first message.
+    pub fn sender(&self) -> Option<S> {
+        self.incoming.last_connection().map(|_| self.last_sender())
+    }
+
+    fn last_sender(&self) -> S {
+        self.senders[self.incoming.last_link()]
+    }
+}
+
+impl<T, S> Sub<T, S> {
     /// Waits for the next message.
     ///
     /// The gate's `queue` applies to what has arrived. With `queue: 1` this is always the newest message, also after a
@@ -87,6 +162,13 @@ impl<T> Sub<T> {
         self.incoming.latched_age()
     }
 
+    /// Returns the connection over which the message came that the last call returned; `None` before the first one.
+    ///
+    /// In a unit test it is the first one. [`sender`](Self::sender) is the same as an enum.
+    pub fn last_connection(&self) -> Option<&'static ConnectionSpec> {
+        self.incoming.last_connection()
+    }
+
     /// Returns true if all required peers are connected.
     pub fn is_connected(&self) -> bool {
         self.incoming.is_connected()
@@ -99,7 +181,7 @@ impl<T> Sub<T> {
 }
 
 #[cfg(feature = "raw")]
-impl<T: zerocopy::FromBytes + zerocopy::KnownLayout + zerocopy::Immutable> Sub<T> {
+impl<T: zerocopy::FromBytes + zerocopy::KnownLayout + zerocopy::Immutable, S> Sub<T, S> {
     /// Waits for the next message and returns a view of it in the memory in which it arrived, instead of a copy: for
     /// large messages, of a type with `codec: raw`.
     ///
@@ -151,4 +233,4 @@ impl<T: zerocopy::FromBytes + zerocopy::KnownLayout + zerocopy::Immutable> Sub<T
     }
 }
 
-receiving_gate!(Sub);
+receiving_gate!(Sub, S);

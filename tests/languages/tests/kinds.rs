@@ -36,7 +36,9 @@ fn each_process_is_the_component_that_it_was_started_as() {
             let mut right = start(&system, &motor, &[], "motors.right_motor");
             left.expect("left_motor");
             right.expect("right_motor");
-            for (command, answer) in [("left 1", "10"), ("right 2", "20"), ("left 3", "30")] {
+            for (command, answer) in
+                [("left 1", "left_motor 10"), ("right 2", "right_motor 20"), ("left 3", "left_motor 30")]
+            {
                 controller.tell(command);
                 controller.expect(answer);
             }
@@ -44,7 +46,7 @@ fn each_process_is_the_component_that_it_was_started_as() {
             let mut right = start(&system, &motor, &[], "right_motor");
             right.expect("right_motor");
             controller.tell("right 4");
-            controller.expect("40");
+            controller.expect("right_motor 40");
         });
     }
 }
@@ -101,7 +103,7 @@ fn python_opens_a_kind_from_the_topology_file() {
     left.expect("left_motor");
     right.expect("right_motor");
     controller.tell("left 1");
-    controller.expect("10");
+    controller.expect("left_motor 10");
     let told = refused(&python(), &dynamic, "");
     assert!(told.contains("OpenError: this program is a `motor`: set SCL_COMPONENT to"), "{told}");
 }

@@ -1,5 +1,6 @@
 //! Plays components of `motors.yaml`: `motors controller`, which follows commands, or `motors`, the motor that
-//! `SCL_COMPONENT` names. A motor that is ready says its name, and answers each setpoint with ten times its value.
+//! `SCL_COMPONENT` names. A motor that is ready says its name, and answers each setpoint with ten times its value; the
+//! controller says which motor has answered.
 
 use scl_tests::{Commands, say};
 use std::time::Duration;
@@ -36,7 +37,8 @@ async fn play_controller(mut controller: Controller) -> scl::Result<()> {
             "left" => controller.left.send(&value).await?,
             _ => controller.right.send(&value).await?,
         };
-        say(controller.states.recv().await?);
+        let (motor, state) = controller.states.recv_from().await?;
+        say(format!("{motor} {state}"));
     }
     Ok(())
 }

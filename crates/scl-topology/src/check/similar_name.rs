@@ -5,9 +5,9 @@ use super::merge;
 use super::named::{Name, Noun, is_well_formed, types, with_first};
 use super::rename::Renames;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
-use crate::model::{ComponentModel, Model};
+use crate::model::Model;
 use crate::rust_name::{component_type, gate_field};
-use crate::source::Sources;
+use crate::source::{Sources, Span};
 use std::collections::HashMap;
 
 /// SCL0308.
@@ -18,7 +18,8 @@ pub(crate) const SAME_TYPE: Rule = Rule {
     explanation: "Different names in the file become the same Rust type: `user-interface` and `user_interface` both \
                   become `UserInterface`. If there is a component `sensor`, the type `SensorPeer` is taken, too: it is \
                   the counterpart that is generated for tests of `sensor`. Beside a kind `motor`, `MotorInstance` is \
-                  the enum of its components. Rename one.",
+                  the enum of its components, and beside a `sub` gate `controller.states` with several peers, \
+                  `ControllerStatesSender` is the enum of its senders. Rename one.",
     example: " components:
 -  - name: user-interface
 +  - name: operator
@@ -89,7 +90,7 @@ fn pair(nouns: [Noun; 2], first: &Name, second: &Name) -> String {
 }
 
 /// Suggests a number at the end of a name.
-fn with_other_name<'m>(found: Diagnostic, renames: &Renames<'m>, noun: Noun, name: &'m Name) -> Diagnostic {
+pub(super) fn with_other_name<'m>(found: Diagnostic, renames: &Renames<'m>, noun: Noun, name: &'m Name) -> Diagnostic {
     let other = format!("{}_2", gate_field(&name.value).trim_end_matches('_'));
     let or = if found.helps.is_empty() { "" } else { "or " };
     let help = format!("{or}rename one of them, for example `{}` to `{other}`", name.value);
@@ -103,36 +104,53 @@ const BESIDE: [(&str, bool, &str); 2] =
 /// Reports components and kinds with the name of a type that the macro generates beside another one: `ControllerPeer`
 /// beside `Controller`, and `MotorInstance` beside the kind `Motor`.
 fn check_beside<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
-    let named = |noun: Noun| move |owner: &'m ComponentModel| (noun, &owner.name);
-    let kinds = || model.kinds.iter().map(named(Noun::Kind));
-    // Components of a kind become variants of its enum.
-    let components = || model.components.iter().filter(|component| component.of.is_none()).map(named(Noun::Component));
-    let types = || kinds().chain(components());
-    let well_formed = types().filter(|(_, name)| is_well_formed(&name.value));
+    let well_formed = owners(model).filter(|(_, name)| is_well_formed(&name.value));
     let by_type: HashMap<String, (Noun, &Name)> =
         well_formed.rev().map(|(noun, name)| (component_type(&name.value), (noun, name))).collect();
-    for (noun, name) in types() {
+    for (noun, name) in owners(model) {
         let rust = component_type(&name.value);
         let beside = BESIDE.iter().find_map(|(end, only_kinds, what)| {
             let (noun, owner) = by_type.get(rust.strip_suffix(end)?)?;
             (!only_kinds || *noun == Noun::Kind).then_some((end.to_lowercase(), what, owner))
         });
         let Some((end, what, owner)) = beside else { continue };
-        let headline = format!(
-            "{} `{}` would become the Rust type `{rust}`, which {what} `{}`",
-            noun.word(),
-            name.value,
-            owner.value
-        );
+        let what = format!("{what} `{}`", owner.value);
         let other = format!("{end}_of_{}", gate_field(&owner.value));
-        let without = format!("choose a name that does not end with `{end}`");
-        let found = SAME_TYPE
-            .at(headline, name.span, format!("becomes `{rust}`"))
-            .label(owner.span, format!("gets `{rust}` beside it"))
-            .suggest(format!("{without}, for example `{other}`"), renames.edits(noun, name, &other))
-            .otherwise(without);
-        problems.push(found);
+        let taken_by = Taken { rust: &rust, what: &what, by: owner.span, end: &end, other: &other };
+        problems.push(taken(renames, noun, name, &taken_by));
     }
+}
+
+/// Kinds, and components of no kind: the others become variants of the enum of their kind.
+pub(super) fn owners(model: &Model) -> impl DoubleEndedIterator<Item = (Noun, &Name)> {
+    let kinds = model.kinds.iter().map(|kind| (Noun::Kind, &kind.name));
+    let components = model.components.iter().filter(|component| component.of.is_none());
+    kinds.chain(components.map(|component| (Noun::Component, &component.name)))
+}
+
+/// A type that the macro generates beside another one.
+pub(super) struct Taken<'a> {
+    /// Its name.
+    pub(super) rust: &'a str,
+    /// What it is: `` is generated for tests of `controller` ``.
+    pub(super) what: &'a str,
+    /// The name beside which it is generated.
+    pub(super) by: Span,
+    /// The word with which names should not end, and a name without it.
+    pub(super) end: &'a str,
+    pub(super) other: &'a str,
+}
+
+/// A component or kind with the name of such a type.
+pub(super) fn taken<'m>(renames: &Renames<'m>, noun: Noun, name: &'m Name, taken: &Taken<'_>) -> Diagnostic {
+    let Taken { rust, what, by, end, other } = taken;
+    let headline = format!("{} `{}` would become the Rust type `{rust}`, which {what}", noun.word(), name.value);
+    let without = format!("choose a name that does not end with `{end}`");
+    SAME_TYPE
+        .at(headline, name.span, format!("becomes `{rust}`"))
+        .label(*by, format!("gets `{rust}` beside it"))
+        .suggest(format!("{without}, for example `{other}`"), renames.edits(noun, name, other))
+        .otherwise(without)
 }
 
 /// The names that collide with an earlier, different name in Rust. Another rule reports equal names.
