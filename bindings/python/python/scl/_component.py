@@ -215,7 +215,8 @@ def open(
 ) -> DynamicComponent:
     """Checks a topology file, with the same messages as `scl check`, and opens one of its components.
 
-    The name of a kind opens the component of the kind that `SCL_COMPONENT` names. Raises `TopologyError` if the file has errors. The other arguments are those of `Component`.
+    The name of a kind opens the component of the kind that `SCL_COMPONENT` names. Raises `TopologyError` if the file
+    has errors. The other arguments are those of `Component`.
     """
     plan, found = _native.Plan.of_file(os.fspath(topology))
     for warning in found:

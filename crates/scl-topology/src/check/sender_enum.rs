@@ -8,7 +8,6 @@ use crate::model::{ComponentModel, GateModel, Model};
 use crate::rust_name::{component_type, gate_field};
 use crate::senders::enum_name;
 use crate::topology::GateKind;
-use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 
 /// Reports components and kinds with the name of such an enum, and gates whose enums would have one name. An enum of
@@ -29,14 +28,10 @@ pub(super) fn check<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut 
             problems.push(taken(renames, *noun, name, &taken_by));
             continue;
         }
-        let (first_owner, first) = match gates.entry(rust) {
-            Entry::Vacant(free) => {
-                free.insert((owner, gate));
-                continue;
-            }
-            Entry::Occupied(first) => *first.get(),
+        let Some(&(first_owner, first)) = gates.get(&rust) else {
+            gates.insert(rust, (owner, gate));
+            continue;
         };
-        let rust = enum_name(&owner.name.value, &gate.name.value);
         let first_path = format!("{}.{}", first_owner.name.value, first.name.value);
         let headline =
             format!("the senders of `{first_path}` and of `{path}` would both become the Rust type `{rust}`");
