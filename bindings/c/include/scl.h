@@ -319,6 +319,15 @@ bool scl_is_connected(const scl_gate *gate);
 int64_t scl_latched_age(const scl_gate *gate);
 
 /**
+ * Returns the gate that sent the message that a `sub` gate received last, as `component.gate`: its connection tells.
+ * NULL before the first message, for gates of other kinds, and for an invalid handle or a gate that another thread is
+ * using; `scl_error` then says so.
+ *
+ * The text is valid until scl_close.
+ */
+const char *scl_sender(const scl_gate *gate);
+
+/**
  * Gives memory of `len` bytes, in which to make a message for `scl_send` or `scl_call` of this gate. It belongs to the
  * gate and is valid until the next call to that gate; its content is arbitrary. Using it is optional, it spares
  * allocating.

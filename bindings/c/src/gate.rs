@@ -7,7 +7,7 @@ use crate::registry::{Locked, Registry};
 use crate::status::*;
 use scl::bytes::Bytes;
 use scl::untyped::Gate;
-use std::ffi::c_void;
+use std::ffi::{CString, c_char, c_void};
 use std::time::Duration;
 
 /// A gate. It belongs to its component and lives as long.
@@ -26,6 +26,8 @@ pub(crate) struct OpenGate {
     /// The memory of `scl_buffer`.
     pub(crate) buffer: Vec<u8>,
     pub(crate) patience: Patience,
+    /// The gates at the other ends of a `sub` gate's connections, for C.
+    senders: Vec<CString>,
 }
 
 pub(crate) static GATES: Registry<OpenGate> = Registry::new(5, "gate");
@@ -48,6 +50,17 @@ pub unsafe extern "C" fn scl_is_connected(gate: *const scl_gate) -> bool {
 pub unsafe extern "C" fn scl_latched_age(gate: *const scl_gate) -> i64 {
     let nanoseconds = |age: Duration| i64::try_from(age.as_nanos()).unwrap_or(i64::MAX);
     border::value(|| Ok(lock(gate)?.gate.latched_age().map_or(-1, nanoseconds))).unwrap_or(-1)
+}
+
+/// Returns the gate that sent the message that a `sub` gate received last, as `component.gate`: its connection tells.
+/// NULL before the first message, for gates of other kinds, and for an invalid handle or a gate that another thread is
+/// using; `scl_error` then says so.
+///
+/// The text is valid until scl_close.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_sender(gate: *const scl_gate) -> *const c_char {
+    let sender = border::value(|| Ok(lock(gate)?.sender()));
+    sender.unwrap_or(std::ptr::null())
 }
 
 /// Gives memory of `len` bytes, in which to make a message for `scl_send` or `scl_call` of this gate. It belongs to the
@@ -73,7 +86,11 @@ pub unsafe extern "C" fn scl_buffer(gate: *mut scl_gate, len: usize, buffer: *mu
 
 pub(crate) fn insert(component: &str, gate: Gate) -> Result<usize, Failure> {
     let name = format!("{component}.{}", gate.spec().name);
-    GATES.insert(OpenGate { name, gate, kept: None, buffer: Vec::new(), patience: Patience::NONE })
+    let peers = gate.spec().connections.iter().filter(|_| matches!(gate, Gate::Sub(_)));
+    let peers = peers.map(|peer| format!("{}.{}", peer.peer_component, peer.peer_gate));
+    // No name contains a NUL: sockets are named after it.
+    let senders = peers.map(|peer| CString::new(peer).unwrap_or_default()).collect();
+    GATES.insert(OpenGate { name, gate, kept: None, buffer: Vec::new(), patience: Patience::NONE, senders })
 }
 
 /// Locks a gate for one call.
@@ -82,6 +99,14 @@ pub(crate) fn lock(gate: *const scl_gate) -> Result<Locked<'static, OpenGate>, F
 }
 
 impl OpenGate {
+    /// The sender of the last message, or NULL.
+    fn sender(&self) -> *const c_char {
+        let connections = self.gate.spec().connections;
+        let last = self.gate.last_connection();
+        let index = last.and_then(|last| connections.iter().position(|connection| std::ptr::eq(connection, last)));
+        index.and_then(|index| self.senders.get(index)).map_or(std::ptr::null(), |sender| sender.as_ptr())
+    }
+
     /// Returns the message that the program sends. It is copied unless it is the whole of the gate's own buffer and
     /// longer than `KEPT_CAPACITY`.
     ///

@@ -338,6 +338,14 @@ impl Gate {
         Ok(age.map(|age| age.as_secs_f64()))
     }
 
+    /// The gate that sent the message received last, as `component.gate`.
+    #[getter]
+    fn sender(&self, py: Python<'_>) -> PyResult<Option<String>> {
+        self.shared.check_open()?;
+        let last = detach(py, || self.visit(|gate| gate.last_connection()))??;
+        Ok(last.map(|last| format!("{}.{}", last.peer_component, last.peer_gate)))
+    }
+
     fn stats<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         self.shared.check_open()?;
         let (stats, peers) = detach(py, || self.visit(|gate| (gate.stats(), gate.peer_stats())))??;

@@ -30,10 +30,12 @@ def test_rust_sends_to_python(each_system: System) -> None:
     source = each_system.rust("source")
     sink = each_system.open("sink")
     sink.ready(60)
+    assert sink.readings.sender is None
     for command, gate in [("publish 0 3", sink.readings), ("lossless 0 3", sink.lossless), ("push 0 3", sink.jobs)]:
         assert source.ask(command) in ("published", "pushed")
         assert [gate.recv(60).value for _ in range(3)] == [0, 1, 2]
     assert sink.newest.recv(60).value == 2
+    assert (sink.readings.sender, sink.newest.sender) == ("source.readings", "source.readings")
     source.tell("call 21")
     request = sink.answer.recv(60)
     assert request.message.value == 21

@@ -5,11 +5,11 @@
 
 mod component_functions;
 mod content;
+mod enumeration;
 mod function;
 mod gate;
 mod header;
 mod helpers;
-mod instance;
 mod literal;
 mod protobuf_c;
 mod recursion;
@@ -40,23 +40,16 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
         for name in [prefix.clone()].into_iter().chain(functions).chain([format!("{prefix}_wait")]) {
             declare(C, name, Origin::component(component));
         }
-        if let Some(enumeration) = instance::enumeration(system, component) {
-            for instance in &component.instances {
-                declare(C, instance::constant(&enumeration, instance), Origin::instance(instance));
-            }
-            for name in [instance::names(&enumeration), enumeration] {
-                declare(C, name, Origin::component(component));
-            }
-        }
         for gate in &component.gates {
             let origin = Origin::gate(component, gate);
-            gate::declared(&prefix, gate).into_iter().for_each(|name| declare(C, name, origin.clone()));
+            gate::declared(system, &prefix, gate).into_iter().for_each(|name| declare(C, name, origin.clone()));
             declare(&format!("the C struct `{prefix}`"), gate::member(gate), origin);
         }
         for gate in wait::gates(component) {
             declare(C, wait::constant(&prefix, gate), Origin::gate(component, gate));
         }
     }
+    found.extend(system.components.iter().flat_map(|component| enumeration::declarations(system, component, C)));
     found
 }
 
@@ -72,7 +65,7 @@ pub(crate) fn files(system: &System) -> Vec<File> {
 /// All functions of a component and its gates.
 fn functions(system: &System, component: &Component) -> Vec<Function> {
     let prefix = prefix(system, component);
-    let of_gates = component.gates.iter().flat_map(|of| gate::functions(&prefix, of));
+    let of_gates = component.gates.iter().flat_map(|of| gate::functions(system, &prefix, of));
     let functions = component_functions(system, component).into_iter().chain(of_gates);
     functions.chain(wait::function(&prefix, component)).collect()
 }

@@ -1,6 +1,6 @@
 //! Names of the topology that would become the same name in another language: SCL1101 and SCL1102.
 
-use crate::system::{Component, Gate, Instance, MessageUse};
+use crate::system::{Component, Gate, Instance, MessageUse, SenderValue};
 use scl_topology::diagnostic::Diagnostic;
 use scl_topology::external::{MESSAGE_CLASH, NAME_CLASH};
 use scl_topology::source::Span;
@@ -62,6 +62,13 @@ impl Origin {
     pub(crate) fn gate(component: &Component, gate: &Gate) -> Self {
         let owner = component.counterpart_of.as_ref().unwrap_or(&component.name);
         Self { what: format!("gate `{owner}.{}`", gate.name), span: Some(gate.span), kind: Kind::Gate }
+    }
+
+    /// A gate that sends to a gate with several peers.
+    pub(crate) fn sender(component: &Component, gate: &Gate, sender: &SenderValue) -> Self {
+        let of = sender.path.as_deref().unwrap_or(&sender.class_name);
+        let what = format!("the sender `{of}` of gate `{}.{}`", component.name, gate.name);
+        Self { what, span: Some(gate.span), kind: Kind::Generated }
     }
 
     /// A message that a gate carries.

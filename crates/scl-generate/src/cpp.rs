@@ -1,5 +1,6 @@
 //! `--for cpp`: a header with one struct per component, over `scl.hpp` and the headers that protoc writes.
 
+mod enumeration;
 mod messages;
 mod plan_text;
 
@@ -7,7 +8,7 @@ use crate::clash::{Declaration, Origin};
 use crate::comment;
 use crate::identifier;
 use crate::output::File;
-use crate::system::{Component, Gate, Instance, MessageUse, System};
+use crate::system::{Component, Gate, MessageUse, System};
 use crate::writer::Writer;
 use messages::Messages;
 pub(crate) use messages::unwritable;
@@ -26,13 +27,7 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
         |component: &Component| Declaration::new(&inside, &component.class_name, Origin::component(component));
     let mut declarations = messages::declarations(system, &namespace, &inside);
     declarations.extend(system.components_and_counterparts().map(component));
-    for component in system.components.iter().filter(|component| component.is_kind()) {
-        let enumeration = instance_class(component);
-        let scope = format!("the C++ enum `{namespace}::{enumeration}`");
-        let instance = |of| Declaration::new(&scope, variant(of), Origin::instance(of));
-        declarations.extend(component.instances.iter().map(instance));
-        declarations.push(Declaration::new(&inside, enumeration, Origin::component(component)));
-    }
+    declarations.extend(enumeration::declarations(system, &namespace, &inside));
     for component in system.components_and_counterparts() {
         let scope = format!("the C++ struct `{namespace}::{}`", component.class_name);
         if component.counterpart.is_some() {
@@ -64,14 +59,13 @@ pub(crate) fn files(system: &System) -> Vec<File> {
         out.blank();
         headers.iter().for_each(|header| out.line(format!("#include \"{header}\"")));
     }
-    out.line(format!("\nnamespace {namespace} {{\n\nnamespace scl_generated {{\n"));
-    out.line("/// What the programs need of the topology file, as `scl plan` prints it.");
+    out.line(format!("\nnamespace {namespace} {{"));
+    enumeration::write_all(system, &mut out);
+    out.line(
+        "\nnamespace scl_generated {\n\n/// What the programs need of the topology file, as `scl plan` prints it.",
+    );
     out.line(format!("inline constexpr ::std::string_view plan = {};", plan_text::literal(&system.plan_json())));
-    for component in system.components.iter().filter(|component| component.is_kind()) {
-        let names: Vec<String> = component.instances.iter().map(|it| format!("\"{}\"", it.name)).collect();
-        let array = instance_names(component);
-        out.line(format!("\ninline constexpr const char* {array}[] = {{\n    {},\n}};", names.join(",\n    ")));
-    }
+    enumeration::write_names(system, &mut out);
     out.line("\n} // namespace scl_generated");
     for component in system.components_and_counterparts() {
         out.blank();
@@ -88,9 +82,6 @@ fn namespace(system: &System) -> String {
 
 fn write_component(out: &mut Writer, component: &Component, messages: &Messages) {
     let class = &component.class_name;
-    if component.is_kind() {
-        write_instances(out, component);
-    }
     let default = format!("{}.", component.what());
     write_comment(out, component.doc.as_deref().unwrap_or(&default));
     out.block(format!("struct {class} : ::scl::Component {{"), "};", |out| {
@@ -100,31 +91,6 @@ fn write_component(out: &mut Writer, component: &Component, messages: &Messages)
             write_gate(out, gate, component.counterpart_of.is_some(), messages);
         }
     });
-}
-
-/// Writes the enum of the components of a kind.
-fn write_instances(out: &mut Writer, component: &Component) {
-    write_comment(out, &format!("The components of the kind `{}`.", component.name));
-    out.block(format!("enum class {} {{", instance_class(component)), "};\n", |out| {
-        for instance in &component.instances {
-            instance.doc.iter().for_each(|doc| write_comment(out, doc));
-            out.line(format!("{},", variant(instance)));
-        }
-    });
-}
-
-/// `MotorInstance`.
-fn instance_class(component: &Component) -> String {
-    format!("{}Instance", component.class_name)
-}
-
-/// The constant with the names of the components of a kind.
-fn instance_names(component: &Component) -> String {
-    format!("{}Names", component.class_name)
-}
-
-fn variant(instance: &Instance) -> String {
-    identifier::c_family(&instance.class_name)
 }
 
 /// Writes the functions that open the component.
@@ -147,7 +113,7 @@ fn write_opening(out: &mut Writer, component: &Component) {
     out.line(format!("explicit {class}(const ::scl::Options& options = {{}})"));
     out.line(format!("    : ::scl::Component(scl_generated::plan, \"{name}\", options) {{}}"));
     if component.is_kind() {
-        let (enumeration, names) = (instance_class(component), instance_names(component));
+        let (enumeration, names) = (enumeration::of_kind(component), enumeration::names_of_kind(component));
         out.line(format!(
             "\n\
              /// Opens this component of the kind. Throws `scl::Taken` if it is already running.\n\
@@ -155,7 +121,7 @@ fn write_opening(out: &mut Writer, component: &Component) {
                  : ::scl::Component(scl_generated::plan, ::scl::detail::name_of(instance, scl_generated::{names}), options) {{}}\n\n\
              /// Which component of the kind it is.\n\
              {enumeration} instance() const {{\n    \
-                 return ::scl::detail::instance_of<{enumeration}>(name(), scl_generated::{names});\n\
+                 return ::scl::detail::index_of<{enumeration}>(name(), scl_generated::{names});\n\
              }}"
         ));
     }
@@ -200,7 +166,11 @@ fn gate_type(gate: &Gate, messages: &Messages) -> String {
         arguments.push("::scl::Json".to_owned());
     }
     // `Debug` prints the name of the variant, which is that of the class.
-    format!("::scl::{kind:?}<{}>", arguments.join(", "))
+    let plain = format!("::scl::{kind:?}<{}>", arguments.join(", "));
+    match &gate.senders {
+        Some(senders) => format!("::scl::From<{plain}, scl_generated::{}>", enumeration::senders(senders)),
+        None => plain,
+    }
 }
 
 const BYTES: &str = "::scl::Bytes";

@@ -21,7 +21,7 @@ mod writer;
 mod zmq;
 
 pub use output::{File, Outcome, OutputError, is_current, write};
-pub use system::{Component, Gate, Instance, MessageUse, System};
+pub use system::{Component, Gate, Instance, MessageUse, SenderValue, Senders, System};
 pub use zmq::Format;
 
 use clash::Declaration;

@@ -10,6 +10,7 @@
 
 mod component;
 mod docs;
+mod enumeration;
 mod layout;
 mod message;
 mod names;
@@ -40,16 +41,12 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
         }
         if component.is_kind() {
             found.push(Declaration::new(&inside, "instance", Origin::generated("property `instance`")));
-            let enumeration = names::instance_class(component);
-            let inside = format!("class `{enumeration}`");
-            let instance = |of| Declaration::new(&inside, names::instance(of), Origin::instance(of));
-            found.extend(component.instances.iter().map(instance));
-            found.push(declare(&enumeration, Origin::component(component)));
         }
         let gate = |gate| Declaration::new(&inside, names::gate(gate), Origin::gate(component, gate));
         found.extend(component.gates.iter().map(gate));
         found.push(declare(&class, Origin::component(component)));
     }
+    found.extend(enumeration::declarations(system, &scope));
     let used: Vec<_> = system.gates().flat_map(|gate| &gate.types).collect();
     found.extend(names.top_level().map(|(name, full_name)| {
         let used = used.iter().find(|used| used.dotted == full_name);
@@ -64,6 +61,7 @@ pub(crate) fn files(system: &System) -> Vec<File> {
     let names = Names::of(system, &schema);
     let imports = Imports::default();
     let mut body = Writer::default();
+    enumeration::write_all(system, &mut body);
     for component in system.components_and_counterparts() {
         component::write(system, component, &names, &imports, &mut body);
     }
@@ -78,9 +76,8 @@ pub(crate) fn files(system: &System) -> Vec<File> {
     out.line("\nfrom __future__ import annotations\n\nfrom typing import TYPE_CHECKING\n\nimport scl as _scl\n");
     imports.write(&mut out);
     let components = system.components_and_counterparts().map(names::class);
-    let kinds = system.components.iter().filter(|component| component.is_kind());
-    let exported =
-        components.chain(kinds.map(names::instance_class)).chain(names.top_level().map(|(name, _)| name.to_owned()));
+    let components = components.chain(enumeration::classes(system));
+    let exported = components.chain(names.top_level().map(|(name, _)| name.to_owned()));
     let quoted = exported.collect::<BTreeSet<_>>().into_iter().map(|name| Doc::text(format!("\"{name}\"")));
     let all = Doc::concat([Doc::text("__all__ = "), Doc::group("[", quoted.collect(), "]")]);
     out.line(Layout::at(0).print(&all));

@@ -1,8 +1,10 @@
 //! What generators know of a system: plans, documentation, messages, and the places of names in the topology file.
 
 mod component;
+mod senders;
 
 pub use component::{Component, Gate, Instance, MessageUse};
+pub use senders::{SenderValue, Senders};
 
 use prost_types::FileDescriptorSet;
 use scl_loader::Loaded;
@@ -57,7 +59,14 @@ impl System {
         if !unknown.is_empty() {
             return Err(unknown);
         }
-        self.components.retain(|component| names.iter().any(|name| component.includes(name)));
+        let is_wanted = |component: &Component| names.iter().any(|name| component.includes(name));
+        let wanted = self.components.iter().filter(|component| is_wanted(component));
+        // The gates of a component may tell the components of a kind apart.
+        let told_apart: Vec<String> = wanted
+            .flat_map(|component| &component.gates)
+            .filter_map(|gate| gate.senders.as_ref()?.kind.clone())
+            .collect();
+        self.components.retain(|component| is_wanted(component) || told_apart.contains(&component.name));
         self.plan.components.retain(|plan| self.components.iter().any(|of| of.includes(&plan.component)));
         self.plan.kinds.retain(|kind| self.components.iter().any(|of| of.name == kind.name));
         Ok(())
@@ -78,6 +87,16 @@ impl System {
     /// The gates of all components and counterparts.
     pub(crate) fn gates(&self) -> impl Iterator<Item = &Gate> {
         self.components_and_counterparts().flat_map(|component| &component.gates)
+    }
+
+    /// The kinds of components.
+    pub(crate) fn kinds(&self) -> impl Iterator<Item = &Component> {
+        self.components.iter().filter(|component| component.is_kind())
+    }
+
+    /// The component type of a kind.
+    pub(crate) fn kind(&self, name: &str) -> Option<&Component> {
+        self.kinds().find(|kind| kind.name == name)
     }
 
     /// The name in `snake_case`, for names of files, modules, namespaces and prefixes. It may be a keyword.

@@ -193,15 +193,6 @@ components:
   - {name: motor_instance_names, gates: []}
 ";
     expect![[r#"
-        error: [SCL1102] component `GPSFix` and component `gps_fix` would both become `ROVER_MOTOR_INSTANCE_GPS_FIX` in C
-         --> topology.yaml:9:12
-          |
-        8 |   - {name: GPSFix, kind: motor}
-          |            ------ component `GPSFix` becomes `ROVER_MOTOR_INSTANCE_GPS_FIX`
-        9 |   - {name: gps_fix, kind: motor}
-          |            ^^^^^^^ becomes `ROVER_MOTOR_INSTANCE_GPS_FIX`
-          |
-          = help: rename the component `gps_fix`
         error: [SCL1102] kind `motor` and component `motor_open_as` would both become `rover_motor_open_as` in C
           --> topology.yaml:10:12
            |
@@ -212,16 +203,25 @@ components:
            |            ^^^^^^^^^^^^^ becomes `rover_motor_open_as`
            |
            = help: rename the component `motor_open_as`
-        error: [SCL1102] kind `motor` and component `motor_instance_names` would both become `rover_motor_instance_names` in C
-          --> topology.yaml:11:12
+        error: [SCL1102] component `GPSFix` and component `gps_fix` would both become `ROVER_MOTOR_INSTANCE_GPS_FIX` in C
+         --> topology.yaml:9:12
+          |
+        8 |   - {name: GPSFix, kind: motor}
+          |            ------ component `GPSFix` becomes `ROVER_MOTOR_INSTANCE_GPS_FIX`
+        9 |   - {name: gps_fix, kind: motor}
+          |            ^^^^^^^ becomes `ROVER_MOTOR_INSTANCE_GPS_FIX`
+          |
+          = help: rename the component `gps_fix`
+        error: [SCL1102] component `motor_instance_names` and kind `motor` would both become `rover_motor_instance_names` in C
+          --> topology.yaml:3:11
            |
          3 |   - name: motor
-           |           ----- kind `motor` becomes `rover_motor_instance_names`
+           |           ^^^^^ becomes `rover_motor_instance_names`
         ...
         11 |   - {name: motor_instance_names, gates: []}
-           |            ^^^^^^^^^^^^^^^^^^^^ becomes `rover_motor_instance_names`
+           |            -------------------- component `motor_instance_names` becomes `rover_motor_instance_names`
            |
-           = help: rename the component `motor_instance_names`
+           = help: rename the kind `motor`
     "#]].assert_eq(&clashes(yaml, SCHEMA, Target::C));
     for target in [Target::Cpp, Target::Python] {
         let told = clashes(yaml, SCHEMA, target);

@@ -4,7 +4,7 @@ use crate::codec::DecodeError;
 use crate::component::Opener;
 use crate::error::{Error, OpenError};
 use crate::gate::{AnyGate, GateStats, PeerStats, Pub, Pull, Push, ReceivingGate, Rep, Req, Request, Sub};
-use crate::spec::{GateKind, GateSpec};
+use crate::spec::{ConnectionSpec, GateKind, GateSpec};
 use bytes::Bytes;
 use std::time::Duration;
 
@@ -115,6 +115,15 @@ impl Gate {
     pub fn latched_age(&self) -> Option<Duration> {
         match self {
             Gate::Sub(gate) => gate.latched_age(),
+            _ => None,
+        }
+    }
+
+    /// Returns the connection of the message that a `sub` gate returned last: see [`Sub::last_connection`]. `None` for
+    /// other kinds.
+    pub fn last_connection(&self) -> Option<&'static ConnectionSpec> {
+        match self {
+            Gate::Sub(gate) => gate.last_connection(),
             _ => None,
         }
     }

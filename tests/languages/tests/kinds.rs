@@ -4,6 +4,7 @@ use crate::cpp::build::{Build, cached, program};
 use crate::programs::{MOTORS, open_with};
 use scl_generate::Target;
 use scl_tests::{Compile, Process, System, on_each_transport, python_with_scl};
+use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -47,6 +48,43 @@ fn each_process_is_the_component_that_it_was_started_as() {
             right.expect("right_motor");
             controller.tell("right 4");
             controller.expect("right_motor 40");
+        });
+    }
+}
+
+/// What a display may say.
+const KNOWN: [&str; 4] = ["ControllerLeft 1", "LeftMotor 10", "ControllerRight 2", "RightMotor 20"];
+
+#[test]
+fn a_program_knows_who_has_sent_a_message() {
+    for language in languages() {
+        on_each_transport(|system| {
+            let mut controller = start(&system, &language, &["controller"], "");
+            controller.expect("open");
+            let mut left = start(&system, &language, &[], "left_motor");
+            let mut right = start(&system, &language, &[], "right_motor");
+            left.expect("left_motor");
+            right.expect("right_motor");
+            for (command, answer) in [("left 1", "left_motor 10"), ("right 2", "right_motor 20")] {
+                controller.tell(command);
+                controller.expect(answer);
+            }
+            let mut display = start(&system, &language, &["display"], "");
+            display.expect("open");
+            for (command, expected) in
+                [("left 1", ["ControllerLeft 1", "LeftMotor 10"]), ("right 2", ["ControllerRight 2", "RightMotor 20"])]
+            {
+                let mut missing = BTreeSet::from(expected);
+                // The first ones may be sent before the display is connected.
+                while !missing.is_empty() {
+                    controller.tell(command);
+                    controller.next_line();
+                    while let Some(line) = display.try_next_line() {
+                        assert!(KNOWN.contains(&line.as_str()), "{line}");
+                        missing.remove(line.as_str());
+                    }
+                }
+            }
         });
     }
 }

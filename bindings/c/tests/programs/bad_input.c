@@ -118,6 +118,10 @@ static void nulls(scl_component *component) {
     EXPECT(scl_wait(NULL, &values, 1, 0, &ready), SCL_ARGUMENT, "the component is NULL");
     ASSERT(scl_fd(NULL) == -1 && strstr(scl_error(), "the component is NULL"));
     ASSERT(!scl_is_connected(NULL));
+    ASSERT(scl_component_name(NULL) == NULL && strstr(scl_error(), "the component is NULL"));
+    ASSERT(strcmp(scl_component_name(component), "program") == 0);
+    ASSERT(scl_sender(NULL) == NULL && strstr(scl_error(), "the gate is NULL"));
+    ASSERT(scl_sender(values) == NULL && scl_sender(out) == NULL && scl_sender(answer) == NULL);
     ASSERT(scl_message_data(NULL, NULL) == NULL);
     ASSERT(scl_request_data(NULL, &len) == NULL && len == 0);
     scl_message_free(NULL);

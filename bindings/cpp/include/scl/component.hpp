@@ -3,6 +3,7 @@
 
 #include <scl.h>
 #include <scl/coding.hpp>
+#include <scl/enumeration.hpp>
 #include <scl/error.hpp>
 #include <scl/log.hpp>
 #include <scl/open_components.hpp>
@@ -11,10 +12,7 @@
 #include <scl/time.hpp>
 #include <scl/uncaught.hpp>
 
-#include <algorithm>
 #include <chrono>
-#include <cstddef>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -134,26 +132,6 @@ class Component {
     std::string name_;
     std::int64_t linger_ = detail::linger;
 };
-
-namespace detail {
-
-/// The name of a component of a kind.
-template <class Instance, std::size_t Count>
-const char* name_of(Instance instance, const char* const (&names)[Count]) {
-    const auto index = static_cast<std::size_t>(instance);
-    if (index >= Count) {
-        raise(Errc::argument, "the instance is not one of the kind");
-    }
-    return names[index];
-}
-
-/// The component of a kind that has this name; every open one has one of them.
-template <class Instance, std::size_t Count>
-Instance instance_of(const std::string& name, const char* const (&names)[Count]) {
-    return static_cast<Instance>(std::find(std::begin(names), std::end(names), name) - std::begin(names));
-}
-
-} // namespace detail
 
 /// Opens a component for a unit test, together with its counterpart. Generated code calls it.
 template <class Tested, class Counterpart>

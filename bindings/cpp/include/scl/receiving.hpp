@@ -1,9 +1,13 @@
 /// Gates that receive messages: `sub` and `pull`.
 #pragma once
 
+#include <scl/enumeration.hpp>
 #include <scl/receiver.hpp>
 
 #include <cstdint>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 namespace scl {
 
@@ -75,6 +79,46 @@ template <class T, class Format = Native> class Sub : public detail::ReceivingGa
         const std::int64_t age = scl_latched_age(this->handle());
         return age < 0 ? std::nullopt : std::optional(std::chrono::nanoseconds(age));
     }
+
+    /// The gate that sent the message that the last call returned, as `component.gate`: its connection tells. Empty
+    /// before the first message.
+    std::string_view sender() const noexcept {
+        const char* sender = scl_sender(this->handle());
+        return sender == nullptr ? std::string_view() : std::string_view(sender);
+    }
+};
+
+/// A `sub` gate whose senders a program tells apart by an enum. `Senders` has the enum, `Sender`, and `names`, the gates
+/// that its values stand for, in their order; generated code contains it.
+template <class Base, class Senders> class From : public Base {
+  public:
+    using Sender = typename Senders::Sender;
+    using typename Base::Message;
+
+    using Base::Base;
+
+    /// `recv` that also returns who sent the message: its connection tells, so nothing is added to the message.
+    std::pair<Sender, Message> recv_from() {
+        Message message = this->recv();
+        return {last(), std::move(message)};
+    }
+
+    /// The same with a time limit. Returns nothing if no message has arrived in time.
+    std::optional<std::pair<Sender, Message>> recv_from(TimeLimit limit) {
+        std::optional<Message> message = this->recv(limit);
+        if (!message) {
+            return std::nullopt;
+        }
+        return std::pair<Sender, Message>(last(), std::move(*message));
+    }
+
+    /// Who sent the message that the last call returned, whichever call that was; nothing before the first one.
+    std::optional<Sender> sender() const noexcept {
+        return Base::sender().empty() ? std::nullopt : std::optional<Sender>(last());
+    }
+
+  private:
+    Sender last() const noexcept { return detail::index_of<Sender>(Base::sender(), Senders::names); }
 };
 
 /// Receives messages from any number of `push` gates, in order of arrival.

@@ -12,11 +12,12 @@ from scl import _errors, codec
 from scl._buffer import Buffer
 from scl._component import Component, DynamicComponent, Transport, open, open_plan
 from scl._errors import *
-from scl._gates import Gate, Pub, Pull, Push, Rep, Req, Request, Sub
+from scl._gates import Gate, Pub, Pull, Push, Rep, Req, Request
 from scl._generated import GeneratedComponent
-from scl._kinds import ComponentOfKind, Instance
+from scl._kinds import ComponentOfKind
 from scl._native import __version__
 from scl._signals import stop_requested
+from scl._sub import Instance, Sender, Sub, SubFrom
 from scl._tasks import until_stopped
 from scl._testing import Counterpart, DynamicCounterpart, TestableComponent, test
 
@@ -36,7 +37,9 @@ __all__ = [
     "Rep",
     "Req",
     "Request",
+    "Sender",
     "Sub",
+    "SubFrom",
     "TestableComponent",
     "Transport",
     "__version__",

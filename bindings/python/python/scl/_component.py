@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeAlias, TypeVar
 
 from scl import _native, _process, codec
 from scl._errors import NotReady, UnknownGate
-from scl._gates import Gate, Pub, Pull, Push, Rep, Req, Sub
+from scl._gates import Gate, Pub, Pull, Push, Rep, Req
 from scl._loop import Loops
+from scl._sub import Sub, SubFrom
 from scl._suggest import did_you_mean
 
 # `ipc`, `tcp` or `shm`, or a list with exceptions for single connections, like `ipc,camera.frames=shm`.
@@ -36,6 +37,8 @@ class Component:
 
     _has_own_attributes: ClassVar[bool] = False
     """Whether the class is defined by the program, so that it may have any attributes."""
+    _senders: ClassVar[Mapping[str, Any]] = MappingProxyType({})
+    """The enums of the senders of gates, by attribute."""
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
@@ -81,7 +84,11 @@ class Component:
         found: dict[str, Gate] = {}
         for gate in self._native.gates:
             attribute, codecs = facts[gate.name]
-            found[gate.name] = self.__dict__[attribute] = _KINDS[gate.kind](gate, loops, *codecs)
+            if attribute in self._senders:
+                made: Gate = SubFrom(gate, loops, codecs[0], self._senders[attribute])
+            else:
+                made = _KINDS[gate.kind](gate, loops, *codecs)
+            found[gate.name] = self.__dict__[attribute] = made
         self._gates = found
         self._attributes = frozenset(attribute for attribute, _ in facts.values())
         self._readiness: _native.Readiness | None = None

@@ -219,7 +219,7 @@ class _Receiving(Gate, Generic[T]):
             yield received
 
 
-class _Receiver(_Receiving[T]):
+class Receiver(_Receiving[T]):
     __slots__ = ("type",)
 
     type: builtins.type[T]
@@ -280,19 +280,7 @@ class Push(_Sender[T]):
     __slots__ = ()
 
 
-class Sub(_Receiver[T]):
-    """Receives messages from one or several publishers."""
-
-    __slots__ = ()
-
-    @property
-    def latched_age(self) -> float | None:
-        """The age in seconds of the message received last, if its publisher has `latched: true` and had sent it before this
-        gate was connected to it; `None` for every other message."""
-        return self._native.latched_age
-
-
-class Pull(_Receiver[T]):
+class Pull(Receiver[T]):
     """Receives messages from any number of pushers."""
 
     __slots__ = ()

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from typing import ClassVar
 
 from scl._component import Component, Transport
+from scl._sub import Instance, Sender
 
 
 class GeneratedComponent(Component):
@@ -14,9 +16,17 @@ class GeneratedComponent(Component):
     _plan_text: ClassVar[str]
     _component_name: ClassVar[str]
 
-    def __init_subclass__(cls, *, plan: str | None = None, component: str | None = None) -> None:
-        """Takes the plan and the name. A program's own subclasses inherit them."""
+    def __init_subclass__(
+        cls,
+        *,
+        plan: str | None = None,
+        component: str | None = None,
+        senders: Mapping[str, type[Instance | Sender]] | None = None,
+    ) -> None:
+        """Takes the plan, the name, and the enums of the senders of gates. A program's own subclasses inherit them."""
         super().__init_subclass__()
+        if senders is not None:
+            cls._senders = senders
         if plan is not None and component is not None:
             cls._plan_text = plan
             cls._component_name = component

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import enum
 import os
 from typing import Any, ClassVar, Generic, TypeVar, cast
 
 from scl._component import Component, Transport
 from scl._generated import GeneratedComponent
-
-
-class Instance(enum.StrEnum):
-    """The components of a kind. Generated enums derive from it; each member is the name in the topology file."""
-
+from scl._sub import Instance
 
 INSTANCE = TypeVar("INSTANCE", bound=Instance)
 

@@ -40,11 +40,9 @@ class TestableComponent(GeneratedComponent, Generic[PEER]):
 
     _counterpart: ClassVar[type[Counterpart]]
 
-    def __init_subclass__(
-        cls, *, plan: str | None = None, component: str | None = None, counterpart: type[Counterpart] | None = None
-    ) -> None:
-        """Takes the description from the generated module. A program's own subclasses inherit it."""
-        super().__init_subclass__(plan=plan, component=component)
+    def __init_subclass__(cls, *, counterpart: type[Counterpart] | None = None, **rest: Any) -> None:
+        """Takes the counterpart from the generated module. A program's own subclasses inherit it."""
+        super().__init_subclass__(**rest)
         if counterpart is not None:
             cls._counterpart = counterpart
 

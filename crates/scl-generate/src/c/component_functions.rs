@@ -1,8 +1,8 @@
 //! The functions of a component: opening, waiting for peers, closing.
 
+use super::enumeration::{names_of_kind, of_kind};
 use super::function::Function;
 use super::gate::{member, refuse_null};
-use super::instance::{enumeration, names};
 use super::literal::literal;
 use super::prefix;
 use crate::system::{Component, System};
@@ -12,7 +12,7 @@ pub(super) fn component_functions(system: &System, component: &Component) -> Vec
     let own = prefix(system, component);
     let function =
         |call, doc, parameter: &str, body| Function::new(&own, call, doc, format!("{own} *self, {parameter}"), body);
-    let enumeration = enumeration(system, component);
+    let enumeration = of_kind(system, component);
     let open = component.counterpart_of.is_none().then(|| {
         let doc = match enumeration {
             None => "Opens the component; `options_json` may be NULL, see scl_open.",
@@ -45,10 +45,11 @@ pub(super) fn component_functions(system: &System, component: &Component) -> Vec
 fn open_body(component: &Component, enumeration: Option<&str>) -> String {
     let (refuse, name) = (refuse_null("self"), literal(&component.name));
     let find_instance = enumeration.map_or(String::new(), |enumeration| {
-        let names = names(enumeration);
+        let names = names_of_kind(enumeration);
         format!(
-            "    size_t count = sizeof {names} / sizeof *{names};\n    \
-                 self->instance = ({enumeration})find_instance(self->component, {names}, count);\n"
+            "    const char *name = scl_component_name(self->component);\n    \
+                 size_t count = sizeof {names} / sizeof *{names};\n    \
+                 self->instance = ({enumeration})find_name(name, {names}, count);\n"
         )
     });
     let once_open = once_open(find_instance + &find_gates(component, &["self"]));
@@ -62,7 +63,7 @@ fn open_body(component: &Component, enumeration: Option<&str>) -> String {
 
 fn open_as_body(component: &Component, enumeration: &str) -> String {
     let (refuse, names, once_open) =
-        (refuse_null("self"), names(enumeration), once_open(find_gates(component, &["self"])));
+        (refuse_null("self"), names_of_kind(enumeration), once_open(find_gates(component, &["self"])));
     format!(
         "{refuse}\n\
          memset(self, 0, sizeof *self);\n\

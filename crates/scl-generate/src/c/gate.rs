@@ -1,9 +1,10 @@
 //! The functions of one gate, by its kind.
 
 use super::content::Content;
+use super::enumeration::{names_of_senders, of_senders};
 use super::function::Function;
 use crate::identifier;
-use crate::system::Gate;
+use crate::system::{Gate, System};
 use scl_plan::GateKind;
 
 const TIMEOUT: &str = "int64_t timeout_ns";
@@ -29,19 +30,23 @@ pub(super) fn request_members(gate: &Gate) -> String {
 }
 
 /// All names that a gate declares.
-pub(super) fn declared(prefix: &str, gate: &Gate) -> Vec<String> {
-    let functions = functions(prefix, gate).into_iter().map(|function| function.name);
+pub(super) fn declared(system: &System, prefix: &str, gate: &Gate) -> Vec<String> {
+    let functions = functions(system, prefix, gate).into_iter().map(|function| function.name);
     functions.chain(request_struct(prefix, gate)).collect()
 }
 
 /// The functions of a gate; `prefix` is the name of its component's struct.
-pub(super) fn functions(prefix: &str, gate: &Gate) -> Vec<Function> {
+pub(super) fn functions(system: &System, prefix: &str, gate: &Gate) -> Vec<Function> {
     let maker = Maker { prefix, gate };
     let [first, second] = Content::both(gate);
     match gate.plan.kind {
         GateKind::Pub | GateKind::Push => vec![maker.send(&first)],
         GateKind::Sub | GateKind::Pull => {
-            [maker.recv(&first), maker.latest(&first)].into_iter().chain(maker.free(&first)).collect()
+            let enumeration = of_senders(system, prefix, gate);
+            let from =
+                enumeration.map(|enumeration| [maker.recv_from(&first, &enumeration), maker.last_sender(&enumeration)]);
+            let calls = [maker.recv(&first), maker.latest(&first)].into_iter().chain(from.into_iter().flatten());
+            calls.chain(maker.free(&first)).collect()
         }
         GateKind::Req => [maker.call(&first, &second)].into_iter().chain(maker.free(&second)).collect(),
         GateKind::Rep => vec![maker.take_request(&first), maker.reply(&first, &second), maker.free_request(&first)],
@@ -83,6 +88,35 @@ impl Maker<'_> {
         };
         let doc = "The newest message, or SCL_NOTHING; older ones are discarded.";
         self.function("latest", doc, format!("{}, {}", self.itself(), received(content, "message")), body)
+    }
+
+    fn recv_from(&self, content: &Content, enumeration: &str) -> Function {
+        let name = format!("{}_{}", self.prefix, self.gate.snake_name);
+        let body = format!(
+            "scl_status status = {name}_recv(self, message, timeout_ns);\n\
+             if (status == SCL_OK && sender != NULL) {{\n    \
+                 status = {name}_last_sender(self, sender);\n\
+             }}\n\
+             return status;"
+        );
+        let message = received(content, "message");
+        let parameters = format!("{}, {message}, {enumeration} *sender, {TIMEOUT}", self.itself());
+        self.function("recv_from", "Also stores who sent the message.", parameters, body)
+    }
+
+    fn last_sender(&self, enumeration: &str) -> Function {
+        let (member, names) = (member(self.gate), names_of_senders(self.prefix, self.gate));
+        let [refuse_self, refuse_sender] = ["self", "sender"].map(refuse_null);
+        let body = format!(
+            "{refuse_self}\n{refuse_sender}\n\
+             const char *last = scl_sender(self->gates.{member});\n\
+             if (last == NULL) {{\n    return SCL_NOTHING;\n}}\n\
+             size_t count = sizeof {names} / sizeof *{names};\n\
+             *sender = ({enumeration})find_name(last, {names}, count);\n\
+             return SCL_OK;"
+        );
+        let doc = "Who sent the message that the last call returned, or SCL_NOTHING before the first one.";
+        self.function("last_sender", doc, format!("{}, {enumeration} *sender", self.itself()), body)
     }
 
     fn call(&self, request: &Content, reply: &Content) -> Function {

@@ -1,7 +1,7 @@
 //! `<system>_scl.h`.
 
 use super::component_functions::component_functions;
-use super::{content, functions, gate, instance, messages, prefix, protobuf_c, source, wait};
+use super::{content, enumeration, functions, gate, messages, prefix, protobuf_c, source, wait};
 use crate::comment;
 use crate::system::{Component, Gate, System};
 use crate::writer::Writer;
@@ -39,6 +39,7 @@ pub(super) fn text(system: &System) -> String {
     includes(system).into_iter().for_each(|header| out.line(format!("#include \"{header}\"")));
     out.line(format!("\n{CONVENTIONS}\n\n{STRICTNESS}\n"));
     out.line("#ifdef __cplusplus\nextern \"C\" {\n#endif");
+    system.kinds().for_each(|kind| enumeration::declare_kind(system, kind, &mut out));
     system.components_and_counterparts().for_each(|component| write_component(system, component, &mut out));
     out.line("\n#ifdef __cplusplus\n}\n#endif\n");
     write_checks(system, &mut out);
@@ -55,7 +56,7 @@ fn includes(system: &System) -> BTreeSet<String> {
 
 fn write_component(system: &System, component: &Component, out: &mut Writer) {
     let prefix = prefix(system, component);
-    instance::declare(system, component, out);
+    enumeration::declare_senders(&prefix, component, out);
     out.blank();
     let noun = if component.is_kind() { "Kind" } else { "Component" };
     let headline = format!("{noun} `{}` ({})", component.name, component.declared_at);
@@ -65,7 +66,7 @@ fn write_component(system: &System, component: &Component, out: &mut Writer) {
     }
     out.block(format!("typedef struct {prefix} {{"), &format!("}} {prefix};"), |out| {
         out.line("scl_component *component;");
-        if let Some(enumeration) = instance::enumeration(system, component) {
+        if let Some(enumeration) = enumeration::of_kind(system, component) {
             out.line(format!("{enumeration} instance;"));
         }
         if component.gates.is_empty() {
@@ -77,11 +78,11 @@ fn write_component(system: &System, component: &Component, out: &mut Writer) {
     });
     out.blank();
     component_functions(system, component).iter().for_each(|function| function.declare(out));
-    component.gates.iter().for_each(|gate| write_gate(&prefix, component, gate, out));
+    component.gates.iter().for_each(|gate| write_gate(system, &prefix, component, gate, out));
     write_wait(&prefix, component, out);
 }
 
-fn write_gate(prefix: &str, component: &Component, of: &Gate, out: &mut Writer) {
+fn write_gate(system: &System, prefix: &str, component: &Component, of: &Gate, out: &mut Writer) {
     out.blank();
     let (kind, carries) = (of.plan.kind.word(), content::described(of));
     let headline = format!("Gate `{}.{}` ({}): {kind}, {carries}", component.name, of.name, of.plan.declared_at);
@@ -95,7 +96,7 @@ fn write_gate(prefix: &str, component: &Component, of: &Gate, out: &mut Writer) 
         let end = format!("}} {name};");
         out.block(format!("typedef struct {name} {{"), &end, |out| out.line(gate::request_members(of)));
     }
-    gate::functions(prefix, of).iter().for_each(|function| function.declare(out));
+    gate::functions(system, prefix, of).iter().for_each(|function| function.declare(out));
 }
 
 fn write_wait(prefix: &str, component: &Component, out: &mut Writer) {

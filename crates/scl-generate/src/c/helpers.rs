@@ -3,7 +3,7 @@
 use super::content::Content;
 use super::recursion::is_any_recursive;
 use super::{messages, wait};
-use crate::system::{Component, System};
+use crate::system::System;
 use scl_plan::GateKind::{self, Pub, Pull, Push, Rep, Req, Sub};
 
 /// The helpers that this system needs; compilers warn about unused ones.
@@ -25,10 +25,10 @@ pub(super) fn needed(system: &System) -> Vec<&'static str> {
     let messages = messages(system);
     let mut names = messages.iter().map(|message| message.dotted.as_str());
     let is_recursive = system.descriptors.as_ref().is_some_and(|files| is_any_recursive(files, &mut names));
-    let has_kinds = system.components.iter().any(Component::is_kind);
+    let has_enums = system.kinds().next().is_some() || system.gates().any(|gate| gate.senders.is_some());
     let all = [
         (true, OPEN),
-        (has_kinds, FIND_INSTANCE),
+        (has_enums, FIND_NAME),
         (is_tested, OPEN_TEST),
         (sends || asks || replies, PACK),
         (sends, SEND),
@@ -60,11 +60,10 @@ static scl_status open_component(const char *name, const char *options_json, scl
     return status != SCL_OK ? status : scl_open(plan, sizeof plan - 1, name, options_json, component);
 }";
 
-const FIND_INSTANCE: &str = "\
-/* The index of an open component among the names of its kind. */
-static size_t find_instance(scl_component *component, const char *const *names, size_t count)
+const FIND_NAME: &str = "\
+/* The index of a name, which is one of these. */
+static size_t find_name(const char *name, const char *const *names, size_t count)
 {
-    const char *name = scl_component_name(component);
     size_t index = 0;
     while (index + 1 < count && strcmp(names[index], name) != 0) {
         index++;

@@ -2,6 +2,7 @@
 
 use super::Imports;
 use super::docs;
+use super::enumeration;
 use super::layout::{Doc, Layout};
 use super::names::{self, Names};
 use crate::system::{Component, Gate, MessageUse, System};
@@ -10,14 +11,13 @@ use scl_plan::GateKind;
 
 /// Writes the class with its gates.
 pub(super) fn write(system: &System, component: &Component, names: &Names, imports: &Imports, out: &mut Writer) {
-    write_instances(component, out);
     let class = Doc::text(format!("class {}", names::class(component)));
-    let head = Doc::concat([class, Doc::group("(", arguments(component), ")"), Doc::text(":")]);
+    let head = Doc::concat([class, Doc::group("(", arguments(system, component), ")"), Doc::text(":")]);
     out.line(format!("\n\n{}", Layout::at(0).print(&head)));
     out.indented(|out| {
         docs::write(&docs::of_component(system, component, names::gate), out);
         for gate in &component.gates {
-            let annotation = annotation(gate, names, imports);
+            let annotation = annotation(system, gate, names, imports);
             let line = Doc::concat([Doc::text(format!("{}: ", names::gate(gate))), annotation]);
             out.line(format!("\n{}", Layout::at(1).print(&line)));
             docs::write(&docs::of_gate(component, gate, unsupported(gate).as_deref()), out);
@@ -25,31 +25,15 @@ pub(super) fn write(system: &System, component: &Component, names: &Names, impor
     });
 }
 
-/// Writes the enum of the components of a kind.
-fn write_instances(component: &Component, out: &mut Writer) {
-    if !component.is_kind() {
-        return;
-    }
-    out.line(format!("\n\nclass {}(_scl.Instance):", names::instance_class(component)));
-    out.indented(|out| {
-        docs::write(&format!("The components of the kind `{}`.", component.name), out);
-        out.blank();
-        for instance in &component.instances {
-            out.line(format!("{} = \"{}\"", names::instance(instance), instance.name));
-            instance.doc.iter().for_each(|doc| docs::write(doc, out));
-        }
-    });
-}
-
 /// The bases of the class, and the arguments that its base takes.
-fn arguments(component: &Component) -> Vec<Doc> {
+fn arguments(system: &System, component: &Component) -> Vec<Doc> {
     if component.counterpart_of.is_some() {
         return vec![Doc::text("_scl.Counterpart")];
     }
     let generic = |base: &str, of: &str| {
         Doc::concat([Doc::text(format!("_scl.{base}")), Doc::group("[", vec![Doc::text(of.to_owned())], "]")])
     };
-    let instance = component.is_kind().then(|| names::instance_class(component));
+    let instance = component.is_kind().then(|| enumeration::of_kind(component));
     let peer = component.counterpart.as_deref().map(names::class);
     let mut arguments = Vec::new();
     arguments.extend(instance.as_ref().map(|instance| generic("ComponentOfKind", instance)));
@@ -59,19 +43,32 @@ fn arguments(component: &Component) -> Vec<Doc> {
     }
     arguments.extend([Doc::text("plan=_PLAN"), Doc::text(format!("component=\"{}\"", component.name))]);
     arguments.extend(instance.map(|instance| Doc::text(format!("instances={instance}"))));
+    let senders = component.gates.iter().filter_map(|gate| {
+        let enumeration = enumeration::of_senders(system, gate.senders.as_ref()?);
+        Some(Doc::text(format!("\"{}\": {enumeration}", names::gate(gate))))
+    });
+    let senders: Vec<Doc> = senders.collect();
+    if !senders.is_empty() {
+        arguments.push(Doc::concat([Doc::text("senders="), Doc::group("{", senders, "}")]));
+    }
     arguments.extend(peer.map(|peer| Doc::text(format!("counterpart={peer}"))));
     arguments
 }
 
-fn annotation(gate: &Gate, names: &Names, imports: &Imports) -> Doc {
+fn annotation(system: &System, gate: &Gate, names: &Names, imports: &Imports) -> Doc {
     let kind = gate.plan.kind;
     // `Debug` prints the name of the variant, which is that of the class.
-    let class = format!("_scl.{kind:?}");
-    let types = match gate.types.as_slice() {
+    let mut class = format!("_scl.{kind:?}");
+    let types: Vec<String> = match gate.types.as_slice() {
         [] => bytes(kind, names, imports),
         types => types.iter().map(|used| message(gate, used, names, imports)).collect(),
     };
-    Doc::concat([Doc::text(class), Doc::group("[", types.into_iter().map(Doc::Text).collect(), "]")])
+    let senders = gate.senders.as_ref().map(|senders| enumeration::of_senders(system, senders));
+    if senders.is_some() {
+        class.push_str("From");
+    }
+    let arguments = senders.into_iter().chain(types).map(Doc::Text).collect();
+    Doc::concat([Doc::text(class), Doc::group("[", arguments, "]")])
 }
 
 /// The type arguments of a gate for bytes: sent from any buffer, received as `bytes`.

@@ -3,7 +3,7 @@
 use super::Imports;
 use super::schema::{Schema, SchemaFile};
 use crate::identifier;
-use crate::system::{Component, Gate, Instance, System};
+use crate::system::{Component, Gate, System};
 use scl_loader::walk;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
@@ -48,18 +48,6 @@ const BUILTINS: &[&str] = &["bool", "bytes", "classmethod", "float", "int", "lis
 /// The class of a component.
 pub(super) fn class(component: &Component) -> String {
     identifier::python(&component.class_name)
-}
-
-/// The enum of the components of a kind: `MotorInstance`.
-pub(super) fn instance_class(component: &Component) -> String {
-    format!("{}Instance", component.class_name)
-}
-
-/// A component of a kind as a member of this enum: `LEFT_MOTOR`.
-pub(super) fn instance(instance: &Instance) -> String {
-    let name = instance.snake_name.to_ascii_uppercase();
-    // Python treats members with a leading underscore in a way of its own.
-    if name.starts_with('_') { format!("INSTANCE{name}") } else { name }
 }
 
 /// The attribute of a gate.

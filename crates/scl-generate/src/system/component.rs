@@ -1,5 +1,6 @@
 //! Components, kinds of components and gates, with all that their programs need.
 
+use super::senders::Senders;
 use scl_plan::{GatePlan, Plan, SystemPlan};
 use scl_text::list::listed;
 use scl_topology::rust_name::gate_field;
@@ -63,6 +64,8 @@ pub struct Gate {
     pub span: Span,
     /// The gates at the other ends of its connections, of all components of a kind: `controller.sensor`.
     pub peers: Vec<String>,
+    /// The enum of its senders, if a program has to tell several apart.
+    pub senders: Option<Senders>,
     /// Kind, codec, options and connections; for a kind, those of its first component.
     pub plan: GatePlan,
     /// The types that it carries: none, one, or a request and its reply.
@@ -132,6 +135,7 @@ impl Component {
         let gates = self.gates.iter().zip(&plan.gates).map(|(gate, plan)| Gate {
             doc: Some(format!("The other end of `{}.{}`.", self.name, gate.name)),
             peers: plan.connections.iter().map(|_| format!("{}.{}", self.name, gate.name)).take(1).collect(),
+            senders: None,
             plan: plan.clone(),
             ..gate.clone()
         });
@@ -181,6 +185,7 @@ impl Gate {
             snake_name: gate.rust_name().to_owned(),
             doc: gate.doc().map(str::to_owned),
             span: gate.span(),
+            senders: Senders::of(topology, id),
             peers: topology.peers_of_type(id).into_iter().map(|peer| topology.gate_path(peer)).collect(),
             plan: plan.clone(),
             types: types.collect(),

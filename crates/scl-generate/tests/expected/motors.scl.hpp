@@ -5,6 +5,24 @@
 
 namespace motors {
 
+/// The components of the kind `motor`.
+enum class MotorInstance {
+    LeftMotor,
+    RightMotor,
+};
+
+/// The gates that send to `display.numbers`.
+enum class DisplayNumbersSender {
+    /// left_motor.state
+    LeftMotor,
+    /// right_motor.state
+    RightMotor,
+    /// controller.left
+    ControllerLeft,
+    /// controller.right
+    ControllerRight,
+};
+
 namespace scl_generated {
 
 /// What the programs need of the topology file, as `scl plan` prints it.
@@ -22,13 +40,15 @@ inline constexpr ::std::string_view plan = R"plan({"version": 1,"system": "motor
 "when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
 "in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "controller",
 "peer_gate": "states","endpoint": "left_motor.state--controller.states.pseany5y",
-"contract": "pseany5y","required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864}
-]}]},{"name": "right_motor","declared_at": "motors.yaml:11:12","schema": null,"gates": [{
-"name": "setpoint","kind": "sub","payload": {"message": "u32"},"codec": "json",
-"declared_at": "motors.yaml:7:9","endpoint": null,"tap": null,"contract": "pseany5y",
-"max_size": 67108864,"queue": 10,"when_full": "drop_oldest","backpressure": false,"latched": false,
-"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
-"peer_component": "controller","peer_gate": "right",
+"contract": "pseany5y","required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864
+},{"peer_component": "display","peer_gate": "numbers",
+"endpoint": "left_motor.state--display.numbers.pseany5y","contract": "pseany5y","required": false,
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "right_motor",
+"declared_at": "motors.yaml:11:12","schema": null,"gates": [{"name": "setpoint","kind": "sub",
+"payload": {"message": "u32"},"codec": "json","declared_at": "motors.yaml:7:9","endpoint": null,
+"tap": null,"contract": "pseany5y","max_size": 67108864,"queue": 10,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "controller","peer_gate": "right",
 "endpoint": "controller.right--right_motor.setpoint.pseany5y","contract": "pseany5y",
 "required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "state",
 "kind": "pub","payload": {"message": "u32"},"codec": "json","declared_at": "motors.yaml:8:9",
@@ -37,35 +57,76 @@ inline constexpr ::std::string_view plan = R"plan({"version": 1,"system": "motor
 "timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
 "peer_component": "controller","peer_gate": "states",
 "endpoint": "right_motor.state--controller.states.pseany5y","contract": "pseany5y","required": true,
-"queue": 10,"when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "controller",
-"declared_at": "motors.yaml:12:11","schema": null,"gates": [{"name": "left","kind": "pub",
-"payload": {"message": "u32"},"codec": "json","declared_at": "motors.yaml:14:9","endpoint": null,
-"tap": "controller.left.tap","contract": "pseany5y","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
-"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "left_motor",
-"peer_gate": "setpoint","endpoint": "controller.left--left_motor.setpoint.pseany5y",
-"contract": "pseany5y","required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864}
-]},{"name": "right","kind": "pub","payload": {"message": "u32"},"codec": "json",
-"declared_at": "motors.yaml:15:9","endpoint": null,"tap": "controller.right.tap",
+"queue": 10,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "display",
+"peer_gate": "numbers","endpoint": "right_motor.state--display.numbers.pseany5y",
+"contract": "pseany5y","required": false,"queue": 100,"when_full": "drop_oldest",
+"max_size": 67108864}]}]},{"name": "controller","declared_at": "motors.yaml:12:11","schema": null,
+"gates": [{"name": "left","kind": "pub","payload": {"message": "u32"},"codec": "json",
+"declared_at": "motors.yaml:14:9","endpoint": null,"tap": "controller.left.tap",
+"contract": "pseany5y","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "left_motor","peer_gate": "setpoint",
+"endpoint": "controller.left--left_motor.setpoint.pseany5y","contract": "pseany5y","required": true,
+"queue": 10,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "display",
+"peer_gate": "numbers","endpoint": "controller.left--display.numbers.pseany5y",
+"contract": "pseany5y","required": false,"queue": 100,"when_full": "drop_oldest",
+"max_size": 67108864}]},{"name": "right","kind": "pub","payload": {"message": "u32"},
+"codec": "json","declared_at": "motors.yaml:15:9","endpoint": null,"tap": "controller.right.tap",
 "contract": "pseany5y","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
 "backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
 "undecodable": "skip","connections": [{"peer_component": "right_motor","peer_gate": "setpoint",
 "endpoint": "controller.right--right_motor.setpoint.pseany5y","contract": "pseany5y",
-"required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "states",
-"kind": "sub","payload": {"message": "u32"},"codec": "json","declared_at": "motors.yaml:16:9",
-"endpoint": null,"tap": null,"contract": "pseany5y","max_size": 67108864,"queue": 10,
-"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
-"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "left_motor",
-"peer_gate": "state","endpoint": "left_motor.state--controller.states.pseany5y",
-"contract": "pseany5y","required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864
-},{"peer_component": "right_motor","peer_gate": "state",
-"endpoint": "right_motor.state--controller.states.pseany5y","contract": "pseany5y","required": true,
-"queue": 10,"when_full": "drop_oldest","max_size": 67108864}]}]}],"schemas": {}}
+"required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864},{
+"peer_component": "display","peer_gate": "numbers",
+"endpoint": "controller.right--display.numbers.pseany5y","contract": "pseany5y","required": false,
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "states","kind": "sub",
+"payload": {"message": "u32"},"codec": "json","declared_at": "motors.yaml:16:9","endpoint": null,
+"tap": null,"contract": "pseany5y","max_size": 67108864,"queue": 10,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "left_motor","peer_gate": "state",
+"endpoint": "left_motor.state--controller.states.pseany5y","contract": "pseany5y","required": true,
+"queue": 10,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "right_motor",
+"peer_gate": "state","endpoint": "right_motor.state--controller.states.pseany5y",
+"contract": "pseany5y","required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864}
+]}]},{"name": "display","declared_at": "motors.yaml:17:11","schema": null,"gates": [{
+"name": "numbers","kind": "sub","payload": {"message": "u32"},"codec": "json",
+"declared_at": "motors.yaml:20:9","endpoint": null,"tap": null,"contract": "pseany5y",
+"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "left_motor","peer_gate": "state",
+"endpoint": "left_motor.state--display.numbers.pseany5y","contract": "pseany5y","required": true,
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "right_motor",
+"peer_gate": "state","endpoint": "right_motor.state--display.numbers.pseany5y",
+"contract": "pseany5y","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
+},{"peer_component": "controller","peer_gate": "left",
+"endpoint": "controller.left--display.numbers.pseany5y","contract": "pseany5y","required": true,
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "controller",
+"peer_gate": "right","endpoint": "controller.right--display.numbers.pseany5y",
+"contract": "pseany5y","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
+}]}]}],"schemas": {}}
 )plan";
 
 inline constexpr const char* MotorNames[] = {
     "left_motor",
     "right_motor",
+};
+
+struct ControllerStatesSenders {
+    using Sender = MotorInstance;
+    static constexpr const char* names[] = {
+        "left_motor.state",
+        "right_motor.state",
+    };
+};
+
+struct DisplayNumbersSenders {
+    using Sender = DisplayNumbersSender;
+    static constexpr const char* names[] = {
+        "left_motor.state",
+        "right_motor.state",
+        "controller.left",
+        "controller.right",
+    };
 };
 
 } // namespace scl_generated
@@ -84,12 +145,6 @@ struct MotorPeer : ::scl::Component {
     ::scl::Sub<::std::string> state{*this, "state"};
 };
 
-/// The components of the kind `motor`.
-enum class MotorInstance {
-    LeftMotor,
-    RightMotor,
-};
-
 /// A component of the kind `motor`: `left_motor`, `right_motor`.
 struct Motor : ::scl::Component {
     /// Opens the component of the kind that `SCL_COMPONENT` names. Throws `scl::Error` if it names none of them,
@@ -103,7 +158,7 @@ struct Motor : ::scl::Component {
 
     /// Which component of the kind it is.
     MotorInstance instance() const {
-        return ::scl::detail::instance_of<MotorInstance>(name(), scl_generated::MotorNames);
+        return ::scl::detail::index_of<MotorInstance>(name(), scl_generated::MotorNames);
     }
 
     /// Opens the component for a unit test, together with the other ends of its gates, without processes,
@@ -119,7 +174,7 @@ struct Motor : ::scl::Component {
     /// JSON text of the Rust type `u32` (codec `json`).
     ::scl::Sub<::std::string> setpoint{*this, "setpoint"};
 
-    /// Connected to `controller.states`.
+    /// Connected to `controller.states`, `display.numbers`.
     /// JSON text of the Rust type `u32` (codec `json`).
     ::scl::Pub<::std::string> state{*this, "state"};
 };
@@ -157,17 +212,47 @@ struct Controller : ::scl::Component {
     /// For `test`.
     explicit Controller(::scl::TestEnd&& end) : ::scl::Component(::std::move(end), "controller") {}
 
-    /// Connected to `left_motor.setpoint`.
+    /// Connected to `left_motor.setpoint`, `display.numbers`.
     /// JSON text of the Rust type `u32` (codec `json`).
     ::scl::Pub<::std::string> left{*this, "left"};
 
-    /// Connected to `right_motor.setpoint`.
+    /// Connected to `right_motor.setpoint`, `display.numbers`.
     /// JSON text of the Rust type `u32` (codec `json`).
     ::scl::Pub<::std::string> right{*this, "right"};
 
     /// Connected to `left_motor.state`, `right_motor.state`.
     /// JSON text of the Rust type `u32` (codec `json`).
-    ::scl::Sub<::std::string> states{*this, "states"};
+    ::scl::From<::scl::Sub<::std::string>, scl_generated::ControllerStatesSenders> states{*this, "states"};
+};
+
+/// The other ends of all gates of `display`, for its unit tests.
+struct DisplayPeer : ::scl::Component {
+    /// For the function `test` of `display`.
+    explicit DisplayPeer(::scl::TestEnd&& end) : ::scl::Component(::std::move(end), "display's peers") {}
+
+    /// The other end of `display.numbers`.
+    /// JSON text of the Rust type `u32` (codec `json`).
+    ::scl::Pub<::std::string> numbers{*this, "numbers"};
+};
+
+/// The component `display`.
+struct Display : ::scl::Component {
+    /// Opens the component. Throws `scl::Taken` if it is already running.
+    explicit Display(const ::scl::Options& options = {})
+        : ::scl::Component(scl_generated::plan, "display", options) {}
+
+    /// Opens the component for a unit test, together with the other ends of its gates, without processes,
+    /// sockets or files.
+    static ::std::pair<Display, DisplayPeer> test() {
+        return ::scl::open_test<Display, DisplayPeer>(scl_generated::plan, "display");
+    }
+
+    /// For `test`.
+    explicit Display(::scl::TestEnd&& end) : ::scl::Component(::std::move(end), "display") {}
+
+    /// Connected to `left_motor.state`, `right_motor.state`, `controller.left`, `controller.right`.
+    /// JSON text of the Rust type `u32` (codec `json`).
+    ::scl::From<::scl::Sub<::std::string>, scl_generated::DisplayNumbersSenders> numbers{*this, "numbers"};
 };
 
 } // namespace motors

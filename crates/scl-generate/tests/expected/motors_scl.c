@@ -24,13 +24,15 @@ static const char plan[] =
     "\"when_full\": \"drop_oldest\",\"backpressure\": false,\"latched\": false,\"timeout_ns\": 1000000000,"
     "\"in_flight\": 1,\"undecodable\": \"skip\",\"connections\": [{\"peer_component\": \"controller\","
     "\"peer_gate\": \"states\",\"endpoint\": \"left_motor.state--controller.states.pseany5y\","
-    "\"contract\": \"pseany5y\",\"required\": true,\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}"
-    "]}]},{\"name\": \"right_motor\",\"declared_at\": \"motors.yaml:11:12\",\"schema\": null,\"gates\": [{"
-    "\"name\": \"setpoint\",\"kind\": \"sub\",\"payload\": {\"message\": \"u32\"},\"codec\": \"json\","
-    "\"declared_at\": \"motors.yaml:7:9\",\"endpoint\": null,\"tap\": null,\"contract\": \"pseany5y\","
-    "\"max_size\": 67108864,\"queue\": 10,\"when_full\": \"drop_oldest\",\"backpressure\": false,\"latched\": false,"
-    "\"timeout_ns\": 1000000000,\"in_flight\": 1,\"undecodable\": \"skip\",\"connections\": [{"
-    "\"peer_component\": \"controller\",\"peer_gate\": \"right\","
+    "\"contract\": \"pseany5y\",\"required\": true,\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864"
+    "},{\"peer_component\": \"display\",\"peer_gate\": \"numbers\","
+    "\"endpoint\": \"left_motor.state--display.numbers.pseany5y\",\"contract\": \"pseany5y\",\"required\": false,"
+    "\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}]}]},{\"name\": \"right_motor\","
+    "\"declared_at\": \"motors.yaml:11:12\",\"schema\": null,\"gates\": [{\"name\": \"setpoint\",\"kind\": \"sub\","
+    "\"payload\": {\"message\": \"u32\"},\"codec\": \"json\",\"declared_at\": \"motors.yaml:7:9\",\"endpoint\": null,"
+    "\"tap\": null,\"contract\": \"pseany5y\",\"max_size\": 67108864,\"queue\": 10,\"when_full\": \"drop_oldest\","
+    "\"backpressure\": false,\"latched\": false,\"timeout_ns\": 1000000000,\"in_flight\": 1,"
+    "\"undecodable\": \"skip\",\"connections\": [{\"peer_component\": \"controller\",\"peer_gate\": \"right\","
     "\"endpoint\": \"controller.right--right_motor.setpoint.pseany5y\",\"contract\": \"pseany5y\","
     "\"required\": true,\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}]},{\"name\": \"state\","
     "\"kind\": \"pub\",\"payload\": {\"message\": \"u32\"},\"codec\": \"json\",\"declared_at\": \"motors.yaml:8:9\","
@@ -39,30 +41,53 @@ static const char plan[] =
     "\"timeout_ns\": 1000000000,\"in_flight\": 1,\"undecodable\": \"skip\",\"connections\": [{"
     "\"peer_component\": \"controller\",\"peer_gate\": \"states\","
     "\"endpoint\": \"right_motor.state--controller.states.pseany5y\",\"contract\": \"pseany5y\",\"required\": true,"
-    "\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}]}]},{\"name\": \"controller\","
-    "\"declared_at\": \"motors.yaml:12:11\",\"schema\": null,\"gates\": [{\"name\": \"left\",\"kind\": \"pub\","
-    "\"payload\": {\"message\": \"u32\"},\"codec\": \"json\",\"declared_at\": \"motors.yaml:14:9\",\"endpoint\": null,"
-    "\"tap\": \"controller.left.tap\",\"contract\": \"pseany5y\",\"max_size\": 67108864,\"queue\": 100,"
-    "\"when_full\": \"drop_oldest\",\"backpressure\": false,\"latched\": false,\"timeout_ns\": 1000000000,"
-    "\"in_flight\": 1,\"undecodable\": \"skip\",\"connections\": [{\"peer_component\": \"left_motor\","
-    "\"peer_gate\": \"setpoint\",\"endpoint\": \"controller.left--left_motor.setpoint.pseany5y\","
-    "\"contract\": \"pseany5y\",\"required\": true,\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}"
-    "]},{\"name\": \"right\",\"kind\": \"pub\",\"payload\": {\"message\": \"u32\"},\"codec\": \"json\","
-    "\"declared_at\": \"motors.yaml:15:9\",\"endpoint\": null,\"tap\": \"controller.right.tap\","
+    "\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864},{\"peer_component\": \"display\","
+    "\"peer_gate\": \"numbers\",\"endpoint\": \"right_motor.state--display.numbers.pseany5y\","
+    "\"contract\": \"pseany5y\",\"required\": false,\"queue\": 100,\"when_full\": \"drop_oldest\","
+    "\"max_size\": 67108864}]}]},{\"name\": \"controller\",\"declared_at\": \"motors.yaml:12:11\",\"schema\": null,"
+    "\"gates\": [{\"name\": \"left\",\"kind\": \"pub\",\"payload\": {\"message\": \"u32\"},\"codec\": \"json\","
+    "\"declared_at\": \"motors.yaml:14:9\",\"endpoint\": null,\"tap\": \"controller.left.tap\","
+    "\"contract\": \"pseany5y\",\"max_size\": 67108864,\"queue\": 100,\"when_full\": \"drop_oldest\","
+    "\"backpressure\": false,\"latched\": false,\"timeout_ns\": 1000000000,\"in_flight\": 1,"
+    "\"undecodable\": \"skip\",\"connections\": [{\"peer_component\": \"left_motor\",\"peer_gate\": \"setpoint\","
+    "\"endpoint\": \"controller.left--left_motor.setpoint.pseany5y\",\"contract\": \"pseany5y\",\"required\": true,"
+    "\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864},{\"peer_component\": \"display\","
+    "\"peer_gate\": \"numbers\",\"endpoint\": \"controller.left--display.numbers.pseany5y\","
+    "\"contract\": \"pseany5y\",\"required\": false,\"queue\": 100,\"when_full\": \"drop_oldest\","
+    "\"max_size\": 67108864}]},{\"name\": \"right\",\"kind\": \"pub\",\"payload\": {\"message\": \"u32\"},"
+    "\"codec\": \"json\",\"declared_at\": \"motors.yaml:15:9\",\"endpoint\": null,\"tap\": \"controller.right.tap\","
     "\"contract\": \"pseany5y\",\"max_size\": 67108864,\"queue\": 100,\"when_full\": \"drop_oldest\","
     "\"backpressure\": false,\"latched\": false,\"timeout_ns\": 1000000000,\"in_flight\": 1,"
     "\"undecodable\": \"skip\",\"connections\": [{\"peer_component\": \"right_motor\",\"peer_gate\": \"setpoint\","
     "\"endpoint\": \"controller.right--right_motor.setpoint.pseany5y\",\"contract\": \"pseany5y\","
-    "\"required\": true,\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}]},{\"name\": \"states\","
-    "\"kind\": \"sub\",\"payload\": {\"message\": \"u32\"},\"codec\": \"json\",\"declared_at\": \"motors.yaml:16:9\","
-    "\"endpoint\": null,\"tap\": null,\"contract\": \"pseany5y\",\"max_size\": 67108864,\"queue\": 10,"
-    "\"when_full\": \"drop_oldest\",\"backpressure\": false,\"latched\": false,\"timeout_ns\": 1000000000,"
-    "\"in_flight\": 1,\"undecodable\": \"skip\",\"connections\": [{\"peer_component\": \"left_motor\","
-    "\"peer_gate\": \"state\",\"endpoint\": \"left_motor.state--controller.states.pseany5y\","
-    "\"contract\": \"pseany5y\",\"required\": true,\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864"
-    "},{\"peer_component\": \"right_motor\",\"peer_gate\": \"state\","
-    "\"endpoint\": \"right_motor.state--controller.states.pseany5y\",\"contract\": \"pseany5y\",\"required\": true,"
-    "\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}]}]}],\"schemas\": {}}";
+    "\"required\": true,\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864},{"
+    "\"peer_component\": \"display\",\"peer_gate\": \"numbers\","
+    "\"endpoint\": \"controller.right--display.numbers.pseany5y\",\"contract\": \"pseany5y\",\"required\": false,"
+    "\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}]},{\"name\": \"states\",\"kind\": \"sub\","
+    "\"payload\": {\"message\": \"u32\"},\"codec\": \"json\",\"declared_at\": \"motors.yaml:16:9\",\"endpoint\": null,"
+    "\"tap\": null,\"contract\": \"pseany5y\",\"max_size\": 67108864,\"queue\": 10,\"when_full\": \"drop_oldest\","
+    "\"backpressure\": false,\"latched\": false,\"timeout_ns\": 1000000000,\"in_flight\": 1,"
+    "\"undecodable\": \"skip\",\"connections\": [{\"peer_component\": \"left_motor\",\"peer_gate\": \"state\","
+    "\"endpoint\": \"left_motor.state--controller.states.pseany5y\",\"contract\": \"pseany5y\",\"required\": true,"
+    "\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864},{\"peer_component\": \"right_motor\","
+    "\"peer_gate\": \"state\",\"endpoint\": \"right_motor.state--controller.states.pseany5y\","
+    "\"contract\": \"pseany5y\",\"required\": true,\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}"
+    "]}]},{\"name\": \"display\",\"declared_at\": \"motors.yaml:17:11\",\"schema\": null,\"gates\": [{"
+    "\"name\": \"numbers\",\"kind\": \"sub\",\"payload\": {\"message\": \"u32\"},\"codec\": \"json\","
+    "\"declared_at\": \"motors.yaml:20:9\",\"endpoint\": null,\"tap\": null,\"contract\": \"pseany5y\","
+    "\"max_size\": 67108864,\"queue\": 100,\"when_full\": \"drop_oldest\",\"backpressure\": false,\"latched\": false,"
+    "\"timeout_ns\": 1000000000,\"in_flight\": 1,\"undecodable\": \"skip\",\"connections\": [{"
+    "\"peer_component\": \"left_motor\",\"peer_gate\": \"state\","
+    "\"endpoint\": \"left_motor.state--display.numbers.pseany5y\",\"contract\": \"pseany5y\",\"required\": true,"
+    "\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864},{\"peer_component\": \"right_motor\","
+    "\"peer_gate\": \"state\",\"endpoint\": \"right_motor.state--display.numbers.pseany5y\","
+    "\"contract\": \"pseany5y\",\"required\": true,\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864"
+    "},{\"peer_component\": \"controller\",\"peer_gate\": \"left\","
+    "\"endpoint\": \"controller.left--display.numbers.pseany5y\",\"contract\": \"pseany5y\",\"required\": true,"
+    "\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864},{\"peer_component\": \"controller\","
+    "\"peer_gate\": \"right\",\"endpoint\": \"controller.right--display.numbers.pseany5y\","
+    "\"contract\": \"pseany5y\",\"required\": true,\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864"
+    "}]}]}],\"schemas\": {}}";
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
 #endif
@@ -82,10 +107,9 @@ static scl_status open_component(const char *name, const char *options_json, scl
     return status != SCL_OK ? status : scl_open(plan, sizeof plan - 1, name, options_json, component);
 }
 
-/* The index of an open component among the names of its kind. */
-static size_t find_instance(scl_component *component, const char *const *names, size_t count)
+/* The index of a name, which is one of these. */
+static size_t find_name(const char *name, const char *const *names, size_t count)
 {
-    const char *name = scl_component_name(component);
     size_t index = 0;
     while (index + 1 < count && strcmp(names[index], name) != 0) {
         index++;
@@ -128,6 +152,18 @@ static scl_status wait_for(scl_component *component, scl_gate *const *all, size_
 static const char *const motors_motor_instance_names[] = {
     "left_motor",
     "right_motor",
+};
+
+static const char *const motors_controller_states_senders[] = {
+    "left_motor.state",
+    "right_motor.state",
+};
+
+static const char *const motors_display_numbers_senders[] = {
+    "left_motor.state",
+    "right_motor.state",
+    "controller.left",
+    "controller.right",
 };
 
 scl_status motors_motor_peer_ready(motors_motor_peer *self, int64_t timeout_ns)
@@ -181,8 +217,9 @@ scl_status motors_motor_open(motors_motor *self, const char *options_json)
     memset(self, 0, sizeof *self);
     scl_status status = open_component("motor", options_json, &self->component);
     if (status == SCL_OK) {
+        const char *name = scl_component_name(self->component);
         size_t count = sizeof motors_motor_instance_names / sizeof *motors_motor_instance_names;
-        self->instance = (motors_motor_instance)find_instance(self->component, motors_motor_instance_names, count);
+        self->instance = (motors_motor_instance)find_name(name, motors_motor_instance_names, count);
         self->gates.setpoint = scl_gate_by_name(self->component, "setpoint");
         self->gates.state = scl_gate_by_name(self->component, "state");
     }
@@ -404,6 +441,35 @@ scl_status motors_controller_states_latest(motors_controller *self, scl_message 
     return scl_latest(self == NULL ? NULL : self->gates.states, message);
 }
 
+scl_status motors_controller_states_recv_from(motors_controller *self,
+                                              scl_message **message,
+                                              motors_motor_instance *sender,
+                                              int64_t timeout_ns)
+{
+    scl_status status = motors_controller_states_recv(self, message, timeout_ns);
+    if (status == SCL_OK && sender != NULL) {
+        status = motors_controller_states_last_sender(self, sender);
+    }
+    return status;
+}
+
+scl_status motors_controller_states_last_sender(motors_controller *self, motors_motor_instance *sender)
+{
+    if (self == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`self` is NULL");
+    }
+    if (sender == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`sender` is NULL");
+    }
+    const char *last = scl_sender(self->gates.states);
+    if (last == NULL) {
+        return SCL_NOTHING;
+    }
+    size_t count = sizeof motors_controller_states_senders / sizeof *motors_controller_states_senders;
+    *sender = (motors_motor_instance)find_name(last, motors_controller_states_senders, count);
+    return SCL_OK;
+}
+
 scl_status motors_controller_wait(motors_controller *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready)
 {
     if (self == NULL) {
@@ -411,6 +477,129 @@ scl_status motors_controller_wait(motors_controller *self, uint64_t gates, int64
     }
     scl_gate *const all[] = {
         self->gates.states,
+    };
+    return wait_for(self->component, all, sizeof all / sizeof *all, gates, timeout_ns, ready);
+}
+
+scl_status motors_display_peer_ready(motors_display_peer *self, int64_t timeout_ns)
+{
+    return scl_ready(self == NULL ? NULL : self->component, timeout_ns);
+}
+
+scl_status motors_display_peer_close(motors_display_peer *self, int64_t timeout_ns)
+{
+    if (self == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`self` is NULL");
+    }
+    scl_status status = scl_close(self->component, timeout_ns);
+    if (status != SCL_FORKED) {
+        memset(self, 0, sizeof *self);
+    }
+    return status;
+}
+
+scl_status motors_display_peer_numbers_send(motors_display_peer *self,
+                                            const void *data,
+                                            size_t size,
+                                            int64_t timeout_ns)
+{
+    return scl_send(self == NULL ? NULL : self->gates.numbers, data, size, timeout_ns);
+}
+
+scl_status motors_display_open(motors_display *self, const char *options_json)
+{
+    if (self == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`self` is NULL");
+    }
+    memset(self, 0, sizeof *self);
+    scl_status status = open_component("display", options_json, &self->component);
+    if (status == SCL_OK) {
+        self->gates.numbers = scl_gate_by_name(self->component, "numbers");
+    }
+    return status;
+}
+
+scl_status motors_display_test(motors_display *self, motors_display_peer *peer)
+{
+    if (self == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`self` is NULL");
+    }
+    if (peer == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`peer` is NULL");
+    }
+    memset(self, 0, sizeof *self);
+    memset(peer, 0, sizeof *peer);
+    scl_status status = open_test("display", &self->component, &peer->component);
+    if (status == SCL_OK) {
+        self->gates.numbers = scl_gate_by_name(self->component, "numbers");
+        peer->gates.numbers = scl_gate_by_name(peer->component, "numbers");
+    }
+    return status;
+}
+
+scl_status motors_display_ready(motors_display *self, int64_t timeout_ns)
+{
+    return scl_ready(self == NULL ? NULL : self->component, timeout_ns);
+}
+
+scl_status motors_display_close(motors_display *self, int64_t timeout_ns)
+{
+    if (self == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`self` is NULL");
+    }
+    scl_status status = scl_close(self->component, timeout_ns);
+    if (status != SCL_FORKED) {
+        memset(self, 0, sizeof *self);
+    }
+    return status;
+}
+
+scl_status motors_display_numbers_recv(motors_display *self, scl_message **message, int64_t timeout_ns)
+{
+    return scl_recv(self == NULL ? NULL : self->gates.numbers, timeout_ns, message);
+}
+
+scl_status motors_display_numbers_latest(motors_display *self, scl_message **message)
+{
+    return scl_latest(self == NULL ? NULL : self->gates.numbers, message);
+}
+
+scl_status motors_display_numbers_recv_from(motors_display *self,
+                                            scl_message **message,
+                                            motors_display_numbers_sender *sender,
+                                            int64_t timeout_ns)
+{
+    scl_status status = motors_display_numbers_recv(self, message, timeout_ns);
+    if (status == SCL_OK && sender != NULL) {
+        status = motors_display_numbers_last_sender(self, sender);
+    }
+    return status;
+}
+
+scl_status motors_display_numbers_last_sender(motors_display *self, motors_display_numbers_sender *sender)
+{
+    if (self == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`self` is NULL");
+    }
+    if (sender == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`sender` is NULL");
+    }
+    const char *last = scl_sender(self->gates.numbers);
+    if (last == NULL) {
+        return SCL_NOTHING;
+    }
+    size_t count = sizeof motors_display_numbers_senders / sizeof *motors_display_numbers_senders;
+    *sender = (motors_display_numbers_sender)find_name(last, motors_display_numbers_senders, count);
+    return SCL_OK;
+}
+
+scl_status motors_display_wait(motors_display *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready)
+{
+    if (self == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`self` is NULL");
+    }
+    scl_gate *const all[] = {
+        self->gates.numbers,
     };
     return wait_for(self->component, all, sizeof all / sizeof *all, gates, timeout_ns, ready);
 }

@@ -26,6 +26,12 @@
 extern "C" {
 #endif
 
+/* The components of the kind `motor`. */
+typedef enum motors_motor_instance {
+    MOTORS_MOTOR_INSTANCE_LEFT_MOTOR,
+    MOTORS_MOTOR_INSTANCE_RIGHT_MOTOR
+} motors_motor_instance;
+
 /* The other ends of all gates of `motor`, for its unit tests. */
 typedef struct motors_motor_peer {
     scl_component *component;
@@ -51,12 +57,6 @@ scl_status motors_motor_peer_state_latest(motors_motor_peer *self, scl_message *
 #define MOTORS_MOTOR_PEER_STATE (UINT64_C(1) << 0)
 /* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` says at which. */
 scl_status motors_motor_peer_wait(motors_motor_peer *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready);
-
-/* The components of the kind `motor`. */
-typedef enum motors_motor_instance {
-    MOTORS_MOTOR_INSTANCE_LEFT_MOTOR,
-    MOTORS_MOTOR_INSTANCE_RIGHT_MOTOR
-} motors_motor_instance;
 
 /* Kind `motor` (motors.yaml:5:11) */
 typedef struct motors_motor {
@@ -159,10 +159,77 @@ scl_status motors_controller_right_send(motors_controller *self, const void *dat
 scl_status motors_controller_states_recv(motors_controller *self, scl_message **message, int64_t timeout_ns);
 /* The newest message, or SCL_NOTHING; older ones are discarded. */
 scl_status motors_controller_states_latest(motors_controller *self, scl_message **message);
+/* Also stores who sent the message. */
+scl_status motors_controller_states_recv_from(motors_controller *self,
+                                              scl_message **message,
+                                              motors_motor_instance *sender,
+                                              int64_t timeout_ns);
+/* Who sent the message that the last call returned, or SCL_NOTHING before the first one. */
+scl_status motors_controller_states_last_sender(motors_controller *self, motors_motor_instance *sender);
 
 #define MOTORS_CONTROLLER_STATES (UINT64_C(1) << 0)
 /* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` says at which. */
 scl_status motors_controller_wait(motors_controller *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready);
+
+/* The other ends of all gates of `display`, for its unit tests. */
+typedef struct motors_display_peer {
+    scl_component *component;
+    struct {
+        scl_gate *numbers;
+    } gates;
+} motors_display_peer;
+
+/* Waits until all required peers are connected, see scl_ready. */
+scl_status motors_display_peer_ready(motors_display_peer *self, int64_t timeout_ns);
+/* Waits until running peers have taken all messages, then closes the component, see scl_close. */
+scl_status motors_display_peer_close(motors_display_peer *self, int64_t timeout_ns);
+
+/* The other end of `display.numbers`: pub, u32 in json; the program encodes and decodes */
+scl_status motors_display_peer_numbers_send(motors_display_peer *self,
+                                            const void *data,
+                                            size_t size,
+                                            int64_t timeout_ns);
+
+/* The gates that send to `display.numbers`. */
+typedef enum motors_display_numbers_sender {
+    MOTORS_DISPLAY_NUMBERS_SENDER_LEFT_MOTOR,
+    MOTORS_DISPLAY_NUMBERS_SENDER_RIGHT_MOTOR,
+    MOTORS_DISPLAY_NUMBERS_SENDER_CONTROLLER_LEFT,
+    MOTORS_DISPLAY_NUMBERS_SENDER_CONTROLLER_RIGHT
+} motors_display_numbers_sender;
+
+/* Component `display` (motors.yaml:17:11) */
+typedef struct motors_display {
+    scl_component *component;
+    struct {
+        scl_gate *numbers;
+    } gates;
+} motors_display;
+
+/* Opens the component; `options_json` may be NULL, see scl_open. */
+scl_status motors_display_open(motors_display *self, const char *options_json);
+/* Opens the component for a unit test, with the other ends of its gates, see scl_open_test. */
+scl_status motors_display_test(motors_display *self, motors_display_peer *peer);
+/* Waits until all required peers are connected, see scl_ready. */
+scl_status motors_display_ready(motors_display *self, int64_t timeout_ns);
+/* Waits until running peers have taken all messages, then closes the component, see scl_close. */
+scl_status motors_display_close(motors_display *self, int64_t timeout_ns);
+
+/* Gate `display.numbers` (motors.yaml:20:9): sub, u32 in json; the program encodes and decodes */
+scl_status motors_display_numbers_recv(motors_display *self, scl_message **message, int64_t timeout_ns);
+/* The newest message, or SCL_NOTHING; older ones are discarded. */
+scl_status motors_display_numbers_latest(motors_display *self, scl_message **message);
+/* Also stores who sent the message. */
+scl_status motors_display_numbers_recv_from(motors_display *self,
+                                            scl_message **message,
+                                            motors_display_numbers_sender *sender,
+                                            int64_t timeout_ns);
+/* Who sent the message that the last call returned, or SCL_NOTHING before the first one. */
+scl_status motors_display_numbers_last_sender(motors_display *self, motors_display_numbers_sender *sender);
+
+#define MOTORS_DISPLAY_NUMBERS (UINT64_C(1) << 0)
+/* Waits until something has arrived at one of `gates`, a sum of the constants above; `*ready` says at which. */
+scl_status motors_display_wait(motors_display *self, uint64_t gates, int64_t timeout_ns, uint64_t *ready);
 
 #ifdef __cplusplus
 }
@@ -248,8 +315,48 @@ scl_status motors_controller_wait(motors_controller *self, uint64_t gates, int64
         (timeout_ns))
 #define motors_controller_states_latest(self, message) \
     motors_controller_states_latest(SCL_POINTER(motors_controller, self), SCL_POINTER(scl_message *, message))
+#define motors_controller_states_recv_from(self, message, sender, timeout_ns) \
+    motors_controller_states_recv_from( \
+        SCL_POINTER(motors_controller, self), \
+        SCL_POINTER(scl_message *, message), \
+        SCL_POINTER(motors_motor_instance, sender), \
+        (timeout_ns))
+#define motors_controller_states_last_sender(self, sender) \
+    motors_controller_states_last_sender( \
+        SCL_POINTER(motors_controller, self), \
+        SCL_POINTER(motors_motor_instance, sender))
 #define motors_controller_wait(self, gates, timeout_ns, ready) \
     motors_controller_wait(SCL_POINTER(motors_controller, self), (gates), (timeout_ns), SCL_POINTER(uint64_t, ready))
+#define motors_display_peer_ready(self, timeout_ns) \
+    motors_display_peer_ready(SCL_POINTER(motors_display_peer, self), (timeout_ns))
+#define motors_display_peer_close(self, timeout_ns) \
+    motors_display_peer_close(SCL_POINTER(motors_display_peer, self), (timeout_ns))
+#define motors_display_peer_numbers_send(self, data, size, timeout_ns) \
+    motors_display_peer_numbers_send(SCL_POINTER(motors_display_peer, self), (data), (size), (timeout_ns))
+#define motors_display_open(self, options_json) \
+    motors_display_open(SCL_POINTER(motors_display, self), (options_json))
+#define motors_display_test(self, peer) \
+    motors_display_test(SCL_POINTER(motors_display, self), SCL_POINTER(motors_display_peer, peer))
+#define motors_display_ready(self, timeout_ns) \
+    motors_display_ready(SCL_POINTER(motors_display, self), (timeout_ns))
+#define motors_display_close(self, timeout_ns) \
+    motors_display_close(SCL_POINTER(motors_display, self), (timeout_ns))
+#define motors_display_numbers_recv(self, message, timeout_ns) \
+    motors_display_numbers_recv(SCL_POINTER(motors_display, self), SCL_POINTER(scl_message *, message), (timeout_ns))
+#define motors_display_numbers_latest(self, message) \
+    motors_display_numbers_latest(SCL_POINTER(motors_display, self), SCL_POINTER(scl_message *, message))
+#define motors_display_numbers_recv_from(self, message, sender, timeout_ns) \
+    motors_display_numbers_recv_from( \
+        SCL_POINTER(motors_display, self), \
+        SCL_POINTER(scl_message *, message), \
+        SCL_POINTER(motors_display_numbers_sender, sender), \
+        (timeout_ns))
+#define motors_display_numbers_last_sender(self, sender) \
+    motors_display_numbers_last_sender( \
+        SCL_POINTER(motors_display, self), \
+        SCL_POINTER(motors_display_numbers_sender, sender))
+#define motors_display_wait(self, gates, timeout_ns, ready) \
+    motors_display_wait(SCL_POINTER(motors_display, self), (gates), (timeout_ns), SCL_POINTER(uint64_t, ready))
 #endif
 
 #endif /* MOTORS_SCL_H */

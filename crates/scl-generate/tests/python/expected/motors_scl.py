@@ -11,7 +11,16 @@ import scl as _scl
 if TYPE_CHECKING:
     from typing import Any as _Any
 
-__all__ = ["Controller", "ControllerPeer", "Motor", "MotorInstance", "MotorPeer"]
+__all__ = [
+    "Controller",
+    "ControllerPeer",
+    "Display",
+    "DisplayNumbersSender",
+    "DisplayPeer",
+    "Motor",
+    "MotorInstance",
+    "MotorPeer",
+]
 
 _PLAN = r"""
 {"version": 1,"system": "motors","kinds": [{"name": "motor","components": ["left_motor",
@@ -28,13 +37,15 @@ _PLAN = r"""
 "when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
 "in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "controller",
 "peer_gate": "states","endpoint": "left_motor.state--controller.states.pseany5y",
-"contract": "pseany5y","required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864}
-]}]},{"name": "right_motor","declared_at": "motors.yaml:11:12","schema": null,"gates": [{
-"name": "setpoint","kind": "sub","payload": {"message": "u32"},"codec": "json",
-"declared_at": "motors.yaml:7:9","endpoint": null,"tap": null,"contract": "pseany5y",
-"max_size": 67108864,"queue": 10,"when_full": "drop_oldest","backpressure": false,"latched": false,
-"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
-"peer_component": "controller","peer_gate": "right",
+"contract": "pseany5y","required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864
+},{"peer_component": "display","peer_gate": "numbers",
+"endpoint": "left_motor.state--display.numbers.pseany5y","contract": "pseany5y","required": false,
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "right_motor",
+"declared_at": "motors.yaml:11:12","schema": null,"gates": [{"name": "setpoint","kind": "sub",
+"payload": {"message": "u32"},"codec": "json","declared_at": "motors.yaml:7:9","endpoint": null,
+"tap": null,"contract": "pseany5y","max_size": 67108864,"queue": 10,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "controller","peer_gate": "right",
 "endpoint": "controller.right--right_motor.setpoint.pseany5y","contract": "pseany5y",
 "required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "state",
 "kind": "pub","payload": {"message": "u32"},"codec": "json","declared_at": "motors.yaml:8:9",
@@ -43,31 +54,70 @@ _PLAN = r"""
 "timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
 "peer_component": "controller","peer_gate": "states",
 "endpoint": "right_motor.state--controller.states.pseany5y","contract": "pseany5y","required": true,
-"queue": 10,"when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "controller",
-"declared_at": "motors.yaml:12:11","schema": null,"gates": [{"name": "left","kind": "pub",
-"payload": {"message": "u32"},"codec": "json","declared_at": "motors.yaml:14:9","endpoint": null,
-"tap": "controller.left.tap","contract": "pseany5y","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
-"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "left_motor",
-"peer_gate": "setpoint","endpoint": "controller.left--left_motor.setpoint.pseany5y",
-"contract": "pseany5y","required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864}
-]},{"name": "right","kind": "pub","payload": {"message": "u32"},"codec": "json",
-"declared_at": "motors.yaml:15:9","endpoint": null,"tap": "controller.right.tap",
+"queue": 10,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "display",
+"peer_gate": "numbers","endpoint": "right_motor.state--display.numbers.pseany5y",
+"contract": "pseany5y","required": false,"queue": 100,"when_full": "drop_oldest",
+"max_size": 67108864}]}]},{"name": "controller","declared_at": "motors.yaml:12:11","schema": null,
+"gates": [{"name": "left","kind": "pub","payload": {"message": "u32"},"codec": "json",
+"declared_at": "motors.yaml:14:9","endpoint": null,"tap": "controller.left.tap",
+"contract": "pseany5y","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "left_motor","peer_gate": "setpoint",
+"endpoint": "controller.left--left_motor.setpoint.pseany5y","contract": "pseany5y","required": true,
+"queue": 10,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "display",
+"peer_gate": "numbers","endpoint": "controller.left--display.numbers.pseany5y",
+"contract": "pseany5y","required": false,"queue": 100,"when_full": "drop_oldest",
+"max_size": 67108864}]},{"name": "right","kind": "pub","payload": {"message": "u32"},
+"codec": "json","declared_at": "motors.yaml:15:9","endpoint": null,"tap": "controller.right.tap",
 "contract": "pseany5y","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
 "backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
 "undecodable": "skip","connections": [{"peer_component": "right_motor","peer_gate": "setpoint",
 "endpoint": "controller.right--right_motor.setpoint.pseany5y","contract": "pseany5y",
-"required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "states",
-"kind": "sub","payload": {"message": "u32"},"codec": "json","declared_at": "motors.yaml:16:9",
-"endpoint": null,"tap": null,"contract": "pseany5y","max_size": 67108864,"queue": 10,
-"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
-"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "left_motor",
-"peer_gate": "state","endpoint": "left_motor.state--controller.states.pseany5y",
-"contract": "pseany5y","required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864
-},{"peer_component": "right_motor","peer_gate": "state",
-"endpoint": "right_motor.state--controller.states.pseany5y","contract": "pseany5y","required": true,
-"queue": 10,"when_full": "drop_oldest","max_size": 67108864}]}]}],"schemas": {}}
+"required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864},{
+"peer_component": "display","peer_gate": "numbers",
+"endpoint": "controller.right--display.numbers.pseany5y","contract": "pseany5y","required": false,
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "states","kind": "sub",
+"payload": {"message": "u32"},"codec": "json","declared_at": "motors.yaml:16:9","endpoint": null,
+"tap": null,"contract": "pseany5y","max_size": 67108864,"queue": 10,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "left_motor","peer_gate": "state",
+"endpoint": "left_motor.state--controller.states.pseany5y","contract": "pseany5y","required": true,
+"queue": 10,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "right_motor",
+"peer_gate": "state","endpoint": "right_motor.state--controller.states.pseany5y",
+"contract": "pseany5y","required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864}
+]}]},{"name": "display","declared_at": "motors.yaml:17:11","schema": null,"gates": [{
+"name": "numbers","kind": "sub","payload": {"message": "u32"},"codec": "json",
+"declared_at": "motors.yaml:20:9","endpoint": null,"tap": null,"contract": "pseany5y",
+"max_size": 67108864,"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
+"peer_component": "left_motor","peer_gate": "state",
+"endpoint": "left_motor.state--display.numbers.pseany5y","contract": "pseany5y","required": true,
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "right_motor",
+"peer_gate": "state","endpoint": "right_motor.state--display.numbers.pseany5y",
+"contract": "pseany5y","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
+},{"peer_component": "controller","peer_gate": "left",
+"endpoint": "controller.left--display.numbers.pseany5y","contract": "pseany5y","required": true,
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "controller",
+"peer_gate": "right","endpoint": "controller.right--display.numbers.pseany5y",
+"contract": "pseany5y","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
+}]}]}],"schemas": {}}
 """
+
+
+class MotorInstance(_scl.Instance):
+    """The components of the kind `motor`."""
+
+    LEFT_MOTOR = "left_motor"
+    RIGHT_MOTOR = "right_motor"
+
+
+class DisplayNumbersSender(_scl.Sender):
+    """The gates that send to `display.numbers`."""
+
+    LEFT_MOTOR = "left_motor.state"
+    RIGHT_MOTOR = "right_motor.state"
+    CONTROLLER_LEFT = "controller.left"
+    CONTROLLER_RIGHT = "controller.right"
 
 
 class MotorPeer(_scl.Counterpart):
@@ -95,13 +145,6 @@ class MotorPeer(_scl.Counterpart):
     """
 
 
-class MotorInstance(_scl.Instance):
-    """The components of the kind `motor`."""
-
-    LEFT_MOTOR = "left_motor"
-    RIGHT_MOTOR = "right_motor"
-
-
 class Motor(
     _scl.ComponentOfKind[MotorInstance],
     _scl.TestableComponent[MotorPeer],
@@ -114,7 +157,7 @@ class Motor(
 
     Gates:
         setpoint: `sub` subscribes to `u32` from `controller.left`, `controller.right`
-        state: `pub` publishes `u32` to `controller.states`
+        state: `pub` publishes `u32` to `controller.states`, `display.numbers`
     """
 
     setpoint: _scl.Sub[_Any]
@@ -126,7 +169,7 @@ class Motor(
     """
 
     state: _scl.Pub[_Any]
-    """`pub`: publishes `u32` to `controller.states`.
+    """`pub`: publishes `u32` to `controller.states`, `display.numbers`.
 
     Options: `codec: json`.
 
@@ -172,18 +215,19 @@ class Controller(
     _scl.TestableComponent[ControllerPeer],
     plan=_PLAN,
     component="controller",
+    senders={"states": MotorInstance},
     counterpart=ControllerPeer,
 ):
     """The component `controller` of `motors`, declared at `motors.yaml:12:11`.
 
     Gates:
-        left: `pub` publishes `u32` to `left_motor.setpoint`
-        right: `pub` publishes `u32` to `right_motor.setpoint`
+        left: `pub` publishes `u32` to `left_motor.setpoint`, `display.numbers`
+        right: `pub` publishes `u32` to `right_motor.setpoint`, `display.numbers`
         states: `sub` subscribes to `u32` from `left_motor.state`, `right_motor.state`
     """
 
     left: _scl.Pub[_Any]
-    """`pub`: publishes `u32` to `left_motor.setpoint`.
+    """`pub`: publishes `u32` to `left_motor.setpoint`, `display.numbers`.
 
     Options: `codec: json`.
 
@@ -191,17 +235,55 @@ class Controller(
     """
 
     right: _scl.Pub[_Any]
-    """`pub`: publishes `u32` to `right_motor.setpoint`.
+    """`pub`: publishes `u32` to `right_motor.setpoint`, `display.numbers`.
 
     Options: `codec: json`.
 
     Declared at `motors.yaml:15:9`.
     """
 
-    states: _scl.Sub[_Any]
+    states: _scl.SubFrom[MotorInstance, _Any]
     """`sub`: subscribes to `u32` from `left_motor.state`, `right_motor.state`.
 
     Options: `codec: json`, `queue: 10`.
 
     Declared at `motors.yaml:16:9`.
+    """
+
+
+class DisplayPeer(_scl.Counterpart):
+    """The other ends of all gates of `display`, for its unit tests.
+
+    Gates:
+        numbers: `pub` publishes `u32` to `display.numbers`
+    """
+
+    numbers: _scl.Pub[_Any]
+    """The other end of `display.numbers`.
+
+    `pub`: publishes `u32` to `display.numbers`.
+
+    Declared at `motors.yaml:20:9`.
+    """
+
+
+class Display(
+    _scl.TestableComponent[DisplayPeer],
+    plan=_PLAN,
+    component="display",
+    senders={"numbers": DisplayNumbersSender},
+    counterpart=DisplayPeer,
+):
+    """The component `display` of `motors`, declared at `motors.yaml:17:11`.
+
+    Gates:
+        numbers: `sub` subscribes to `u32` from `left_motor.state`, `right_motor.state`, `controller.left`, `controller.right`
+    """
+
+    numbers: _scl.SubFrom[DisplayNumbersSender, _Any]
+    """`sub`: subscribes to `u32` from `left_motor.state`, `right_motor.state`, `controller.left`, `controller.right`.
+
+    Options: `codec: json`.
+
+    Declared at `motors.yaml:20:9`.
     """
