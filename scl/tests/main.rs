@@ -36,6 +36,8 @@ mod runtime_dir_files;
 mod runtime_dir_folder;
 mod runtime_dir_processes;
 #[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
+mod several_files;
+#[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
 mod slow_senders;
 #[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
 mod stats;

@@ -1,4 +1,4 @@
-//! `scl expand`: prints a topology without kinds and `everyone`.
+//! `scl expand`: prints a topology as one file without kinds and `everyone`.
 
 use crate::load::{MaxSize, load_file, unsound};
 use clap::Args;
@@ -9,7 +9,8 @@ use serde_yaml::{Mapping, Value};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Print a topology without `kinds` and `everyone`: each component with its gates, and each connection by itself.
+/// Print a topology as one file without `include`, `kinds` and `everyone`: each component with its gates, and each
+/// connection by itself.
 ///
 /// The result means the same: the programs, their sockets and their contracts stay as they are. Comments and keys that
 /// start with `x-` are left out.

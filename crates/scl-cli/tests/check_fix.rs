@@ -208,3 +208,36 @@ fn a_larger_file_needs_its_size() {
     let refused = system.scl(&["check", "--max-size", "2MB"]).output().unwrap();
     assert!(String::from_utf8(refused.stderr).unwrap().contains("did you mean `2MiB`?"));
 }
+
+/// A file with two mistakes in its connections, and one in a file that it includes.
+fn two_files() -> [(&'static str, String); 2] {
+    let (sensors, rest) = WRONG.split_at(WRONG.find("  - name: controller").unwrap());
+    let main = format!("include: [parts/sensors.yaml]\ncomponents:\n{rest}");
+    [("topology.yaml", main), ("parts/sensors.yaml", sensors.to_owned())]
+}
+
+#[test]
+fn an_included_file_is_fixed_too() {
+    let files = two_files();
+    let system = System::of_files(&files.each_ref().map(|(name, text)| (*name, text.as_str())));
+    let (out, err, code) = run(&system, &[]);
+    assert_eq!((out.as_str(), code), ("", Some(1)), "{err}");
+    assert!(err.starts_with("topology.yaml: 2 problems fixed\n"), "{err}");
+    let read = |name: &str| fs::read_to_string(system.path(name)).unwrap();
+    for (name, text) in &files {
+        let expected = text.replace("publish", "pub").replace("sensor/measurements", "sensor.measurements");
+        assert_eq!(read(name), expected.replace("sensor.controller", "controller.sensor"), "{name}");
+    }
+}
+
+#[test]
+fn a_dry_run_prints_the_differences_of_all_files() {
+    let files = two_files();
+    let system = System::of_files(&files.each_ref().map(|(name, text)| (*name, text.as_str())));
+    let (out, err, _) = run(&system, &["--dry-run"]);
+    let headers: Vec<&str> = out.lines().filter(|line| line.starts_with("+++")).collect();
+    assert_eq!(headers, ["+++ topology.yaml", "+++ parts/sensors.yaml"]);
+    assert!(err.starts_with("topology.yaml: 2 problems can be fixed\n"), "{err}");
+    assert!(err.contains("= note: `parts/sensors.yaml` is included at topology.yaml:1:11"), "{err}");
+    files.iter().for_each(|(name, text)| assert_eq!(&fs::read_to_string(system.path(name)).unwrap(), text));
+}

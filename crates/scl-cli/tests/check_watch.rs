@@ -108,3 +108,17 @@ fn several_files_are_checked_together() {
     assert!(text.contains("a.yaml: 2 components") && text.contains("b.yaml:1:1"), "{text}");
     assert_eq!(watch.stop("-INT").code(), Some(1));
 }
+
+#[test]
+fn included_files_are_watched_also_before_they_exist() {
+    let (sensors, rest) = CLEAN.split_at(CLEAN.find("  - name: controller").unwrap());
+    let main = format!("include: [sensors.yaml]\ncomponents:\n{rest}");
+    let system = System::of_files(&[("topology.yaml", &main)]);
+    let mut watch = Watch::start(&system, &[]);
+    watch.says("cannot find the included file `sensors.yaml`");
+    replace(&system, "sensors.yaml", sensors);
+    watch.says("2 components, 2 gates, 1 connection in 2 files");
+    replace(&system, "sensors.yaml", &sensors.replace("pub", "sub"));
+    watch.says("both ends");
+    watch.stop("-INT");
+}

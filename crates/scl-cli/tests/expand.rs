@@ -133,3 +133,19 @@ fn a_topology_with_errors_is_not_printed() {
     "#]],
     );
 }
+
+#[test]
+fn several_files_are_printed_as_one() {
+    let (head, connections) = TOPOLOGY.split_at(TOPOLOGY.find("connections:").unwrap());
+    let (main, kinds) = head.split_at(head.find("kinds:").unwrap());
+    let (kinds, components) = kinds.split_at(kinds.find("x-own:").unwrap());
+    let whole = System::of_files(&[("topology.yaml", TOPOLOGY)]);
+    let parts = System::of_files(&[
+        ("topology.yaml", &format!("{main}include: [parts/wiring.yaml]\n{components}")),
+        ("parts/wiring.yaml", &format!("include: [kinds.yaml]\n{connections}")),
+        ("parts/kinds.yaml", kinds),
+    ]);
+    let [whole, parts] = [whole, parts].map(|system| system.scl(&["expand"]).output().unwrap());
+    assert_eq!(String::from_utf8_lossy(&parts.stderr), "");
+    assert_eq!(String::from_utf8_lossy(&parts.stdout), String::from_utf8_lossy(&whole.stdout));
+}

@@ -33,18 +33,15 @@ impl System {
     /// The system of a topology file; `None` if the topology has errors.
     pub fn of(loaded: &Loaded) -> Option<Self> {
         let topology = loaded.topology.as_ref()?;
-        let location = |span: Span| {
-            let file = loaded.sources.file(span.file);
-            let at = file.line_column(span.start);
-            format!("{}:{}:{}", file_name(file.path()), at.line, at.column)
-        };
+        let topology_file = loaded.file.map(|file| file_name(loaded.sources.file(file).path())).unwrap_or_default();
+        let location = |span: Span| loaded.place(span, &topology_file);
         let plan = loaded.system_plan_with(&location)?;
         let components = topology.types().filter_map(|of| Component::of(topology, of, &plan, &location)).collect();
         Some(Self {
             name: topology.system().to_owned(),
-            topology_file: loaded.file.map(|file| file_name(loaded.sources.file(file).path())).unwrap_or_default(),
             components,
             plan,
+            topology_file,
             descriptors: loaded.schemas.as_ref().map(|schemas| schemas.file_descriptor_set.clone()),
             schema_folders: loaded.schemas.as_ref().map(|schemas| schemas.folders.clone()).unwrap_or_default(),
         })

@@ -1,15 +1,17 @@
-//! Reads a topology file, and the schema files it names, from disk, and has them checked.
+//! Reads a topology file, the files that it includes, and the schema files they name, from disk, and has them checked.
 //!
 //! The macro and the command line share this crate, so that both read files in the same way and report the same
 //! messages. It is the only part of SCL that reads these files; `scl-topology` judges their content.
 //!
 //! ```text
-//! Request --read--> text --parse--> Model --compile--> messages --check--> Topology --resolve--> Plan
+//! Request --read--> texts --parse, join--> Model --compile--> messages --check--> Topology --resolve--> Plan
 //! ```
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 #![deny(missing_docs)]
 
+mod includes;
 mod no_panic;
+mod paths;
 mod plan;
 mod read;
 mod request;
@@ -21,6 +23,7 @@ mod tests;
 mod trial;
 mod unreadable;
 
+pub use includes::Included;
 pub use no_panic::{BUG, no_panic};
 pub use request::{LookedIn, Request};
 pub use schemas::{Outline, Schemas, rust};
@@ -30,19 +33,20 @@ pub use schemas::{files_for, walk};
 use scl_topology::check::{Facts, check};
 use scl_topology::diagnostic::{Diagnostic, Diagnostics};
 use scl_topology::model::Model;
-use scl_topology::parse::parse;
-use scl_topology::source::{FileId, Sources};
+use scl_topology::source::{FileId, Sources, Span};
 use scl_topology::topology::Topology;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-/// The result of reading one topology file. A stage that cannot continue leaves what it has.
+/// The result of reading one topology file and those that it includes. A stage that cannot continue leaves what it has.
 #[derive(Debug, Default)]
 pub struct Loaded {
     /// The texts that the diagnostics point into.
     pub sources: Sources,
     /// The topology file among them; `None` if it could not be read.
     pub file: Option<FileId>,
-    /// The file as written, as far as it could be read.
+    /// The files that it includes, and those that they include, in the order in which they were read.
+    pub included: Vec<Included>,
+    /// The topology as written in all these files, as far as they could be read.
     pub model: Model,
     /// The checked topology; `None` if one of the diagnostics is an error, or if the file was only read, as by
     /// [`read()`].
@@ -55,6 +59,17 @@ pub struct Loaded {
     pub schemas: Option<Schemas>,
     /// What the schemas seem to declare if one of them is wrong; otherwise empty.
     pub outlines: Vec<Outline>,
+}
+
+impl Loaded {
+    /// A place such as `topology.yaml:14:9`, for generated code. The topology file is called `main`, and a file that it
+    /// includes is in the same folder or below it.
+    pub fn place(&self, span: Span, main: &str) -> String {
+        let at = self.sources.file(span.file).line_column(span.start);
+        let included = self.included.iter().find(|included| included.file == span.file);
+        let path = included.map(|included| Path::new(main).with_file_name(&included.relative).display().to_string());
+        format!("{}:{}:{}", path.as_deref().unwrap_or(main), at.line, at.column)
+    }
 }
 
 /// Reads, parses and checks one topology file.
@@ -97,7 +112,9 @@ fn with_text(request: &Request, text: Result<String, read::Unreadable>) -> Loade
 fn checked(request: &Request, mut loaded: Loaded) -> Loaded {
     let Some(file) = loaded.file else { return loaded };
     let mut found = Diagnostics::new();
-    loaded.model = parse(&loaded.sources, file, &mut found);
+    let (model, included) = includes::read(request, file, &[], &mut loaded.sources, &mut found);
+    loaded.files_read.extend(included.iter().map(|file| file.path.clone()));
+    (loaded.model, loaded.included) = (model, included);
     let mut of_schemas = Diagnostics::new();
     let compiled = schemas::compile(request, &loaded.model, &mut loaded.sources, &mut of_schemas);
     let of_schemas = of_schemas.into_sorted();
@@ -114,5 +131,6 @@ fn checked(request: &Request, mut loaded: Loaded) -> Loaded {
     loaded.topology = check(&loaded.model, &facts, &loaded.sources, &mut found);
     loaded.diagnostics = found.into_sorted();
     trial::try_advice(request, &mut loaded, file, &facts, &of_schemas);
+    loaded.diagnostics = includes::tell_chain(loaded.diagnostics, &loaded.included, &loaded.sources);
     loaded
 }

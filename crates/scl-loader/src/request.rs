@@ -1,6 +1,6 @@
 //! What to load, and how messages call it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 /// Which file to load.
@@ -14,6 +14,8 @@ pub struct Request {
     pub shown_as: String,
     /// Maximum size in bytes of the topology file, and of each schema. [`Request::MAX_SIZE`] by default.
     pub max_size: u64,
+    /// Texts to check in place of included files on disk, by their paths: changes that are not saved.
+    pub texts: BTreeMap<PathBuf, String>,
     /// Every place where the file was searched for, to be listed if it is not found.
     pub looked_in: Vec<LookedIn>,
     /// The crates that a Rust program with this topology can name; the module of a schema's package may hide one. By
@@ -41,7 +43,8 @@ impl Request {
         let path = path.into();
         let shown_as = path.display().to_string();
         let crates = ["alloc", "core", "scl", "std"].map(str::to_owned).into();
-        Self { path, kind: "topology", shown_as, max_size: Self::MAX_SIZE, looked_in: Vec::new(), crates }
+        let (texts, looked_in) = (BTreeMap::new(), Vec::new());
+        Self { path, kind: "topology", shown_as, max_size: Self::MAX_SIZE, texts, looked_in, crates }
     }
 
     /// The system's name if the file gives none: the file's name without its ending.

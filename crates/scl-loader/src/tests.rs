@@ -9,6 +9,7 @@ use std::process::Command;
 
 #[cfg(feature = "protobuf")]
 mod imports;
+mod includes;
 #[cfg(feature = "protobuf")]
 mod schemas;
 #[cfg(feature = "protobuf")]

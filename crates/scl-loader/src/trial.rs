@@ -1,11 +1,10 @@
 //! The trial of advice: each copy of the file is checked as the file itself was.
 
-use crate::{Loaded, Request, schemas};
-use scl_topology::advice::{self, Extent, Judged};
+use crate::{Loaded, Request, includes, schemas};
+use scl_topology::advice::{self, ChangedCopy, Extent, Judged};
 use scl_topology::check::{Facts, check};
 use scl_topology::diagnostic::{Diagnostic, Diagnostics};
-use scl_topology::parse::parse;
-use scl_topology::source::{FileId, Spanned};
+use scl_topology::source::{FileId, SourceFile, Spanned};
 use std::borrow::Cow;
 
 /// Removes the proposals that do not solve their problem. `facts` and `of_schemas` are what the schemas of the file
@@ -18,10 +17,11 @@ pub(crate) fn try_advice(
     of_schemas: &[Diagnostic],
 ) {
     let mut found = Judged { problems: std::mem::take(&mut loaded.diagnostics), extent: Extent::of(&loaded.model) };
-    let judge = |text: &str| {
-        let mut sources = loaded.sources.with_text(file, text);
+    let judge = |copies: &[ChangedCopy]| {
+        let unchanged = loaded.sources.clone();
+        let mut sources = copies.iter().fold(unchanged, |sources, copy| sources.with_text(copy.file, &*copy.text));
         let mut problems = Diagnostics::new();
-        let model = parse(&sources, file, &mut problems);
+        let (model, _) = includes::read(request, file, &loaded.included, &mut sources, &mut problems);
         let names = |of: &[Spanned<String>]| of.iter().map(|name| name.value.clone()).collect::<Vec<_>>();
         let is_same = names(&model.schemas) == names(&loaded.model.schemas)
             && names(&model.schema_roots) == names(&loaded.model.schema_roots);
@@ -38,6 +38,8 @@ pub(crate) fn try_advice(
         check(&model, &facts, &sources, &mut problems);
         Judged { problems: problems.into_sorted(), extent: Extent::of(&model) }
     };
-    advice::try_advice(&mut found, loaded.sources.file(file), judge);
+    let files = std::iter::once(file).chain(loaded.included.iter().map(|file| file.file));
+    let files: Vec<&SourceFile> = files.map(|file| loaded.sources.file(file)).collect();
+    advice::try_advice_in_files(&mut found, &files, judge);
     loaded.diagnostics = found.problems;
 }

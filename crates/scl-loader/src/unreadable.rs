@@ -34,6 +34,18 @@ pub(crate) fn diagnose(request: &Request, cause: Unreadable, sources: &mut Sourc
     }
 }
 
+/// Says in a few words why a file cannot be read.
+pub(crate) fn why(path: &Path, cause: Unreadable) -> String {
+    let shown = path.display();
+    match cause {
+        Unreadable::Missing => format!("cannot find `{shown}`"),
+        Unreadable::NotAFile(word) => format!("`{shown}` is {word}, not a file"),
+        Unreadable::TooLarge(size) => format!("`{shown}` has {size} bytes, more than the limit"),
+        Unreadable::NotUtf8(bad) => format!("`{shown}` is not valid UTF-8 (line {}, column {})", bad.line, bad.column),
+        Unreadable::BrokenLink(error) | Unreadable::Refused(error) => format!("`{shown}` cannot be read: {error}"),
+    }
+}
+
 fn missing(request: &Request) -> Diagnostic {
     let tried: Vec<&Path> = request.looked_in.iter().map(|at| at.path.as_path()).collect();
     let near = similar_file(&request.path, &tried);

@@ -8,8 +8,9 @@ mod edit;
 mod extent;
 
 use crate::diagnostic::{Diagnostic, Edit, MOST_LISTED, Severity, first};
-use crate::source::SourceFile;
+use crate::source::{FileId, SourceFile};
 use compare::{Change, passes};
+use std::collections::BTreeMap;
 
 pub(crate) use compare::reach;
 pub use edit::apply;
@@ -18,7 +19,7 @@ pub use extent::Extent;
 /// Maximum number of copies of a file that are checked.
 const MOST_TRIES: usize = 20;
 
-/// Maximum size of all these copies in bytes; one copy may always be checked.
+/// Maximum size of all these copies in bytes, with the files that belong to them; one copy may always be checked.
 const MOST_BYTES: usize = 1 << 20;
 
 /// Maximum number of problems of a file whose advice is tried: to compare more costs as much as to find them.
@@ -32,6 +33,15 @@ pub struct Judged {
     pub extent: Extent,
 }
 
+/// A copy of a file, with the changes of one or several proposals.
+#[derive(Debug)]
+pub struct ChangedCopy {
+    /// The file.
+    pub file: FileId,
+    /// Its changed text.
+    pub text: String,
+}
+
 /// Applies every proposal of the `found` problems to a copy of the file, has the copy checked by `judge`, and removes
 /// the proposals that leave their problem or add another.
 ///
@@ -39,12 +49,18 @@ pub struct Judged {
 /// could not be tried are removed: among them those of problems after the first [`MOST_LISTED`], which no tool shows,
 /// and all of a file with more than 10,000 problems. Lints are off, so their proposals are kept untried, and none of
 /// them is sure.
-pub fn try_advice(found: &mut Judged, source: &SourceFile, judge: impl FnMut(&str) -> Judged) {
-    let text = source.text();
-    let tries = tries(text);
+pub fn try_advice(found: &mut Judged, source: &SourceFile, mut judge: impl FnMut(&str) -> Judged) {
+    // A copy of nothing is never tried.
+    try_advice_in_files(found, &[source], |copies| judge(copies.first().map_or("", |copy| &copy.text)));
+}
+
+/// As [`try_advice`], for problems of several files that belong together. `judge` checks all of them, with copies in
+/// place of those that a proposal changes.
+pub fn try_advice_in_files(found: &mut Judged, files: &[&SourceFile], judge: impl FnMut(&[ChangedCopy]) -> Judged) {
+    let tries = tries(files.iter().map(|file| file.text().len()).sum());
     let shown = shown(&found.problems);
     let candidates = candidates(&found.problems, &shown);
-    let mut trial = Trial { before: found, source, tries, judge };
+    let mut trial = Trial { before: found, files, tries, judge };
     let mut passed = vec![false; candidates.len()];
     match candidates.len() <= tries {
         true => candidates.iter().enumerate().for_each(|(at, way)| passed[at] = trial.try_together(&[way])),
@@ -57,9 +73,9 @@ pub fn try_advice(found: &mut Judged, source: &SourceFile, judge: impl FnMut(&st
     }
 }
 
-/// Number of copies of a text that may be checked.
-pub(crate) fn tries(text: &str) -> usize {
-    (MOST_BYTES / text.len().max(1)).clamp(1, MOST_TRIES)
+/// Number of copies of a text of this length that may be checked.
+pub(crate) fn tries(length: usize) -> usize {
+    (MOST_BYTES / length.max(1)).clamp(1, MOST_TRIES)
 }
 
 fn is_tried(problem: &Diagnostic) -> bool {
@@ -90,24 +106,41 @@ fn candidates<'p>(problems: &'p [Diagnostic], shown: &[usize]) -> Vec<Candidate<
 
 struct Trial<'t, J> {
     before: &'t Judged,
-    source: &'t SourceFile,
+    files: &'t [&'t SourceFile],
     /// The number of copies that may still be checked.
     tries: usize,
     judge: J,
 }
 
-impl<J: FnMut(&str) -> Judged> Trial<'_, J> {
+impl<J: FnMut(&[ChangedCopy]) -> Judged> Trial<'_, J> {
     /// Whether candidates of different problems pass when they are applied together.
     fn try_together(&mut self, candidates: &[&Candidate<'_>]) -> bool {
         let edits: Vec<&Edit> = candidates.iter().flat_map(|candidate| candidate.edits).collect();
-        let text = self.source.text();
-        let is_here = edits.iter().all(|edit| edit.span.file == self.source.id());
-        let Some(copy) = apply(text, &edits).filter(|copy| is_here && copy != text) else { return false };
+        let Some(copies) = self.copies(&edits) else { return false };
         let Some(left) = self.tries.checked_sub(1) else { return false };
         self.tries = left;
-        let after = (self.judge)(&copy);
-        let change = Change { problems: candidates.iter().map(|candidate| candidate.problem).collect(), edits: &edits };
-        passes(self.before, &change, &after, &copy)
+        let after = (self.judge)(&copies);
+        let problems = candidates.iter().map(|candidate| candidate.problem).collect();
+        passes(self.before, &Change { problems, edits: &edits, copies: &copies }, &after)
+    }
+
+    /// The files that change, with the changes applied. `None` if nothing changes, if changes overlap, or if one lies
+    /// in another file.
+    fn copies(&self, edits: &[&Edit]) -> Option<Vec<ChangedCopy>> {
+        let mut by_file: BTreeMap<FileId, Vec<&Edit>> = BTreeMap::new();
+        edits.iter().for_each(|edit| by_file.entry(edit.span.file).or_default().push(edit));
+        let copies: Option<Vec<ChangedCopy>> = by_file
+            .into_iter()
+            .map(|(file, edits)| {
+                let source = self.files.iter().find(|source| source.id() == file)?;
+                Some(ChangedCopy { file, text: apply(source.text(), &edits)? })
+            })
+            .collect();
+        copies.filter(|copies| copies.iter().any(|copy| self.differs(copy)))
+    }
+
+    fn differs(&self, copy: &ChangedCopy) -> bool {
+        self.files.iter().any(|source| source.id() == copy.file && source.text() != copy.text)
     }
 
     /// Tries the first proposals of all problems at once, then the second ones, and so on. If such a group does not

@@ -16,7 +16,7 @@ mod file;
 pub(crate) mod flow;
 mod verdicts;
 
-use crate::check::testing::{USUAL, problems};
+use crate::check::testing::{USUAL, problems_in_files};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::Sources;
 use file::Case;
@@ -63,8 +63,52 @@ fn compare_spellings(case: &Case, differences: &mut Vec<String>) -> bool {
     true
 }
 
-fn found(code: &str, text: &str) -> (Vec<Diagnostic>, Sources) {
-    let (mut found, sources) = problems(text, text.contains("schemas: [uav").then_some(&MESSAGES[..]));
+/// A file that another one includes has the same problems, and so has a file whose connections stand in another one.
+#[test]
+fn every_case_in_an_included_file() {
+    let mut differences = Vec::new();
+    let mut split = 0;
+    for name in FILES {
+        let path = format!("{}/tests/cases/{name}.txt", env!("CARGO_MANIFEST_DIR"));
+        for case in file::read(&std::fs::read_to_string(&path).unwrap()) {
+            let has_setting = ["system", "codec"].iter().any(|key| section(&case.text, key).is_some());
+            if WHOLE_FILES.contains(&case.code.as_str()) || has_setting {
+                continue;
+            }
+            let told = |main: &str, included: &str| {
+                let files = [("topology.yaml", main), ("included.yaml", included)];
+                headlines_in(&case.code, &files)
+            };
+            let alone = headlines(&case.code, &case.text);
+            let mut compare = |how: &str, other: Vec<String>| {
+                if other != alone {
+                    differences.push(format!("{how} {} {}: {}{alone:#?}{other:#?}", case.code, case.title, case.text));
+                }
+            };
+            compare("included", told("include: [included.yaml]\n", &case.text));
+            if let Some(at) = section(&case.text, "connections") {
+                let (before, connections) = case.text.split_at(at);
+                compare("split", told(&format!("include: [included.yaml]\n{connections}"), before));
+                split += 1;
+            }
+        }
+    }
+    println!("{split} cases in two files");
+    assert!(differences.is_empty(), "{}", differences.join("\n"));
+}
+
+/// Checks about what a whole file lacks.
+const WHOLE_FILES: [&str; 4] = ["SCL0203", "SCL0205", "SCL0206", "SCL0115"];
+
+/// Where a section begins in block style.
+fn section(text: &str, key: &str) -> Option<usize> {
+    let line = format!("{key}:");
+    if text.starts_with(&line) { Some(0) } else { text.find(&format!("\n{line}")).map(|at| at + 1) }
+}
+
+fn found(code: &str, files: &[(&str, &str)]) -> (Vec<Diagnostic>, Sources) {
+    let has_schemas = files.iter().any(|(_, text)| text.contains("schemas: [uav"));
+    let (mut found, sources) = problems_in_files(files, has_schemas.then_some(&MESSAGES[..]));
     let is_companion = |found: &Diagnostic| found.severity == Severity::Lint || USUAL.contains(&found.code());
     found.retain(|found| found.code() == code || !is_companion(found));
     (found, sources)
@@ -72,7 +116,7 @@ fn found(code: &str, text: &str) -> (Vec<Diagnostic>, Sources) {
 
 /// Code and marked text of each problem.
 fn outcome(code: &str, text: &str) -> Vec<String> {
-    let (found, sources) = found(code, text);
+    let (found, sources) = found(code, &[("topology.yaml", text)]);
     let line = |found: &Diagnostic| {
         let marked = found.primary.as_ref().map_or("", |label| sources.snippet(label.span));
         let marked = marked.lines().next().unwrap_or("").trim_end();
@@ -83,7 +127,11 @@ fn outcome(code: &str, text: &str) -> Vec<String> {
 
 /// Code and headline of each problem, in any order.
 fn headlines(code: &str, text: &str) -> Vec<String> {
-    let (found, _) = found(code, text);
+    headlines_in(code, &[("topology.yaml", text)])
+}
+
+fn headlines_in(code: &str, files: &[(&str, &str)]) -> Vec<String> {
+    let (found, _) = found(code, files);
     let mut lines: Vec<String> = found.iter().map(|found| format!("{} {}", found.code(), found.message)).collect();
     lines.sort();
     lines

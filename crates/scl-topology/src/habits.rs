@@ -31,7 +31,7 @@ pub(crate) static SECTIONS: Table = Table::new(&[
     habit("links edges wires wiring routes bindings channels connectors", &["connections"], ""),
     habit("name systemname project robot namespace id title", &["system"], ""),
     habit(
-        "proto protos protobuf protofiles messages import imports include includes types",
+        "proto protos protobuf protofiles messages import imports includes types",
         &["schemas"],
         "`schemas` lists the `.proto` files that define the messages",
     ),

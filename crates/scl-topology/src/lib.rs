@@ -70,6 +70,7 @@ pub mod external;
 pub mod fingerprint;
 pub mod grammar;
 mod habits;
+pub mod join;
 pub mod keywords;
 mod kinds;
 pub mod model;

@@ -8,11 +8,13 @@
 
 use crate::source::{Span, Spanned};
 
-/// A whole file.
+/// A whole file, or all files of a system together: those that `include` names, joined by [`crate::join::join`].
 #[derive(Debug, Clone, Default)]
 pub struct Model {
     /// `system:`.
     pub system: Option<Spanned<String>>,
+    /// `include:`, of all files; the paths start at the folder of the topology file.
+    pub include: Vec<Spanned<String>>,
     /// `schemas:`.
     pub schemas: Vec<Spanned<String>>,
     /// `schema_roots:`.

@@ -46,11 +46,7 @@ use crate::{everyone, kinds};
 use entry::Entry;
 use topology_dialect::TOPOLOGY;
 
-/// Reads a topology file, and gives each component the gates and connections of its kind and of `everyone`.
-///
-/// Malformed parts are left out of the model, and each of them is reported in `problems`: all of `SCL01xx`, `SCL02xx`,
-/// `SCL13xx` and `SCL14xx`. After a syntax error, the model holds what precedes it, and only problems of the text
-/// itself are reported, as the others may be its consequences. Takes linear time and does not panic, whatever the text.
+/// Reads a topology that is one file: [`parse_part`] and [`complete`].
 ///
 /// ```
 /// use scl_topology::{diagnostic::{Diagnostics, render}, parse::parse, source::Sources};
@@ -64,20 +60,54 @@ use topology_dialect::TOPOLOGY;
 /// assert!(render(&problems[0], &sources).starts_with("error: [SCL0109] a name is expected here"));
 /// ```
 pub fn parse(sources: &Sources, file: FileId, problems: &mut Diagnostics) -> Model {
+    let mut model = parse_part(sources, file, Part::Main, problems);
+    complete(&mut model, sources, problems);
+    model
+}
+
+/// Which of the files of a system is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// The topology file itself.
+    Main,
+    /// A file that another one includes. It need not have any section.
+    Included,
+}
+
+/// Reads one file as it is written, without those that it includes.
+///
+/// Malformed parts are left out of the model, and each of them is reported in `problems`: all of `SCL01xx` and
+/// `SCL02xx`. After a syntax error, the model holds what precedes it, and only problems of the text itself are
+/// reported, as the others may be its consequences. Takes linear time and does not panic, whatever the text.
+pub fn parse_part(sources: &Sources, file: FileId, part: Part, problems: &mut Diagnostics) -> Model {
     let source = sources.file(file);
     let document = read_document(source, &TOPOLOGY, problems);
     let mut reader = Reader::new(source);
+    reader.part = part;
     reader.read_root(&document);
     reader.read_controls(document.root.as_ref());
-    let Reader { mut model, problems: mut found, .. } = reader;
-    everyone::expand(&mut model, sources, &mut found);
-    kinds::expand(&mut model, sources, &mut found);
+    let Reader { model, problems: found, .. } = reader;
     // Problems with the shape may follow from a syntax error, so report them only if the whole text could be read.
     match document.is_partial {
         true => found.discard(),
         false => problems.append(found),
     }
     model
+}
+
+/// Gives each component the gates and connections of its kind and of `everyone`, once all files of a system are joined.
+///
+/// What is wrong with kinds and `everyone` is reported in `problems`: all of `SCL13xx` and `SCL14xx`.
+pub fn complete(model: &mut Model, sources: &Sources, problems: &mut Diagnostics) {
+    // What is missing may be in the part of a file that could not be read.
+    let is_partial = model.cut_off;
+    let mut found = Diagnostics::new();
+    everyone::expand(model, sources, &mut found);
+    kinds::expand(model, sources, &mut found);
+    match is_partial {
+        true => found.discard(),
+        false => problems.append(found),
+    }
 }
 
 /// Reads a YAML file of any kind, and reports what is wrong with the text itself: all of `SCL01xx` that does not depend
@@ -117,6 +147,7 @@ fn glued(node: &Node, source: &SourceFile, dialect: &Dialect) -> Option<Diagnost
 /// The walk over the tree: where it reads, what it found so far.
 struct Reader<'s> {
     source: &'s SourceFile,
+    part: Part,
     problems: Diagnostics,
     model: Model,
     /// Connections stand where they do not belong, and a problem says so.
@@ -136,6 +167,7 @@ impl<'s> Reader<'s> {
         let (problems, model) = (Diagnostics::new(), Model::default());
         Reader {
             source,
+            part: Part::Main,
             problems,
             model,
             has_stray_connections: false,
@@ -153,7 +185,8 @@ impl<'s> Reader<'s> {
             Some(root) if !root.is_null() && !matches!(root.kind, NodeKind::Unread) => {
                 self.report(shape::top_level::diagnose(root, self.source, &TOPOLOGY));
             }
-            _ => {}
+            // Nothing is in the file, and a problem says so.
+            _ => self.model.components_unread = true,
         }
     }
 

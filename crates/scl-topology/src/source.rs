@@ -1,6 +1,7 @@
 //! The texts that diagnostics point into, and the places in them.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The id of the file in [`Sources`] that a [`Span`] lies in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -47,6 +48,14 @@ pub struct SourceFile {
 
 /// Size of the blocks whose characters are counted in advance, in bytes.
 const BLOCK: usize = 512;
+
+/// A line of one of the files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct Line {
+    pub(crate) file: FileId,
+    /// From 1.
+    pub(crate) number: u32,
+}
 
 /// A place as people count it: line and column from 1, the column in characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -172,10 +181,10 @@ fn characters_in(bytes: &[u8]) -> u32 {
     bytes.iter().filter(|&&byte| byte & 0xC0 != 0x80).count() as u32
 }
 
-/// All texts of one run: the topology file, and the schema files it names.
+/// All texts of one run: the topology file, those that it includes, and the schema files they name.
 #[derive(Debug, Clone, Default)]
 pub struct Sources {
-    files: Vec<SourceFile>,
+    files: Vec<Arc<SourceFile>>,
 }
 
 impl Sources {
@@ -187,18 +196,16 @@ impl Sources {
     /// Adds a text. A leading byte order mark is removed, so that no position counts it.
     pub fn add(&mut self, path: impl Into<String>, text: impl Into<String>) -> FileId {
         let id = FileId(self.files.len() as u16);
-        self.files.push(SourceFile::new(id, path.into(), text.into()));
+        self.files.push(Arc::new(SourceFile::new(id, path.into(), text.into())));
         id
     }
 
     /// The same files, with another text in one of them.
     pub fn with_text(&self, file: FileId, text: impl Into<String>) -> Self {
-        let text = text.into();
-        let changed = |old: &SourceFile| match old.id == file {
-            true => SourceFile::new(file, old.path.clone(), text.clone()),
-            false => old.clone(),
-        };
-        Self { files: self.files.iter().map(changed).collect() }
+        let mut changed = self.clone();
+        let place = &mut changed.files[usize::from(file.0)];
+        *place = Arc::new(SourceFile::new(file, place.path.clone(), text.into()));
+        changed
     }
 
     /// Returns the file with this path. Adds it with `text` if there is none yet.
@@ -212,6 +219,11 @@ impl Sources {
     /// The file behind an id.
     pub fn file(&self, id: FileId) -> &SourceFile {
         &self.files[usize::from(id.0)]
+    }
+
+    /// The line in which a span begins.
+    pub(crate) fn line(&self, span: Span) -> Line {
+        Line { file: span.file, number: self.file(span.file).line(span.start as usize) }
     }
 
     /// The text that a span covers.

@@ -60,8 +60,7 @@ impl<'a> Context<'a> {
     /// The location of a declaration: `topology.yaml:14:9`. The path is the one that the user wrote, so that no program
     /// contains an absolute path of the machine that built it.
     pub(super) fn location(&self, span: source::Span) -> String {
-        let start = self.loaded.sources.file(span.file).line_column(span.start);
-        format!("{}:{}:{}", self.path, start.line, start.column)
+        self.loaded.place(span, &self.path)
     }
 
     /// The path as part of an identifier, so that two invocations in one module do not generate the same name.

@@ -94,11 +94,13 @@ impl Checked {
         self.numbers.get(&severity).copied().unwrap_or_default()
     }
 
-    /// Returns the paths of the file, its schemas and their imports, including schemas that do not exist yet.
+    /// Returns the paths of the file, of those that it includes, of their schemas and their imports, also of files that
+    /// do not exist yet.
     pub(super) fn depends_on(&self) -> Vec<PathBuf> {
         let folder = self.path.parent().unwrap_or(Path::new(""));
-        let schemas = self.loaded.model.schemas.iter().map(|schema| folder.join(&schema.value));
+        let model = &self.loaded.model;
+        let named = model.include.iter().chain(&model.schemas).map(|file| folder.join(&file.value));
         let read = self.loaded.files_read.iter().cloned();
-        std::iter::once(self.path.clone()).chain(schemas).chain(read).collect()
+        std::iter::once(self.path.clone()).chain(named).chain(read).collect()
     }
 }

@@ -13,9 +13,9 @@ use crate::load::{show_diagnostics, shown_path};
 use cargo::{CargoUnit, cargo_end, cargo_start, to_cargo};
 use json::to_json;
 use sarif::{CheckedFile, to_sarif};
+use scl_loader::Loaded;
 use scl_terminal::{print_err, print_out};
 use scl_topology::diagnostic::Severity;
-use scl_topology::model::Model;
 use scl_topology::topology::Topology;
 use std::path::{Path, PathBuf};
 
@@ -23,9 +23,7 @@ use std::path::{Path, PathBuf};
 pub(super) fn report(checked: &[Checked], format: Format) {
     for it in checked {
         let error = it.outcome.as_ref().and_then(|outcome| outcome.error.as_ref());
-        error
-            .into_iter()
-            .for_each(|error| print_err(&format!("error: cannot write `{}`: {error}\n", it.path.display())));
+        error.into_iter().for_each(|error| print_err(&format!("error: {error}\n")));
     }
     match format {
         Format::Text => checked.iter().for_each(report_text),
@@ -101,7 +99,7 @@ fn closing_line(checked: &Checked) -> String {
         counted(number_of(Severity::Lint), "lint"),
     ];
     let problems = problems.into_iter().filter(|it| !it.starts_with("0 ")).collect::<Vec<_>>().join(", ");
-    let words = match checked.loaded.topology.as_ref().map(|topology| size_of(topology, &checked.loaded.model)) {
+    let words = match checked.loaded.topology.as_ref().map(|topology| size_of(topology, &checked.loaded)) {
         Some(size) if problems.is_empty() => size,
         Some(size) => format!("{size}; {problems}"),
         None if problems.is_empty() => "no mistakes".to_owned(),
@@ -110,13 +108,17 @@ fn closing_line(checked: &Checked) -> String {
     format!("{}: {words}\n", shown_path(&checked.path))
 }
 
-fn size_of(topology: &Topology, model: &Model) -> String {
+fn size_of(topology: &Topology, loaded: &Loaded) -> String {
     let gates = topology.components().map(|(_, component)| component.gates().len()).sum();
     let components = counted(topology.components().len(), "component");
     let connections = counted(topology.connections().len(), "connection");
     let size = format!("{components}, {}, {connections}", counted(gates, "gate"));
+    let size = match loaded.included.len() {
+        0 => size,
+        others => format!("{size} in {} files", 1 + others),
+    };
     // Each of them costs a gate and a connection, which are not written in the file.
-    match model.connections.iter().filter(|connection| connection.from_everyone).count() {
+    match loaded.model.connections.iter().filter(|connection| connection.from_everyone).count() {
         0 => size,
         number => format!("{size} ({number} of them by `everyone`)"),
     }

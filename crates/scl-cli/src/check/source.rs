@@ -2,8 +2,28 @@
 
 use super::CheckArguments;
 use crate::load::{load_file, request};
-use scl_loader::{Loaded, load_bytes};
-use std::path::Path;
+use scl_loader::{Loaded, Request, load_bytes};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// The text of a file, and those of the files that it includes and that were changed.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Texts {
+    pub(super) main: String,
+    pub(super) included: BTreeMap<PathBuf, String>,
+}
+
+impl Texts {
+    /// The same, with another text of the file itself, or of one that it includes.
+    pub(super) fn with(&self, included: Option<&Path>, text: &str) -> Self {
+        let mut changed = self.clone();
+        match included {
+            Some(path) => _ = changed.included.insert(path.to_path_buf(), text.to_owned()),
+            None => changed.main = text.to_owned(),
+        }
+        changed
+    }
+}
 
 /// A file to check; with `--fix`, it is checked several times.
 pub(super) struct Source<'a> {
@@ -32,12 +52,15 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Checks a text in place of the file's content.
-    pub(super) fn load_text(&self, text: &str) -> Loaded {
+    /// Checks texts in place of the content of the file, and of files that it includes.
+    pub(super) fn load_texts(&self, texts: &Texts) -> Loaded {
         match is_launch_file(self.path) {
             #[cfg(feature = "run")]
-            true => self.check_launch_file(scl_loader::read_bytes(&self.launch_request(), text.into())),
-            _ => load_bytes(&request(self.path, self.arguments.max_size), text.into()),
+            true => self.check_launch_file(scl_loader::read_bytes(&self.launch_request(), texts.main.clone().into())),
+            _ => {
+                let request = request(self.path, self.arguments.max_size);
+                load_bytes(&Request { texts: texts.included.clone(), ..request }, texts.main.clone().into())
+            }
         }
     }
 }

@@ -17,7 +17,7 @@ pub(super) struct Revision {
 }
 
 impl Revision {
-    /// Reads the topology file `path` and all `.proto` files of its repository.
+    /// Reads the topology file `path`, and all files of its repository that it may include or name as schemas.
     ///
     /// # Errors
     /// The file is not in a git repository, there is no such revision, or it does not have the file.
@@ -37,7 +37,9 @@ impl Revision {
         let with_index = |arguments: &[&str], input: &[u8]| run(top, arguments, Some(&index), input);
         with_index(&["read-tree", &commit], &[]).map_err(unreadable)?;
         let all = with_index(&["ls-files", "-z"], &[]).map_err(unreadable)?;
-        let is_needed = |name: &&[u8]| name.ends_with(b".proto") || *name == wanted.as_bytes();
+        let is_needed = |name: &&[u8]| {
+            [".proto", ".yaml", ".yml"].iter().any(|end| name.ends_with(end.as_bytes())) || *name == wanted.as_bytes()
+        };
         let names: Vec<&[u8]> = all.split(|byte| *byte == 0).filter(is_needed).collect();
         if !names.contains(&wanted.as_bytes()) {
             return Err(Problem::new(format!("revision `{}` has no file `{}`", escape(name), escape(&wanted))));

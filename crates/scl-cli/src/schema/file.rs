@@ -9,6 +9,8 @@ use serde_json::{Map, Value, json};
 /// The whole schema.
 pub(super) fn file_schema(names: &Names) -> Value {
     let mut schema = mapping(&SECTIONS, names);
+    // A file that another one includes need not have any section.
+    schema.remove("required");
     let head = json!({
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "SCL topology",
@@ -56,10 +58,13 @@ fn list_schema(key: &Key, item: Item, names: &Names) -> Value {
         }
         Item::Gate => gate_schema(names),
         Item::SharedGate => shared_gate_schema(names),
+        Item::Topology => {
+            json!({ "type": "string", "pattern": "\\S", "description": "A file, for example `sensors.yaml`." })
+        }
     };
     // A list of components or gates that is still empty is a warning, not an error.
     match (key.is_required(), item) {
-        (true, _) | (_, Item::File | Item::Folder) => json!({ "type": "array", "items": items }),
+        (true, _) | (_, Item::File | Item::Folder | Item::Topology) => json!({ "type": "array", "items": items }),
         (false, _) => json!({ "type": ["array", "null"], "items": items }),
     }
 }

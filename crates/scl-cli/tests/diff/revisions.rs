@@ -86,3 +86,23 @@ fn revisions_that_cannot_be_read_are_explained() {
         "{output:?}"
     );
 }
+
+#[test]
+fn included_files_are_those_of_the_revision() {
+    let (sensors, rest) = ROVER.split_at(ROVER.find("  - name: controller").unwrap());
+    let sensors = sensors.strip_prefix("system: rover\n").unwrap_or(sensors);
+    let system = repository(ROVER);
+    system.write("parts/sensors.yaml", sensors);
+    system
+        .write("rover/topology.yaml", &format!("system: rover\ninclude: [../parts/sensors.yaml]\ncomponents:\n{rest}"));
+    for arguments in
+        [&["add", "."][..], &["-c", "user.name=t", "-c", "user.email=t@localhost", "commit", "-q", "-m", "third"]]
+    {
+        assert!(Command::new("git").arg("-C").arg(system.path("")).args(arguments).status().unwrap().success());
+    }
+    assert_eq!(diff_in(&system, "rover", &["HEAD~2"]), (Some(0), String::new(), String::new()));
+    system.write("parts/sensors.yaml", &sensors.replace("measurements", "samples"));
+    let (code, _, error) = diff_in(&system, "rover", &["HEAD"]);
+    assert_eq!(code, Some(2), "{error}");
+    assert!(error.contains("sensor` has no gate"), "{error}");
+}

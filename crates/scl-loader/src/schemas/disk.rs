@@ -6,6 +6,7 @@ use super::imports::{Imported, is_built_in, look_up};
 use super::limits;
 use super::mistake::Mistake;
 use crate::read::{Unreadable, read_text};
+use crate::unreadable::why;
 use protox::Error;
 use protox::file::{File, FileResolver, GoogleFileResolver};
 use std::collections::HashSet;
@@ -111,17 +112,5 @@ impl Disk {
         let seen = self.seen.get();
         let same = |file: &&SchemaFile| file.name != name && file.path.canonicalize().is_ok_and(|other| other == path);
         seen.files.iter().find(same).map(|file| file.name.clone())
-    }
-}
-
-/// Says in a few words why a schema cannot be read.
-pub(super) fn why(path: &Path, cause: Unreadable) -> String {
-    let shown = path.display();
-    match cause {
-        Unreadable::Missing => format!("cannot find `{shown}`"),
-        Unreadable::NotAFile(word) => format!("`{shown}` is {word}, not a file"),
-        Unreadable::TooLarge(size) => format!("`{shown}` has {size} bytes, more than the limit"),
-        Unreadable::NotUtf8(bad) => format!("`{shown}` is not valid UTF-8 (line {}, column {})", bad.line, bad.column),
-        Unreadable::BrokenLink(error) | Unreadable::Refused(error) => format!("`{shown}` cannot be read: {error}"),
     }
 }

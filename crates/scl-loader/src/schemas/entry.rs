@@ -1,17 +1,17 @@
 //! What can be wrong with an entry of `schemas:` or `schema_roots:` before its file is compiled.
 
-use super::disk::why;
 use super::folders::{Folders, Found};
 use super::outline::{Outline, outline};
+use crate::paths::{leaves_its_folder, plain};
 use crate::read::{Unreadable, read_text};
-use crate::unreadable::{file_names, similar_file};
+use crate::unreadable::{file_names, similar_file, why};
 use scl_text::list::quoted_list;
 use scl_topology::diagnostic::{Diagnostic, Diagnostics, Edit, removal, separator};
 use scl_topology::external::{SCHEMA, SCHEMA_ELSEWHERE, SCHEMA_TWICE};
 use scl_topology::model::Model;
 use scl_topology::source::{Sources, Span, Spanned};
 use std::collections::{HashMap, HashSet};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 /// The files that earlier entries lead to.
 #[derive(Default)]
@@ -49,18 +49,6 @@ pub(super) fn elsewhere(schema: &Spanned<String>) -> Option<Diagnostic> {
     };
     let found = SCHEMA_ELSEWHERE.at(message, schema.span, "");
     Some(found.help("keep the schema beside the topology file, or in a folder below it"))
-}
-
-fn leaves_its_folder(path: &Path) -> bool {
-    let mut depth = 0_i32;
-    path.components().any(|part| {
-        depth += match part {
-            Component::ParentDir => -1,
-            Component::Normal(_) => 1,
-            _ => 0,
-        };
-        depth < 0
-    })
 }
 
 /// Reports each entry of `schema_roots` that is not a folder; returns true if all are.
@@ -113,8 +101,8 @@ pub(super) fn refuse(
     max_size: u64,
     sources: &Sources,
 ) -> Option<Diagnostic> {
-    let name = &schema.value;
-    let path = folders.path(Path::new(name));
+    let name = as_written(schema, sources);
+    let path = folders.path(Path::new(&schema.value));
     let beside = |other: String| Path::new(name).with_file_name(other).display().to_string();
     let (headline, near) = match read_text(&path, max_size) {
         Ok(text) if is_schema(&path) || outline(&text) != Outline::default() => return None,
@@ -152,9 +140,16 @@ pub(super) fn refuse(
         });
     }
     Some(match is_schema(&path) {
+        true if name != schema.value => problem.note("paths start at the folder of the file that contains them"),
         true => problem.note("schemas are looked for beside the topology file"),
         false => problem.note("`schemas` names the `.proto` files that declare the messages"),
     })
+}
+
+/// An entry as its file has it: in an included file, its path starts at another folder than that of the topology file.
+fn as_written<'s>(schema: &'s Spanned<String>, sources: &'s Sources) -> &'s str {
+    let written = sources.snippet(schema.span).trim_matches(['"', '\'']);
+    if Path::new(&schema.value).ends_with(plain(Path::new(written))) { written } else { &schema.value }
 }
 
 /// The only schema in the folder with the name of this one as a part of its own, or the only schema.
@@ -217,22 +212,4 @@ fn generated_from(path: &Path) -> Option<String> {
     let stem = ["_pb2_grpc", "_pb2", "_pb"].iter().find_map(|end| stem.strip_suffix(end)).unwrap_or(stem);
     let folder = path.parent().filter(|_| !is_schema(path))?;
     schemas_in(folder).find(|other| other.to_lowercase().strip_suffix(".proto") == Some(stem))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn paths_that_leave_the_folder_are_found() {
-        for (path, leaves) in [
-            ("a.proto", false),
-            ("./a.proto", false),
-            ("proto/../a.proto", false),
-            ("../a.proto", true),
-            ("proto/../../proto/a.proto", true),
-        ] {
-            assert_eq!(leaves_its_folder(Path::new(path)), leaves, "{path}");
-        }
-    }
 }

@@ -1,5 +1,6 @@
 //! The folders in which schemas are looked for, and the files that a name can mean there.
 
+use crate::paths::plain;
 use crate::read::read_text;
 use crate::unreadable::file_names;
 use scl_topology::diagnostic::{Diagnostic, appended, new_list};
@@ -195,9 +196,4 @@ fn from(folder: &Path, path: &Path) -> Option<String> {
 /// A folder as an entry of `schema_roots`.
 fn as_root(folder: &Path) -> String {
     if folder.as_os_str().is_empty() { ".".to_owned() } else { folder.display().to_string() }
-}
-
-/// The path without `.`.
-fn plain(path: &Path) -> PathBuf {
-    path.components().filter(|part| *part != Component::CurDir).collect()
 }

@@ -1,7 +1,7 @@
 //! Compares the problems of a file before and after a change.
 
-use super::Judged;
 use super::edit::{is_crlf, sorted};
+use super::{ChangedCopy, Judged};
 use crate::diagnostic::{Diagnostic, Edit, Label, Severity};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -28,6 +28,8 @@ pub(super) struct Change<'c> {
     /// The numbers of the problems that it should solve.
     pub(super) problems: Vec<usize>,
     pub(super) edits: &'c [&'c Edit],
+    /// The files that they change.
+    pub(super) copies: &'c [ChangedCopy],
 }
 
 impl Change<'_> {
@@ -36,33 +38,46 @@ impl Change<'_> {
         self.edits.iter().all(|edit| edit.replacement.trim().is_empty())
     }
 
+    /// The lines of a copy that it changes, and those that belong to them.
+    fn block(&self, copy: &ChangedCopy) -> Range<usize> {
+        let edits: Vec<&Edit> = self.edits.iter().copied().filter(|edit| edit.span.file == copy.file).collect();
+        let changed = changed(&edits, is_crlf(&copy.text), &copy.text);
+        if self.is_indentation() { section(&changed, &copy.text) } else { block(&changed, &copy.text) }
+    }
+
     /// Whether it removes words and writes no others.
     fn is_removal(&self) -> bool {
         self.edits.iter().any(|edit| edit.replacement.is_empty())
     }
 }
 
-/// Whether a change of a text solves its problems without adding any; `before` and `after` are what was found in the
-/// text and in the changed `copy`.
+/// Whether a change solves its problems without adding any; `before` and `after` are what was found without and with
+/// it.
 ///
 /// If a file can be read further than before, problems that were there before may show outside of the changed lines and
 /// what belongs to them. This does not hold for a removal, which could hide one mistake and make another.
-pub(super) fn passes(before: &Judged, change: &Change<'_>, after: &Judged, copy: &str) -> bool {
+pub(super) fn passes(before: &Judged, change: &Change<'_>, after: &Judged) -> bool {
     if after.extent.is_cut_off && !before.extent.is_cut_off {
         return false;
     }
     let reads_further = before.extent.is_cut_off || after.extent.unread < before.extent.unread;
     let may_reveal = reads_further && !change.is_removal();
-    let changed = changed(change.edits, is_crlf(copy), copy);
-    let block = if change.is_indentation() { section(&changed, copy) } else { block(&changed, copy) };
+    let blocks: Vec<(&ChangedCopy, Range<usize>)> =
+        change.copies.iter().map(|copy| (copy, change.block(copy))).collect();
     let own = || change.problems.iter().map(|number| &before.problems[*number]);
     let own_rules: HashSet<&str> = own().map(Diagnostic::code).collect();
     let is_revealed = |problem: &Diagnostic| {
-        // The same mistake in the next line may be the same one, moved.
-        let end = if own_rules.contains(problem.code()) { with_next_line(block.end, copy) } else { block.end };
-        let is_elsewhere = |label: &Label| match label.span.start as usize {
-            at if after.extent.is_cut_off => at >= end,
-            at => !(block.start..end).contains(&at),
+        let is_elsewhere = |label: &Label| {
+            let Some((copy, block)) = blocks.iter().find(|(copy, _)| copy.file == label.span.file) else { return true };
+            // The same mistake in the next line may be the same one, moved.
+            let end = match own_rules.contains(problem.code()) {
+                true => with_next_line(block.end, &copy.text),
+                false => block.end,
+            };
+            match label.span.start as usize {
+                at if after.extent.is_cut_off => at >= end,
+                at => !(block.start..end).contains(&at),
+            }
         };
         let mut labels = problem.primary.iter().chain(&problem.secondary);
         may_reveal && problem.primary.is_some() && labels.all(is_elsewhere)

@@ -2,7 +2,7 @@
 
 use super::RULES;
 use crate::diagnostic::Rule;
-use crate::{diagnostic, everyone, external, kinds, parse};
+use crate::{diagnostic, everyone, external, join, kinds, parse};
 use std::sync::LazyLock;
 
 /// All rules, sorted by code.
@@ -12,6 +12,7 @@ pub static ALL: LazyLock<Vec<&'static Rule>> = LazyLock::new(|| {
         parse::SHAPES,
         kinds::RULES,
         everyone::RULES,
+        join::RULES,
         RULES,
         &[&diagnostic::TOO_MANY],
         external::RULES,

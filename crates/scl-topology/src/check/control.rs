@@ -7,7 +7,7 @@ mod command;
 use super::feedback;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::model::{ControlModel, Model};
-use crate::source::Sources;
+use crate::source::{Line, Sources};
 use command::{Command, command_span, read};
 use std::collections::{HashMap, HashSet};
 
@@ -51,7 +51,7 @@ pub(super) fn apply(model: &Model, sources: &Sources, problems: &mut Diagnostics
     }
     let mut own = Vec::new();
     let mut requests = Requests::of(model, &mut own);
-    let mut left: HashMap<u32, &'static Rule> = HashMap::new();
+    let mut left: HashMap<Line, &'static Rule> = HashMap::new();
     problems.retain(|problem| {
         if problem.severity == Severity::Lint && requests.lints.contains(problem.rule) {
             problem.severity = Severity::Warning;
@@ -76,19 +76,24 @@ pub(super) fn threshold(model: &Model, of: &Rule) -> Option<u32> {
 }
 
 /// The lines for which a comment allows a check.
-pub(super) fn allowed_lines(model: &Model, of: &Rule) -> HashSet<u32> {
+pub(super) fn allowed_lines(model: &Model, of: &Rule) -> HashSet<Line> {
     let mut told_later = Vec::new();
     let allows = model.controls.iter().filter(|control| match read(control, &mut told_later) {
         Some(Command::Allow { rules, .. }) => rules.contains(&of),
         _ => false,
     });
-    allows.map(|control| control.line).collect()
+    allows.map(line_of).collect()
+}
+
+/// The line that a comment is about.
+fn line_of(control: &ControlModel) -> Line {
+    Line { file: control.text.span.file, number: control.line }
 }
 
 /// The requests of all comments.
 struct Requests<'m> {
     /// By rule and line.
-    allowed: HashMap<(&'static Rule, u32), Allow<'m>>,
+    allowed: HashMap<(&'static Rule, Line), Allow<'m>>,
     /// The lints that are turned on.
     lints: HashSet<&'static Rule>,
 }
@@ -107,7 +112,7 @@ impl<'m> Requests<'m> {
             match read(control, own) {
                 Some(Command::Allow { rules, reason }) => {
                     for rule in rules {
-                        let place = (rule, control.line);
+                        let place = (rule, line_of(control));
                         requests.allowed.entry(place).or_insert(Allow { control, reason, used: false });
                     }
                 }
@@ -122,13 +127,13 @@ impl<'m> Requests<'m> {
     }
 
     /// Returns true if a comment allows the problem, and marks that comment as used.
-    fn allow(&mut self, rule: &'static Rule, line: u32) -> bool {
+    fn allow(&mut self, rule: &'static Rule, line: Line) -> bool {
         self.allowed.get_mut(&(rule, line)).map(|allow| allow.used = true).is_some()
     }
 
     /// Reports each `allow` without a reason or without effect. In a file with errors, a warning may be missing because
     /// of them, so an `allow` without effect is not reported.
-    fn report(&self, left: &HashMap<u32, &'static Rule>, has_errors: bool, own: &mut Vec<Diagnostic>) {
+    fn report(&self, left: &HashMap<Line, &'static Rule>, has_errors: bool, own: &mut Vec<Diagnostic>) {
         for (&(rule, line), allow) in &self.allowed {
             if allow.used && allow.reason.is_empty() {
                 own.push(without_reason(allow.control, rule));
@@ -141,11 +146,11 @@ impl<'m> Requests<'m> {
 
 /// The lines at which a problem can be allowed: the line of its place, or, for a loop of messages, the lines of all its
 /// connections.
-fn lines(problem: &Diagnostic, sources: &Sources) -> Vec<u32> {
+fn lines(problem: &Diagnostic, sources: &Sources) -> Vec<Line> {
     let is_loop = [&feedback::PUSHES, &feedback::LOOP].contains(&problem.rule);
     let others = problem.secondary.iter().filter(|_| is_loop);
     let labels = problem.primary.iter().chain(others);
-    labels.map(|label| sources.file(label.span.file).line(label.span.start as usize)).collect()
+    labels.map(|label| sources.line(label.span)).collect()
 }
 
 fn is_on(control: &ControlModel, rule: &Rule) -> Diagnostic {

@@ -12,6 +12,7 @@ use super::draft::Draft;
 use super::feedback::PUSHES;
 use super::waits::{self, Call, Wait, Waiting};
 use crate::diagnostic::{Diagnostics, Rule, Severity};
+use crate::source::Line;
 use crate::topology::GateKind;
 use report::{HEADLINE, is_request, kind, reason, report};
 use std::collections::HashSet;
@@ -45,7 +46,7 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 /// Reports deadlocks. `allowed_lines` returns the lines for which a comment allows a rule.
-pub(super) fn check(draft: &Draft<'_>, allowed_lines: impl Fn(&Rule) -> HashSet<u32>, problems: &mut Diagnostics) {
+pub(super) fn check(draft: &Draft<'_>, allowed_lines: impl Fn(&Rule) -> HashSet<Line>, problems: &mut Diagnostics) {
     let waits: Vec<Wait> = waits::all(draft).into_iter().filter(|wait| !wait.is_for_itself()).collect();
     let allowed = Allowed { waiting: allowed_lines(&RULE), pushing: allowed_lines(&PUSHES) };
     let judged: Vec<Wait> = waits.iter().filter(|wait| !allowed.any(draft, wait)).cloned().collect();
@@ -79,16 +80,15 @@ fn endless(waits: &[Wait]) -> Vec<Wait> {
 
 /// The lines at which a comment allows waiting.
 struct Allowed {
-    waiting: HashSet<u32>,
-    pushing: HashSet<u32>,
+    waiting: HashSet<Line>,
+    pushing: HashSet<Line>,
 }
 
 impl Allowed {
     /// Returns the rule that a comment allows for a step. A comment that allows a circle of push gates also allows it
     /// to wait.
     fn rule(&self, draft: &Draft<'_>, step: &Step) -> Option<&'static Rule> {
-        let span = place(draft, step);
-        let line = draft.sources.file(span.file).line(span.start as usize);
+        let line = draft.sources.line(place(draft, step));
         if self.waiting.contains(&line) {
             return Some(&RULE);
         }

@@ -17,7 +17,8 @@ pub(super) fn suggest(
     [first, second]: [&ComponentModel; 2],
 ) -> Diagnostic {
     let between = first.span.end.min(second.span.end) as usize..first.span.start.max(second.span.start) as usize;
-    let between = sources.file(first.span.file).text().get(between).filter(|text| text.len() < MOST_BETWEEN);
+    let file = Some(sources.file(first.span.file)).filter(|_| first.span.file == second.span.file);
+    let between = file.and_then(|file| file.text().get(between)).filter(|text| text.len() < MOST_BETWEEN);
     let is_condition = |line: &str| ["#if", "#else", "#elif"].iter().any(|word| line.trim_start().starts_with(word));
     let found = match between.and_then(|text| text.lines().find(|line| is_condition(line))) {
         Some(line) => found

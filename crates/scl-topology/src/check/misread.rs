@@ -30,7 +30,7 @@ pub(super) fn tell_once(problems: &mut Diagnostics) {
 
 /// Whether a place overlaps one of `spans`, which are sorted and do not overlap each other.
 fn meets(span: Span, spans: &[Span]) -> bool {
-    let next = spans.partition_point(|other| other.start < span.end);
+    let next = spans.partition_point(|other| (other.file, other.start) < (span.file, span.end));
     next > 0 && spans[next - 1].file == span.file && spans[next - 1].end > span.start
 }
 

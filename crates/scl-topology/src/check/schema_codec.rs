@@ -25,7 +25,7 @@ pub(crate) const RULE: Rule = Rule {
 };
 
 /// Gates by the place and the word of their codec.
-type ByCodec<'d> = BTreeMap<(u32, u32), (Span, &'d str, Vec<usize>)>;
+type ByCodec<'d> = BTreeMap<Span, (&'d str, Vec<usize>)>;
 
 pub(super) fn check(draft: &Draft<'_>, file_codec: &Codec, problems: &mut Diagnostics) {
     let mut by_codec = ByCodec::new();
@@ -33,11 +33,10 @@ pub(super) fn check(draft: &Draft<'_>, file_codec: &Codec, problems: &mut Diagno
         if let Some((span, word)) = codec_of(draft, gate, file_codec)
             && schema_type(gate).is_some()
         {
-            let (_, _, gates) = by_codec.entry((span.start, span.end)).or_insert((span, word, Vec::new()));
-            gates.push(at);
+            by_codec.entry(span).or_insert((word, Vec::new())).1.push(at);
         }
     }
-    problems.extend(by_codec.into_values().map(|(span, word, gates)| report(draft, span, word, &gates)));
+    problems.extend(by_codec.into_iter().map(|(span, (word, gates))| report(draft, span, word, &gates)));
 }
 
 /// Where a gate's codec is written and its word, if the codec carries Rust types only.

@@ -1,11 +1,12 @@
 //! Helpers for the tests of the rules: a text goes in, the messages that users read come out.
 
 use super::{Facts, SchemaMessages, check, find};
-use crate::advice::{Extent, Judged, try_advice};
+use crate::advice::{Extent, Judged, try_advice_in_files};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity, render};
-use crate::parse::parse;
+use crate::join::join;
+use crate::parse::{Part, complete, parse_part};
 use crate::socket_paths::SocketPaths;
-use crate::source::Sources;
+use crate::source::{FileId, SourceFile, Sources};
 use crate::topology::Topology;
 use expect_test::Expect;
 
@@ -85,6 +86,12 @@ pub(crate) fn problems(yaml: &str, messages: Option<&[&str]>) -> (Vec<Diagnostic
     (found, sources)
 }
 
+/// As [`problems`], for a topology file, which is the first, and files that it includes.
+pub(crate) fn problems_in_files(files: &[(&str, &str)], messages: Option<&[&str]>) -> (Vec<Diagnostic>, Sources) {
+    let (_, found, sources) = run_files(files, messages);
+    (found, sources)
+}
+
 /// The topology of a text without errors.
 #[track_caller]
 pub(crate) fn topology(yaml: &str) -> Topology {
@@ -94,8 +101,12 @@ pub(crate) fn topology(yaml: &str) -> Topology {
 }
 
 fn run(yaml: &str, messages: Option<&[&str]>) -> (Option<Topology>, Vec<Diagnostic>, Sources) {
+    run_files(&[("topology.yaml", yaml)], messages)
+}
+
+fn run_files(files: &[(&str, &str)], messages: Option<&[&str]>) -> (Option<Topology>, Vec<Diagnostic>, Sources) {
     let mut sources = Sources::new();
-    let file = sources.add("topology.yaml", yaml);
+    let files: Vec<FileId> = files.iter().map(|(name, text)| sources.add(*name, *text)).collect();
     let declared = |names: &[&str]| SchemaMessages {
         names: names.iter().map(|&name| name.to_owned()).collect(),
         enums: [("uav.Mode".to_owned(), vec!["uav.Status".to_owned()])].into(),
@@ -106,17 +117,26 @@ fn run(yaml: &str, messages: Option<&[&str]>) -> (Option<Topology>, Vec<Diagnost
         Facts { default_system: "topology".to_owned(), messages, sockets: SocketPaths::example(), ..Facts::default() };
     let judge = |sources: &Sources| {
         let mut problems = Diagnostics::new();
-        let model = parse(sources, file, &mut problems);
+        let mut model = parse_part(sources, files[0], Part::Main, &mut problems);
+        for file in &files[1..] {
+            let part = parse_part(sources, *file, Part::Included, &mut problems);
+            join(&mut model, part, &mut problems);
+        }
+        complete(&mut model, sources, &mut problems);
         let topology = check(&model, &facts, sources, &mut problems);
         assert_eq!(
             topology.is_none(),
             problems.has_errors(),
-            "a topology comes out exactly when there is no error: {yaml}"
+            "a topology comes out exactly when there is no error: {}",
+            sources.file(files[0]).text()
         );
         (topology, Judged { problems: problems.into_sorted(), extent: Extent::of(&model) })
     };
     let (topology, mut found) = judge(&sources);
-    try_advice(&mut found, sources.file(file), |copy| judge(&sources.with_text(file, copy)).1);
+    let all: Vec<&SourceFile> = files.iter().map(|file| sources.file(*file)).collect();
+    try_advice_in_files(&mut found, &all, |copies| {
+        judge(&copies.iter().fold(sources.clone(), |sources, copy| sources.with_text(copy.file, &*copy.text))).1
+    });
     let found = found.problems;
     let unlisted = found.iter().find(|found| find(found.code()).is_none());
     assert!(unlisted.is_none(), "the rule of this problem is missing from the list of its stage: {unlisted:?}");

@@ -33,7 +33,7 @@ pub const FORMAT: u32 = 1;
 pub const OWN_PREFIX: &str = "x-";
 
 /// The sections, in the order in which messages list them.
-pub static SECTIONS: [Key; 9] = [
+pub static SECTIONS: [Key; 10] = [
     Key {
         key: "components",
         shape: Shape::List(Item::Component),
@@ -96,6 +96,14 @@ everyone:
 ",
     },
     Key {
+        key: INCLUDE,
+        shape: Shape::List(Item::Topology),
+        default: "none",
+        summary: "Other topology files, whose components, kinds and connections belong to the same system.",
+        text: "Paths are relative to the folder of the file that contains them. See [several files](#several-files).",
+        example: "include: [sensors.yaml, arm/arm.yaml]\n",
+    },
+    Key {
         key: "system",
         shape: Shape::Name,
         default: "the file's name without its extension",
@@ -138,6 +146,9 @@ everyone:
         example: "scl: 1\n",
     },
 ];
+
+/// The section that names other files of the same system.
+pub const INCLUDE: &str = "include";
 
 /// The section of the gates that every component has.
 pub const EVERYONE: &str = "everyone";

@@ -68,6 +68,8 @@ pub enum Item {
     Kind,
     /// Gates of every component.
     SharedGate,
+    /// Names of other topology files.
+    Topology,
 }
 
 /// A value that has the right form, but is out of its range.
@@ -125,7 +127,7 @@ impl Shape {
             Shape::Word(words) => listed(words.iter().map(|word| word.word)),
             Shape::List(Item::Component) => "a list of components".to_owned(),
             Shape::List(Item::Connection) => "a list of pairs".to_owned(),
-            Shape::List(Item::File) => "a list of files".to_owned(),
+            Shape::List(Item::File | Item::Topology) => "a list of files".to_owned(),
             Shape::List(Item::Folder) => "a list of folders".to_owned(),
             Shape::List(Item::Gate) => "a list of gates".to_owned(),
             Shape::List(Item::Kind) => "a list of kinds".to_owned(),

@@ -47,7 +47,7 @@ impl Reader<'_> {
     /// meant.
     pub(super) fn in_ascii(&mut self, node: &Node, word: Spanned<String>, what: &str) -> Spanned<String> {
         // Files may have any name.
-        if word.value.is_ascii() || matches!(what, "schema file" | "folder of schemas") {
+        if word.value.is_ascii() || matches!(what, "schema file" | "folder of schemas" | "included file") {
             return word;
         }
         let Some(problem) = pitfall::look_alike::in_word(node, &word.value, what, self.source) else { return word };

@@ -2,7 +2,7 @@
 
 use super::field::{Field, Fields};
 use super::words::SECTIONS;
-use super::{Reader, shape};
+use super::{Part, Reader, shape};
 use crate::grammar;
 use crate::habits;
 use crate::source::Spanned;
@@ -18,6 +18,7 @@ impl Reader<'_> {
             match field.key {
                 "system" => self.model.system = self.name_in(*field, "system name"),
                 "codec" => self.model.codec = self.name_in(*field, "codec"),
+                grammar::INCLUDE => self.model.include = self.read_files(*field, "included file", "a file"),
                 "schemas" => self.model.schemas = self.read_files(*field, "schema file", "a schema"),
                 "schema_roots" => {
                     self.model.schema_roots = self.read_files(*field, "folder of schemas", "a folder of schemas");
@@ -78,7 +79,7 @@ impl Reader<'_> {
                 *found.rule != shape::missing::GATES || found.primary.as_ref().is_none_or(|label| label.span != name)
             });
         }
-        self.model.components_unread |= shape::unknown_key::included(field).is_some();
+        self.model.components_unread |= shape::unknown_key::is_include(field);
         self.report(
             shape::level::at_top(field, self.model.components.last(), self.source)
                 .unwrap_or_else(|| shape::unknown_key::section(field, self.source)),
@@ -102,8 +103,11 @@ impl Reader<'_> {
         self.model.connections_unread = connections_unread;
         self.model.kinds_unread |=
             fields.get("kinds").is_none() && (perhaps("kinds") || fields.list.iter().any(is_odd_list));
+        // Another file may have the rest.
+        let is_whole = self.part == Part::Main && fields.get(grammar::INCLUDE).is_none();
         match fields.get("components") {
             None if perhaps("components") => self.model.components_unread = true,
+            _ if !is_whole => {}
             None => {
                 self.model.components_unread = true;
                 self.report(shape::missing::section(fields, self.source));

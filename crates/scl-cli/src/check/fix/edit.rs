@@ -18,8 +18,7 @@ pub(super) struct FixGroup {
 
 /// Returns the fixes of a file that can be applied together: only the first of those that overlap, and none for
 /// `refused` problems.
-pub(super) fn groups(loaded: &Loaded, refused: &HashSet<String>) -> Vec<FixGroup> {
-    let Some(file) = loaded.file else { return Vec::new() };
+pub(super) fn groups(loaded: &Loaded, file: FileId, refused: &HashSet<String>) -> Vec<FixGroup> {
     let mut taken: BTreeMap<usize, usize> = BTreeMap::new();
     let problems = loaded.diagnostics.iter().filter(|found| found.severity != Severity::Lint);
     problems

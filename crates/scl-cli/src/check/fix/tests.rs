@@ -13,7 +13,7 @@ use std::collections::HashSet;
 
 fn fixed(text: &str) -> (String, usize, usize) {
     let check = |text: &str| load_bytes(&Request::new("topology.yaml"), text.as_bytes().to_vec());
-    let fixed = fix(check(text), text.to_owned(), check);
+    let fixed = fix(check(text), None, text.to_owned(), check);
     let errors = fixed.loaded.diagnostics.iter().filter(|found| found.severity == Severity::Error).count();
     (fixed.text, fixed.applied, errors)
 }
@@ -131,7 +131,7 @@ fn untried(text: &str) -> Loaded {
 }
 
 fn fixed_words(text: &str) -> (String, usize) {
-    let fixed = fix(check_words(text), text.to_owned(), check_words);
+    let fixed = fix(check_words(text), None, text.to_owned(), check_words);
     (fixed.text, fixed.applied)
 }
 
@@ -168,7 +168,7 @@ fn fixes_that_overlap_are_not_applied_at_once() {
     let all_solved = |_: &str| Judged { problems: Vec::new(), extent: Extent::default() };
     try_advice(&mut found, loaded.sources.file(file), all_solved);
     loaded.diagnostics = found.problems;
-    let groups = groups(&loaded, &HashSet::new());
+    let groups = groups(&loaded, file, &HashSet::new());
     assert_eq!(apply("abcdef", &groups), "1c4e5f");
 }
 
@@ -183,7 +183,7 @@ fn a_sure_fix_of_an_example_removes_its_problem() {
         let has_fix =
             loaded.diagnostics.iter().any(|found| found.rule == *rule && found.proposals().any(|way| way.is_sure));
         if has_fix {
-            let fixed = fix(loaded, bad, check);
+            let fixed = fix(loaded, None, bad, check);
             let left = fixed.loaded.diagnostics.iter().find(|found| found.rule == *rule);
             assert!(left.is_none(), "{}: {left:?} in {}", rule.code, fixed.text);
             fixed_rules.push(rule.code);

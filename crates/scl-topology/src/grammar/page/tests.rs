@@ -1,7 +1,7 @@
 //! The page is current, complete, and every example on it is a sound topology.
 
 use super::{entries, explain, page};
-use crate::check::testing::{USUAL, problems};
+use crate::check::testing::{USUAL, problems, problems_in_files};
 use crate::diagnostic::{Severity, render};
 
 /// The texts between ```` ```yaml ```` and ```` ``` ````.
@@ -21,10 +21,16 @@ fn completed(example: &str) -> String {
     }
 }
 
+/// Checks an example, together with the examples that are files which it includes: their first line is the name.
 #[track_caller]
-fn assert_sound(example: &str) {
+fn assert_sound(example: &str, others: &[&str]) {
     let text = completed(example);
-    let (found, sources) = problems(&text, None);
+    let included = others.iter().filter_map(|other| {
+        let name = other.strip_prefix("# ")?.lines().next()?;
+        example.contains(&format!("include: [{name}]")).then_some((name, *other))
+    });
+    let files: Vec<(&str, &str)> = std::iter::once(("topology.yaml", text.as_str())).chain(included).collect();
+    let (found, sources) = problems_in_files(&files, None);
     let problem = found.iter().find(|it| it.severity != Severity::Lint && !USUAL.contains(&it.rule.code));
     assert!(problem.is_none(), "{}", render(problem.unwrap(), &sources));
 }
@@ -33,10 +39,11 @@ fn assert_sound(example: &str) {
 fn every_example_is_sound() {
     let page = page();
     assert!(examples(&page).len() > 10);
-    examples(&page).into_iter().for_each(assert_sound);
+    let all = examples(&page);
+    all.iter().for_each(|example| assert_sound(example, &all));
     for entry in entries() {
         assert_eq!(examples(&entry.text).len(), 1, "{}", entry.word);
-        examples(&entry.text).into_iter().for_each(assert_sound);
+        examples(&entry.text).into_iter().for_each(|example| assert_sound(example, &[]));
     }
 }
 

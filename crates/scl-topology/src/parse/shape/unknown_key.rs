@@ -15,7 +15,7 @@ use crate::source::{SourceFile, Span, Spanned};
 use crate::suggest::similar;
 use crate::topology::GateKind;
 use crate::yaml::{Node, NodeKind};
-use scl_text::list::{all_of, listed, quoted_list};
+use scl_text::list::{all_of, quoted_list};
 
 /// SCL0202.
 pub(crate) const SECTION: Rule = Rule {
@@ -33,9 +33,9 @@ pub(crate) const SECTION: Rule = Rule {
 pub(in crate::parse) fn section(field: Field<'_>, source: &SourceFile) -> Diagnostic {
     let message = format!("unknown section `{}`", field.key);
     let problem = SECTION.at(message, field.key_span, "not a section of a topology");
-    if let Some(files) = included(field) {
-        let text = format!("a topology is one file: copy the components of {} into `components`", listed(files));
-        return problem.help(text);
+    if is_include(field) {
+        let edit = Edit::new(field.key_span, grammar::INCLUDE);
+        return problem.propose("other files of the system are named by `include`", [edit]);
     }
     let is_section = |key: &str| SECTIONS.contains(&key);
     let problem = with_lifted(problem, field, &habits::SECTIONS, is_section, source);
@@ -49,14 +49,13 @@ pub(in crate::parse) fn section(field: Field<'_>, source: &SourceFile) -> Diagno
     .note("keys that start with `x-` are ignored, for your own use")
 }
 
-/// `include: sprayer.yaml`: the other files whose components are meant to belong to this one.
-pub(in crate::parse) fn included<'n>(field: Field<'n>) -> Option<Vec<&'n str>> {
-    let files: Vec<&str> = match &field.value.kind {
-        NodeKind::Sequence { items } => items.iter().map(Node::text).collect::<Option<_>>()?,
-        _ => vec![field.value.text()?],
-    };
-    let is_file = |text: &&str| [".yaml", ".yml", ".json", ".xml"].into_iter().any(|end| text.ends_with(end));
-    (!files.is_empty() && files.iter().all(is_file)).then_some(files)
+/// `imports: sprayer.yaml`: other files whose components are meant to belong to this one.
+pub(in crate::parse) fn is_include(field: Field<'_>) -> bool {
+    let is_file = |node: &Node| node.text().is_some_and(|text| text.ends_with(".yaml") || text.ends_with(".yml"));
+    match &field.value.kind {
+        NodeKind::Sequence { items } => !items.is_empty() && items.iter().all(is_file),
+        _ => is_file(field.value),
+    }
 }
 
 /// SCL0207.
@@ -272,7 +271,7 @@ mod tests {
                   | ^^^^^^^^^^ not a section of a topology
                   |
                   = help: did you mean `connections`?
-                  = note: sections: `components`, `connections`, `kinds`, `everyone`, `system`, `schemas`, `schema_roots`, `codec`, `scl`
+                  = note: sections: `components`, `connections`, `kinds`, `everyone`, `include`, `system`, `schemas`, `schema_roots`, `codec`, `scl`
                   = note: keys that start with `x-` are ignored, for your own use"#]],
         );
     }
