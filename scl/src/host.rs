@@ -19,7 +19,7 @@ use crate::component::RealTimeSettings;
 use crate::environment;
 use crate::error::{OpenError, Result};
 use crate::sync::lock;
-use crate::{log, service, stop};
+use crate::{log, service, stderr_log, stop};
 use std::sync::Mutex;
 use std::time::Duration;
 
@@ -36,7 +36,7 @@ pub use error_kind::ErrorKind;
 /// # Errors
 /// [`OpenError::Environment`] if `SCL_LOG` is not a level.
 pub fn start_log() -> Result<(), OpenError> {
-    log::start(log::level(&environment::of_process)?);
+    stderr_log::start(log::level(&environment::of_process)?);
     Ok(())
 }
 

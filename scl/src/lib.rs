@@ -79,7 +79,7 @@
 //! | `zeromq` (default) | the transport between programs |
 //! | `shm` | shared memory for long messages between programs on it, see [`TransportKind::Shm`] |
 //! | `memory` (default) | the transport within a program, for unit tests of components |
-//! | `logging` (default) | [`main`](macro@main) logs to standard error; switch it off if the program has a log of its own |
+//! | `logging` (default) | [`main`](macro@main) logs to standard error, unless the program has a log of its own; `events` sends what is logged to a gate |
 //! | `nightly` | the macro's problems shown in the YAML file itself; needs a nightly compiler |
 //! | `conformance` | the tests that transports and codecs are put to, for those of your own |
 #![deny(missing_docs)]
@@ -95,6 +95,8 @@ mod component;
 pub mod conformance;
 mod environment;
 mod error;
+#[cfg(feature = "logging")]
+pub mod events;
 #[doc(hidden)]
 pub mod examine;
 mod figures;
@@ -115,6 +117,7 @@ mod senders;
 mod service;
 pub mod spec;
 mod state;
+mod stderr_log;
 mod stop;
 mod sync;
 #[cfg(feature = "zeromq")]

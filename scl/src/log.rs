@@ -1,4 +1,4 @@
-//! The log that `#[scl::main]` writes to standard error.
+//! What is logged: from which level on, and the warnings that must not wait.
 
 use crate::environment::{self, Variables};
 use crate::error::OpenError;
@@ -22,30 +22,6 @@ pub(crate) fn warn(text: &str) {
     on_living_thread(|| tracing::warn!("{text}"));
 }
 
-/// Does nothing: without the feature `logging`, the program chooses what happens to its log.
-#[cfg(not(feature = "logging"))]
-pub(crate) fn start(_level: LevelFilter) {}
-
-/// Writes the log to standard error, unless the program has already set up a log of its own.
-#[cfg(feature = "logging")]
-pub(crate) fn start(level: LevelFilter) {
-    use std::io::IsTerminal;
-    let colour = use_colour(std::io::stderr().is_terminal(), &environment::of_process);
-    let log = tracing_subscriber::fmt().with_writer(std::io::stderr).with_max_level(level).with_ansi(colour);
-    let _already_set = log.with_target(false).without_time().try_init();
-}
-
-/// Returns true if the log is written in colour: only on terminals unless `CLICOLOR` or `CLICOLOR_FORCE` says otherwise
-/// (<https://bixense.com/clicolors>), and never if `NO_COLOR` is set (<https://no-color.org>).
-#[cfg(any(feature = "logging", test))]
-fn use_colour(terminal: bool, variables: Variables<'_>) -> bool {
-    let is_set = |name| variables(name).is_some_and(|value| !value.is_empty());
-    let is_zero = |name| variables(name).is_some_and(|value| value == "0");
-    let forced = is_set("CLICOLOR_FORCE") && !is_zero("CLICOLOR_FORCE");
-    let wanted = terminal && !is_zero("CLICOLOR") && variables("TERM").is_none_or(|value| value != "dumb");
-    !is_set("NO_COLOR") && (forced || wanted)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -67,27 +43,6 @@ mod tests {
         for (value, expected) in cases {
             let variables = |name: &str| (name == "SCL_LOG").then(|| value.into());
             assert_eq!(refused(level(&variables)), expected.map_err(str::to_owned));
-        }
-    }
-
-    #[test]
-    fn colour_is_for_terminals_unless_the_environment_says_otherwise() {
-        type Case<'a> = (bool, &'a [(&'a str, &'a str)], bool);
-        let cases: [Case<'_>; 10] = [
-            (true, &[], true),
-            (false, &[], false),
-            (true, &[("NO_COLOR", "")], true),
-            (true, &[("NO_COLOR", "1")], false),
-            (true, &[("CLICOLOR", "0")], false),
-            (true, &[("CLICOLOR", "1")], true),
-            (false, &[("CLICOLOR", "1")], false),
-            (true, &[("TERM", "dumb")], false),
-            (false, &[("CLICOLOR_FORCE", "1"), ("TERM", "dumb")], true),
-            (false, &[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")], false),
-        ];
-        for (terminal, set, expected) in cases {
-            let variables = |name: &str| set.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).into());
-            assert_eq!(use_colour(terminal, &variables), expected, "{terminal} {set:?}");
         }
     }
 }

@@ -8,6 +8,7 @@ mod children;
 mod circle;
 mod descriptors;
 mod drop;
+mod events;
 mod exit;
 mod forking;
 mod freshness;

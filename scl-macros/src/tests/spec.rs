@@ -5,6 +5,15 @@ use expect_test::expect;
 use proc_macro2::TokenStream;
 
 #[test]
+fn an_included_file_is_tracked_and_named() {
+    let main = "include: [sensors.yaml]\ncomponents: []\nconnections: []\n";
+    let sensors = "components:\n  - name: sensor\n    gates:\n      - measurements: {pub: T, unconnected: ok}\n";
+    let text = expand_with(&[("t.yaml", main), ("sensors.yaml", sensors)], "").to_string();
+    assert_eq!(text.matches("include_bytes").count(), 2, "{text}");
+    assert!(text.contains("declared at `sensors.yaml:2:11`"), "{text}");
+}
+
+#[test]
 fn one_small_component_in_full() {
     let yaml = "\
 components:

@@ -5,7 +5,7 @@ use super::{Component, Flush, RealTimeSettings};
 use crate::environment;
 use crate::error::{Error, NotFlushed};
 use crate::options::OpenOptions;
-use crate::{log, service, stop};
+use crate::{log, service, stderr_log, stop};
 use std::io::Write;
 use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
@@ -26,6 +26,7 @@ pub fn run_async<C: Component, F: Future<Output = Result<(), Error>>>(main: fn(C
             let returned = stop::until_stopped(main(component)).await;
             let result = returned.map_err(Error::from).and_then(|result| result);
             let (mode, timeout) = last_flush();
+            stderr_log::end_events(timeout);
             conclude(result, handle.0.flush(mode, timeout).await)
         })
     });
@@ -40,6 +41,7 @@ pub fn run_blocking<C: Component>(main: fn(C) -> Result<(), Error>) -> ExitCode 
         let handle = C::handle(&component).clone();
         let result = main(component);
         let (mode, timeout) = last_flush();
+        stderr_log::end_events(timeout);
         conclude(result, handle.0.flush_blocking(mode, timeout))
     });
     exit_code(result)
@@ -51,7 +53,7 @@ fn set_up() -> Result<(), Error> {
     let level = log::level(variables)?;
     let grace_period = stop::grace_period(variables)?;
     let settings = RealTimeSettings::read(variables)?;
-    log::start(level);
+    stderr_log::start(level);
     service::start(variables);
     // Start the signal thread before the real-time settings, which it would inherit: a main thread that computes at
     // real-time priority would then keep it from running on their shared processor.

@@ -84,6 +84,10 @@ impl Fanout {
     /// Encodes a message, if the gate can be used, and checks that each peer accepts its length.
     pub(super) fn accept(&self, encode: impl FnOnce() -> Result<Outbound, EncodeError>) -> Result<Outbound, SendError> {
         self.state.check().map_err(self.refused())?;
+        self.encoded(encode)
+    }
+
+    fn encoded(&self, encode: impl FnOnce() -> Result<Outbound, EncodeError>) -> Result<Outbound, SendError> {
         let message = encode().map_err(|source| SendError::Encode { gate: self.name, source })?;
         match exceeded(self.strictest, message.len()) {
             Some((peer, size, limit)) => Err(SendError::TooLong { gate: self.name, peer, size, limit }),
@@ -154,6 +158,26 @@ impl Fanout {
         self.hand_out(message);
         self.state.take_turn();
         Ok(())
+    }
+
+    /// Sends without waiting, also after a stop request, and does not prove that the program is alive. Returns false if
+    /// the message would have to wait.
+    #[cfg(feature = "logging")]
+    pub(super) fn offer(&mut self, encode: impl FnOnce() -> Result<Outbound, EncodeError>) -> Result<bool, SendError> {
+        self.state.check_silently().map_err(self.refused())?;
+        let message = self.encoded(encode)?;
+        let has_room = !self.may_wait || self.full(&mut Context::from_waker(Waker::noop())).is_none();
+        if has_room {
+            self.hand_out(message);
+        }
+        Ok(has_room)
+    }
+
+    /// The names under which SCL logs of this gate: its own, and those of its sockets.
+    #[cfg(feature = "logging")]
+    pub(crate) fn names(&self) -> Vec<String> {
+        let endpoints = self.spec.connections.iter().map(|connection| connection.endpoint.to_owned());
+        std::iter::once(self.name.to_string()).chain(endpoints).collect()
     }
 
     /// Ready when no connection would make the message wait, so that it goes to all of them at once or to none.

@@ -52,6 +52,12 @@ impl<T> Outgoing<T> {
         self.fanout.try_send(|| self.encoding.encode(message).map(Outbound::Bytes))
     }
 
+    /// See [`Fanout::offer`].
+    #[cfg(feature = "logging")]
+    pub(crate) fn offer(&mut self, message: &T) -> Result<bool, SendError> {
+        self.fanout.offer(|| self.encoding.encode(message).map(Outbound::Bytes))
+    }
+
     /// Lends memory for one message. Fails if the gate's codec is not `C`.
     pub(crate) fn loan<C: Codec<T>, M: ?Sized>(
         &mut self,

@@ -24,11 +24,18 @@ pub(crate) trait WakeCall: Send + Sync {
 impl ComponentState {
     /// Fails if the component cannot be used any more, or not by this process.
     pub(crate) fn check(&self) -> Result<(), BlockingError> {
+        if !self.is_inherited()
+            && let Some(member) = &self.member
+        {
+            member.called();
+        }
+        self.check_silently()
+    }
+
+    /// As [`check`](Self::check), for a call that does not prove that the program is alive.
+    pub(crate) fn check_silently(&self) -> Result<(), BlockingError> {
         if self.is_inherited() {
             return Err(BlockingError::Forked);
-        }
-        if let Some(member) = &self.member {
-            member.called();
         }
         if self.calls_ended.load(Ordering::Acquire) {
             return Err(BlockingError::Closed);

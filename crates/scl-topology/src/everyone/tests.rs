@@ -1,5 +1,5 @@
 use super::{NO_TO, TAKEN, names};
-use crate::check::testing::{advice, example, rule_example, topology};
+use crate::check::testing::{advice, codes, example, rule_example, topology};
 use expect_test::expect;
 
 const ROVER: &str = "\
@@ -228,4 +228,11 @@ fn what_is_meant_is_proposed() {
         connections:
           - [each motor.log, logger.records]: SCL0510 this connection is already declared [remove one of the two]
     "#]].assert_eq(&told);
+}
+
+#[test]
+fn a_file_without_other_connections_needs_no_section_for_them() {
+    let yaml = "components:\n  - {name: sensor, gates: []}\n  - name: logger\n    gates:\n      - records: pull\n";
+    assert_eq!(codes(yaml), ["SCL0206", "SCL0702"]);
+    assert!(codes(&format!("{yaml}everyone:\n  - log: {{push: , to: logger.records}}\n")).is_empty());
 }

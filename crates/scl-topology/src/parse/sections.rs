@@ -112,6 +112,8 @@ impl Reader<'_> {
                 self.model.components_unread = true;
                 self.report(shape::missing::section(fields, self.source));
             }
+            // The gates of `everyone` are connected without it.
+            Some(_) if fields.get(grammar::EVERYONE).is_some() => {}
             Some(components) if !connections_unread && !is_stray && self.model.broken_ends.is_empty() => {
                 let gates: usize = self.model.components.iter().map(|component| component.gates.len()).sum();
                 let connections = fields.all("connections").last();
