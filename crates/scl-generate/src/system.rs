@@ -96,6 +96,11 @@ impl System {
         self.kinds().find(|kind| kind.name == name)
     }
 
+    /// The gates that have an enum of senders of their own, with it.
+    pub(crate) fn own_senders(&self) -> impl Iterator<Item = (&Component, &Gate, &Senders)> {
+        self.components.iter().flat_map(|component| component.own_senders().map(move |(of, own)| (component, of, own)))
+    }
+
     /// The name in `snake_case`, for names of files, modules, namespaces and prefixes. It may be a keyword.
     pub fn snake_name(&self) -> String {
         let name = scl_topology::rust_name::gate_field(&self.name);

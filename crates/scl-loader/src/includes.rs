@@ -1,11 +1,11 @@
 //! `include:` of a topology file: reads all files of a system, and joins them. SCL1501 to SCL1506.
 
-use crate::paths::{leaves_its_folder, plain};
+use crate::name_each::name_each;
+use crate::paths::{plain, works_here_only};
 use crate::read::{Unreadable, read_text};
 use crate::request::Request;
-use crate::unreadable::{file_names, similar_file, why};
-use scl_text::list::quoted_list;
-use scl_topology::diagnostic::{Diagnostic, Diagnostics, Edit, removal, separator};
+use crate::unreadable::{file_names, is_yaml, similar_file, why};
+use scl_topology::diagnostic::{Diagnostic, Diagnostics};
 use scl_topology::join::{
     CIRCLE, ELSEWHERE, MOST_FILES, MOST_LEVELS, NO_EFFECT, TOO_MANY, UNREADABLE, is_without_effect, join,
 };
@@ -65,9 +65,6 @@ pub(crate) fn tell_chain(problems: Vec<Diagnostic>, included: &[Included], sourc
     };
     problems.into_iter().map(|problem| chain(&problem).into_iter().fold(problem, Diagnostic::note)).collect()
 }
-
-/// Maximum number of files that a message names in the place of a folder.
-const MOST_NAMED: usize = 10;
 
 struct Reader<'r> {
     request: &'r Request,
@@ -184,25 +181,14 @@ impl Reader<'_> {
 
     /// Suggests the topology files in a folder, which the entry calls `inside`.
     fn naming_each(&self, found: Diagnostic, entry: &Spanned<String>, folder: &Path, inside: &Path) -> Diagnostic {
-        let is_topology = |name: &String| name.ends_with(".yaml") || name.ends_with(".yml");
-        let names = file_names(folder).into_iter().filter(is_topology);
+        let names = file_names(folder).into_iter().filter(|name| is_yaml(name));
         let names: Vec<String> = names.map(|name| inside.join(name).display().to_string()).collect();
-        let separator = separator(self.sources.file(entry.span.file), entry.span);
-        match separator.filter(|_| (1..=MOST_NAMED).contains(&names.len())) {
-            Some(separator) => {
-                let edit = Edit::new(entry.span, names.join(&separator));
-                found.suggest(format!("name each of them: {}", quoted_list(&names)), [edit])
-            }
-            None => found.help("name each of the files"),
-        }
+        name_each(found, entry, &names, self.sources, "name each of the files")
     }
 
     /// Suggests to remove an entry.
     fn removing(&self, found: Diagnostic, text: &'static str, entry: &Spanned<String>) -> Diagnostic {
-        match removal(self.sources.file(entry.span.file), entry.span) {
-            Some(removed) => found.suggest(text, [removed]),
-            None => found.help(text),
-        }
+        found.suggest_removal(text, self.sources.file(entry.span.file), entry.span)
     }
 
     /// How messages name a file: as the topology file, in its folder.
@@ -218,14 +204,8 @@ fn identity(path: &Path) -> PathBuf {
 }
 
 fn elsewhere(entry: &Spanned<String>, relative: &Path) -> Option<Diagnostic> {
-    let what = match relative {
-        path if path.is_absolute() => "is absolute; the file will not be found on another machine",
-        path if leaves_its_folder(path) => {
-            "leaves the folder of the topology file; it will not be found if only that folder is copied"
-        }
-        _ => return None,
-    };
-    let found = ELSEWHERE.at(format!("the path of an included file {what}"), entry.span, "");
+    let why = works_here_only(relative)?;
+    let found = ELSEWHERE.at(format!("the path of an included file {why}"), entry.span, "");
     Some(found.help("keep the file beside the topology file, or in a folder below it"))
 }
 

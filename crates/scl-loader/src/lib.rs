@@ -10,6 +10,7 @@
 #![deny(missing_docs)]
 
 mod includes;
+mod name_each;
 mod no_panic;
 mod paths;
 mod plan;

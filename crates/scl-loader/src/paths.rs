@@ -8,7 +8,7 @@ pub(crate) fn plain(path: &Path) -> PathBuf {
 }
 
 /// Whether a path leads out of the folder at which it starts.
-pub(crate) fn leaves_its_folder(path: &Path) -> bool {
+fn leaves_its_folder(path: &Path) -> bool {
     let mut depth = 0_i32;
     path.components().any(|part| {
         depth += match part {
@@ -18,6 +18,17 @@ pub(crate) fn leaves_its_folder(path: &Path) -> bool {
         };
         depth < 0
     })
+}
+
+/// Says why the file at a path, which starts at the folder of the topology file, does not exist on other machines.
+pub(crate) fn works_here_only(path: &Path) -> Option<&'static str> {
+    if path.is_absolute() {
+        Some("is absolute; the file will not be found on another machine")
+    } else if leaves_its_folder(path) {
+        Some("leaves the folder of the topology file; it will not be found if only that folder is copied")
+    } else {
+        None
+    }
 }
 
 #[cfg(test)]

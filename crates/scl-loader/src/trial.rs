@@ -18,8 +18,7 @@ pub(crate) fn try_advice(
 ) {
     let mut found = Judged { problems: std::mem::take(&mut loaded.diagnostics), extent: Extent::of(&loaded.model) };
     let judge = |copies: &[ChangedCopy]| {
-        let unchanged = loaded.sources.clone();
-        let mut sources = copies.iter().fold(unchanged, |sources, copy| sources.with_text(copy.file, &*copy.text));
+        let mut sources = ChangedCopy::replace_in(copies, &loaded.sources);
         let mut problems = Diagnostics::new();
         let (model, _) = includes::read(request, file, &loaded.included, &mut sources, &mut problems);
         let names = |of: &[Spanned<String>]| of.iter().map(|name| name.value.clone()).collect::<Vec<_>>();

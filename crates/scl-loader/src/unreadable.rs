@@ -143,7 +143,7 @@ fn stem(name: &str) -> Option<&OsStr> {
     Path::new(name).file_stem()
 }
 
-fn is_yaml(name: &str) -> bool {
+pub(crate) fn is_yaml(name: &str) -> bool {
     Path::new(name).extension().is_some_and(|ending| ending == "yaml" || ending == "yml")
 }
 

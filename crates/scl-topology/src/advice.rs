@@ -8,7 +8,7 @@ mod edit;
 mod extent;
 
 use crate::diagnostic::{Diagnostic, Edit, MOST_LISTED, Severity, first};
-use crate::source::{FileId, SourceFile};
+use crate::source::{FileId, SourceFile, Sources};
 use compare::{Change, passes};
 use std::collections::BTreeMap;
 
@@ -40,6 +40,13 @@ pub struct ChangedCopy {
     pub file: FileId,
     /// Its changed text.
     pub text: String,
+}
+
+impl ChangedCopy {
+    /// The files, with copies in place of some of them.
+    pub fn replace_in(copies: &[Self], sources: &Sources) -> Sources {
+        copies.iter().fold(sources.clone(), |sources, copy| sources.with_text(copy.file, &*copy.text))
+    }
 }
 
 /// Applies every proposal of the `found` problems to a copy of the file, has the copy checked by `judge`, and removes
@@ -129,18 +136,14 @@ impl<J: FnMut(&[ChangedCopy]) -> Judged> Trial<'_, J> {
     fn copies(&self, edits: &[&Edit]) -> Option<Vec<ChangedCopy>> {
         let mut by_file: BTreeMap<FileId, Vec<&Edit>> = BTreeMap::new();
         edits.iter().for_each(|edit| by_file.entry(edit.span.file).or_default().push(edit));
-        let copies: Option<Vec<ChangedCopy>> = by_file
-            .into_iter()
-            .map(|(file, edits)| {
-                let source = self.files.iter().find(|source| source.id() == file)?;
-                Some(ChangedCopy { file, text: apply(source.text(), &edits)? })
-            })
-            .collect();
-        copies.filter(|copies| copies.iter().any(|copy| self.differs(copy)))
-    }
-
-    fn differs(&self, copy: &ChangedCopy) -> bool {
-        self.files.iter().any(|source| source.id() == copy.file && source.text() != copy.text)
+        let (mut copies, mut is_changed) = (Vec::new(), false);
+        for (file, edits) in by_file {
+            let text = self.files.iter().find(|source| source.id() == file)?.text();
+            let copy = apply(text, &edits)?;
+            is_changed |= copy != text;
+            copies.push(ChangedCopy { file, text: copy });
+        }
+        is_changed.then_some(copies)
     }
 
     /// Tries the first proposals of all problems at once, then the second ones, and so on. If such a group does not

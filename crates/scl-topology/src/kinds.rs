@@ -248,11 +248,7 @@ impl<'m> Known<'m> {
             problems.push(match &component.kind {
                 Some(kind) if !component.gates.is_empty() => {
                     let text = format!("or add them to the kind `{of}`, or remove `kind: {of}`");
-                    let file = sources.file(kind.span.file);
-                    match removal(file, entry(kind, sources)) {
-                        Some(removed) => found.suggest(text, [removed]),
-                        None => found.help(text),
-                    }
+                    found.suggest_removal(text, sources.file(kind.span.file), entry(kind, sources))
                 }
                 _ => found,
             });

@@ -40,19 +40,20 @@ impl<S: Subscriber> Layer<S> for Events {
     }
 }
 
+fn is_wanted(metadata: &Metadata<'_>) -> bool {
+    metadata.is_event() && *metadata.level() <= sink::level()
+}
+
 /// The events that a gate gets.
 struct Wanted;
 
 impl<S> Filter<S> for Wanted {
     fn enabled(&self, metadata: &Metadata<'_>, _context: &Context<'_, S>) -> bool {
-        metadata.is_event() && *metadata.level() <= sink::level()
+        is_wanted(metadata)
     }
 
     fn callsite_enabled(&self, metadata: &'static Metadata<'static>) -> Interest {
-        match metadata.is_event() && *metadata.level() <= sink::level() {
-            true => Interest::always(),
-            false => Interest::never(),
-        }
+        if is_wanted(metadata) { Interest::always() } else { Interest::never() }
     }
 
     fn max_level_hint(&self) -> Option<LevelFilter> {

@@ -2,20 +2,25 @@
 
 use super::*;
 
+fn git(system: &System, arguments: &[&str]) {
+    let mut command = Command::new("git");
+    command.args(["-c", "user.name=test", "-c", "user.email=test@localhost", "-c", "init.defaultBranch=main"]);
+    let output = command.arg("-C").arg(system.path("")).args(arguments).output().unwrap();
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+}
+
+fn commit_all(system: &System, message: &str) {
+    git(system, &["add", "."]);
+    git(system, &["commit", "-q", "-m", message]);
+}
+
 /// A repository whose last commit has [`ROVER`], and whose working folder has the new topology.
 fn repository(new: &str) -> System {
     let system = System::of_files(&[("rover/topology.yaml", ROVER)]);
-    let git = |arguments: &[&str]| {
-        let mut command = Command::new("git");
-        command.args(["-c", "user.name=test", "-c", "user.email=test@localhost", "-c", "init.defaultBranch=main"]);
-        let output = command.arg("-C").arg(system.path("")).args(arguments).output().unwrap();
-        assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
-    };
-    git(&["init", "-q"]);
-    git(&["add", "."]);
-    git(&["commit", "-q", "-m", "first"]);
+    git(&system, &["init", "-q"]);
+    commit_all(&system, "first");
     system.write("rover/topology.yaml", &ROVER.replace("sensor: sub", "sensor: {sub: rover.Measurement, queue: 7}"));
-    git(&["commit", "-q", "-a", "-m", "second"]);
+    commit_all(&system, "second");
     system.write("rover/topology.yaml", new);
     system
 }
@@ -50,11 +55,7 @@ fn schemas_are_those_of_the_revision() {
     let system = repository(ROVER);
     system.write("proto/rover.proto", proto);
     system.write("rover/topology.yaml", topology);
-    for arguments in
-        [&["add", "."][..], &["-c", "user.name=t", "-c", "user.email=t@localhost", "commit", "-q", "-m", "third"]]
-    {
-        assert!(Command::new("git").arg("-C").arg(system.path("")).args(arguments).status().unwrap().success());
-    }
+    commit_all(&system, "third");
     assert_eq!(diff_in(&system, "rover", &["HEAD"]), (Some(0), String::new(), String::new()));
     system.write("proto/rover.proto", &proto.replace("double", "string"));
     let (code, text, error) = diff_in(&system, "rover", &["HEAD"]);
@@ -95,11 +96,7 @@ fn included_files_are_those_of_the_revision() {
     system.write("parts/sensors.yaml", sensors);
     system
         .write("rover/topology.yaml", &format!("system: rover\ninclude: [../parts/sensors.yaml]\ncomponents:\n{rest}"));
-    for arguments in
-        [&["add", "."][..], &["-c", "user.name=t", "-c", "user.email=t@localhost", "commit", "-q", "-m", "third"]]
-    {
-        assert!(Command::new("git").arg("-C").arg(system.path("")).args(arguments).status().unwrap().success());
-    }
+    commit_all(&system, "third");
     assert_eq!(diff_in(&system, "rover", &["HEAD~2"]), (Some(0), String::new(), String::new()));
     system.write("parts/sensors.yaml", &sensors.replace("measurements", "samples"));
     let (code, _, error) = diff_in(&system, "rover", &["HEAD"]);

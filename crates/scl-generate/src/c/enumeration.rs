@@ -3,7 +3,7 @@
 use super::literal::literal;
 use super::prefix;
 use crate::clash::{Declaration, Origin};
-use crate::system::{Component, Gate, SenderValue, System};
+use crate::system::{Component, Gate, System};
 use crate::writer::Writer;
 
 /// `rover_motor_instance`; `None` for a component of no kind.
@@ -16,8 +16,13 @@ pub(super) fn of_senders(system: &System, prefix: &str, gate: &Gate) -> Option<S
     let senders = gate.senders.as_ref()?;
     match &senders.kind {
         Some(kind) => of_kind(system, system.kind(kind)?),
-        None => Some(format!("{prefix}_{}_sender", gate.snake_name)),
+        None => Some(own_of(prefix, gate)),
     }
+}
+
+/// `rover_controller_states_sender`.
+fn own_of(prefix: &str, gate: &Gate) -> String {
+    format!("{prefix}_{}_sender", gate.snake_name)
 }
 
 /// The array of the names of a kind's components.
@@ -47,8 +52,9 @@ pub(super) fn declarations(system: &System, component: &Component, scope: &str) 
         declare(names_of_kind(&enumeration), Origin::component(component));
         declare(enumeration, Origin::component(component));
     }
-    for (gate, enumeration, values) in own_enums(&own, component) {
-        for value in values {
+    for (gate, senders) in component.own_senders() {
+        let enumeration = own_of(&own, gate);
+        for value in &senders.values {
             // Two values of one name clash, although both belong to this gate.
             declare(constant(&enumeration, &value.snake_name), Origin::sender(component, gate, value));
         }
@@ -60,17 +66,6 @@ pub(super) fn declarations(system: &System, component: &Component, scope: &str) 
     found
 }
 
-/// The gates whose enum is their own, with its name and its values.
-fn own_enums<'a>(
-    prefix: &'a str,
-    component: &'a Component,
-) -> impl Iterator<Item = (&'a Gate, String, &'a [SenderValue])> {
-    component.gates.iter().filter_map(move |gate| {
-        let senders = gate.senders.as_ref().filter(|senders| senders.kind.is_none())?;
-        Some((gate, format!("{prefix}_{}_sender", gate.snake_name), &senders.values[..]))
-    })
-}
-
 /// Writes the enum of a kind into the header.
 pub(super) fn declare_kind(system: &System, component: &Component, out: &mut Writer) {
     let Some(enumeration) = of_kind(system, component) else { return };
@@ -80,9 +75,9 @@ pub(super) fn declare_kind(system: &System, component: &Component, out: &mut Wri
 
 /// Writes the enums of the senders of a component's gates into the header.
 pub(super) fn declare_senders(prefix: &str, component: &Component, out: &mut Writer) {
-    for (gate, enumeration, values) in own_enums(prefix, component) {
+    for (gate, senders) in component.own_senders() {
         let comment = format!("The gates that send to `{}.{}`.", component.name, gate.name);
-        write(&comment, &enumeration, values.iter().map(|it| it.snake_name.as_str()), out);
+        write(&comment, &own_of(prefix, gate), senders.values.iter().map(|it| it.snake_name.as_str()), out);
     }
 }
 

@@ -3,7 +3,7 @@
 use super::write_comment;
 use crate::clash::{Declaration, Origin};
 use crate::identifier;
-use crate::system::{Component, Gate, Instance, Senders, System};
+use crate::system::{Component, Instance, Senders, System};
 use crate::writer::Writer;
 
 /// `MotorInstance`.
@@ -31,19 +31,10 @@ pub(super) fn declarations(system: &System, namespace: &str, inside: &str) -> Ve
         found.extend(kind.instances.iter().map(instance));
         found.push(Declaration::new(inside, of_kind(kind), Origin::component(kind)));
     }
-    for (component, gate, senders) in own_enums(system) {
+    for (component, gate, senders) in system.own_senders() {
         found.push(Declaration::new(inside, &senders.class_name, Origin::gate(component, gate)));
     }
     found
-}
-
-fn own_enums(system: &System) -> impl Iterator<Item = (&Component, &Gate, &Senders)> {
-    let gates =
-        system.components.iter().flat_map(|component| component.gates.iter().map(move |gate| (component, gate)));
-    gates.filter_map(|(component, gate)| {
-        let senders = gate.senders.as_ref().filter(|senders| senders.kind.is_none())?;
-        Some((component, gate, senders))
-    })
 }
 
 /// Writes all enums, which components need before they are declared.
@@ -52,7 +43,7 @@ pub(super) fn write_all(system: &System, out: &mut Writer) {
         let values = kind.instances.iter().map(|it| (it.class_name.as_str(), it.doc.as_deref()));
         write(out, &format!("The components of the kind `{}`.", kind.name), &of_kind(kind), values);
     }
-    for (component, gate, senders) in own_enums(system) {
+    for (component, gate, senders) in system.own_senders() {
         let values = senders.values.iter().map(|it| (it.class_name.as_str(), it.path.as_deref()));
         let comment = format!("The gates that send to `{}.{}`.", component.name, gate.name);
         write(out, &comment, &senders.class_name, values);

@@ -2,7 +2,7 @@
 
 use super::docs;
 use crate::clash::{Declaration, Origin};
-use crate::system::{Component, Gate, Senders, System};
+use crate::system::{Component, Senders, System};
 use crate::writer::Writer;
 
 /// The enum of the components of a kind: `MotorInstance`.
@@ -34,7 +34,7 @@ pub(super) fn declarations(system: &System, module: &str) -> Vec<Declaration> {
         found.extend(members.map(|it| Declaration::new(&inside, member(&it.snake_name), Origin::instance(it))));
         found.push(Declaration::new(module, of_kind(kind), Origin::component(kind)));
     }
-    for (component, gate, senders) in own_enums(system) {
+    for (component, gate, senders) in system.own_senders() {
         let inside = format!("class `{}`", senders.class_name);
         let origin = |it| Origin::sender(component, gate, it);
         let members = senders.values.iter();
@@ -46,17 +46,7 @@ pub(super) fn declarations(system: &System, module: &str) -> Vec<Declaration> {
 
 /// The names of all enums.
 pub(super) fn classes(system: &System) -> impl Iterator<Item = String> {
-    system.kinds().map(of_kind).chain(own_enums(system).map(|(_, _, senders)| senders.class_name.clone()))
-}
-
-/// The gates whose enum is their own.
-fn own_enums(system: &System) -> impl Iterator<Item = (&Component, &Gate, &Senders)> {
-    let gates =
-        system.components.iter().flat_map(|component| component.gates.iter().map(move |gate| (component, gate)));
-    gates.filter_map(|(component, gate)| {
-        let senders = gate.senders.as_ref().filter(|senders| senders.kind.is_none())?;
-        Some((component, gate, senders))
-    })
+    system.kinds().map(of_kind).chain(system.own_senders().map(|(_, _, senders)| senders.class_name.clone()))
 }
 
 /// Writes all enums, before the components that need them.
@@ -65,7 +55,7 @@ pub(super) fn write_all(system: &System, out: &mut Writer) {
         let members = kind.instances.iter().map(|it| (&*it.snake_name, &*it.name, it.doc.as_deref()));
         write("Instance", &of_kind(kind), &format!("The components of the kind `{}`.", kind.name), members, out);
     }
-    for (component, gate, senders) in own_enums(system) {
+    for (component, gate, senders) in system.own_senders() {
         let members = senders.values.iter().map(|it| (&*it.snake_name, it.path.as_deref().unwrap_or_default(), None));
         let doc = format!("The gates that send to `{}.{}`.", component.name, gate.name);
         write("Sender", &senders.class_name, &doc, members, out);

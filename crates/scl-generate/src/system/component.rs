@@ -84,6 +84,12 @@ pub struct MessageUse {
 }
 
 impl Component {
+    /// The gates that have an enum of senders of their own, with it.
+    pub(crate) fn own_senders(&self) -> impl Iterator<Item = (&Gate, &Senders)> {
+        let senders = self.gates.iter().filter_map(|gate| Some((gate, gate.senders.as_ref()?)));
+        senders.filter(|(_, senders)| senders.kind.is_none())
+    }
+
     pub(super) fn of(
         topology: &Topology,
         of: ComponentType<'_>,

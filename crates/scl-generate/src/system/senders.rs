@@ -2,7 +2,7 @@
 
 use scl_topology::rust_name::gate_field;
 use scl_topology::senders::{self, Peer};
-use scl_topology::topology::{GateId, Topology};
+use scl_topology::topology::{ComponentId, GateId, Topology};
 
 /// The enum of the gates that can send to a `sub` gate.
 #[derive(Debug, Clone)]
@@ -29,22 +29,20 @@ pub struct SenderValue {
 impl Senders {
     /// The senders of a gate; `None` if there is nobody to tell apart.
     pub(super) fn of(topology: &Topology, gate: GateId) -> Option<Self> {
-        let class_name =
-            senders::enum_name(topology.type_of(topology.gate(gate).component()).name(), topology.gate(gate).name());
-        let path = |peer: &Peer<'_>| format!("{}.{}", peer.component, peer.gate);
+        let of = topology.gate(gate);
+        let class_name = senders::enum_name(topology.type_of(of.component()).name(), of.name());
         Some(match topology.senders(gate)? {
             senders::Senders::OfKind(name) => {
-                let peers: Vec<String> =
-                    topology.peers_of_type(gate).into_iter().map(|it| topology.gate_path(it)).collect();
-                let of_component = |component: &str| {
-                    peers.iter().find(|path| path.split_once('.').is_some_and(|(of, _)| of == component)).cloned()
+                let peers = topology.peers_of_type(gate);
+                let gate_of = |component: ComponentId| {
+                    let gate = peers.iter().find(|peer| topology.gate(**peer).component() == component);
+                    gate.map(|gate| topology.gate_path(*gate))
                 };
                 let kind = topology.kinds().find(|(_, kind)| kind.name() == name)?.1;
-                let components = kind.components().iter().map(|id| topology.component(*id));
-                let values = components.map(|component| SenderValue {
-                    class_name: component.rust_name().to_owned(),
-                    snake_name: gate_field(component.name()),
-                    path: of_component(component.name()),
+                let values = kind.components().iter().map(|&id| SenderValue {
+                    class_name: topology.component(id).rust_name().to_owned(),
+                    snake_name: gate_field(topology.component(id).name()),
+                    path: gate_of(id),
                 });
                 Self { kind: Some(name.to_owned()), class_name, values: values.collect() }
             }
@@ -57,7 +55,7 @@ impl Senders {
                         true => gate_field(peer.component),
                         false => format!("{}_{}", gate_field(peer.component), gate_field(peer.gate)),
                     },
-                    path: Some(path(peer)),
+                    path: Some(format!("{}.{}", peer.component, peer.gate)),
                 });
                 Self { kind: None, class_name, values: values.collect() }
             }

@@ -2,11 +2,11 @@
 
 use super::folders::{Folders, Found};
 use super::outline::{Outline, outline};
-use crate::paths::{leaves_its_folder, plain};
+use crate::name_each::name_each;
+use crate::paths::{plain, works_here_only};
 use crate::read::{Unreadable, read_text};
 use crate::unreadable::{file_names, similar_file, why};
-use scl_text::list::quoted_list;
-use scl_topology::diagnostic::{Diagnostic, Diagnostics, Edit, removal, separator};
+use scl_topology::diagnostic::{Diagnostic, Diagnostics, Edit};
 use scl_topology::external::{SCHEMA, SCHEMA_ELSEWHERE, SCHEMA_TWICE};
 use scl_topology::model::Model;
 use scl_topology::source::{Sources, Span, Spanned};
@@ -40,13 +40,7 @@ impl Named {
 /// `SCL0415`: a path that does not exist on other machines.
 pub(super) fn elsewhere(schema: &Spanned<String>) -> Option<Diagnostic> {
     let path = Path::new(&schema.value);
-    let message = if path.is_absolute() {
-        "the schema path is absolute; the file will not be found on another machine"
-    } else if leaves_its_folder(path) {
-        "the schema path leaves the folder of the topology file; it will not be found if only that folder is copied"
-    } else {
-        return None;
-    };
+    let message = format!("the schema path {}", works_here_only(path)?);
     let found = SCHEMA_ELSEWHERE.at(message, schema.span, "");
     Some(found.help("keep the schema beside the topology file, or in a folder below it"))
 }
@@ -134,10 +128,7 @@ pub(super) fn refuse(
     };
     if name.starts_with("google/protobuf/") {
         let text = "remove it: protobuf's own schemas are imported without an entry here";
-        return Some(match removal(sources.file(schema.span.file), schema.span) {
-            Some(removed) => problem.suggest(text, [removed]),
-            None => problem.help(text),
-        });
+        return Some(problem.suggest_removal(text, sources.file(schema.span.file), schema.span));
     }
     Some(match is_schema(&path) {
         true if name != schema.value => problem.note("paths start at the folder of the file that contains them"),
@@ -166,24 +157,12 @@ fn renamed(path: &Path) -> Option<String> {
 /// Maximum number of files of a folder that a message names.
 const MOST_INSIDE: usize = 3;
 
-/// Maximum number of files that are written in the place of a pattern.
-const MOST_OF_PATTERN: usize = 10;
-
 /// Adds what to write in the place of `messages/*.proto`.
 fn with_files_of_pattern(problem: Diagnostic, schema: &Spanned<String>, path: &Path, sources: &Sources) -> Diagnostic {
     let Some(folder) = path.parent().filter(|_| schema.value.ends_with("*.proto")) else { return problem };
-    let before = schema.value.trim_end_matches("*.proto");
-    let mut files: Vec<String> = schemas_in(folder).map(|file| format!("{before}{file}")).collect();
-    files.sort_unstable();
-    let allowed = "each schema is named, without patterns";
-    let separator = separator(sources.file(schema.span.file), schema.span);
-    match separator.filter(|_| (1..=MOST_OF_PATTERN).contains(&files.len())) {
-        Some(separator) => {
-            let edit = Edit::new(schema.span, files.join(&separator));
-            problem.suggest(format!("name each of them: {}", quoted_list(&files)), [edit])
-        }
-        None => problem.help(allowed),
-    }
+    let before = as_written(schema, sources).trim_end_matches("*.proto");
+    let files: Vec<String> = schemas_in(folder).map(|file| format!("{before}{file}")).collect();
+    name_each(problem, schema, &files, sources, "each schema is named, without patterns")
 }
 
 fn is_schema(path: &Path) -> bool {

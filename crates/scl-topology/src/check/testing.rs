@@ -1,7 +1,7 @@
 //! Helpers for the tests of the rules: a text goes in, the messages that users read come out.
 
 use super::{Facts, SchemaMessages, check, find};
-use crate::advice::{Extent, Judged, try_advice_in_files};
+use crate::advice::{ChangedCopy, Extent, Judged, try_advice_in_files};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity, render};
 use crate::join::join;
 use crate::parse::{Part, complete, parse_part};
@@ -134,9 +134,7 @@ fn run_files(files: &[(&str, &str)], messages: Option<&[&str]>) -> (Option<Topol
     };
     let (topology, mut found) = judge(&sources);
     let all: Vec<&SourceFile> = files.iter().map(|file| sources.file(*file)).collect();
-    try_advice_in_files(&mut found, &all, |copies| {
-        judge(&copies.iter().fold(sources.clone(), |sources, copy| sources.with_text(copy.file, &*copy.text))).1
-    });
+    try_advice_in_files(&mut found, &all, |copies| judge(&ChangedCopy::replace_in(copies, &sources)).1);
     let found = found.problems;
     let unlisted = found.iter().find(|found| find(found.code()).is_none());
     assert!(unlisted.is_none(), "the rule of this problem is missing from the list of its stage: {unlisted:?}");

@@ -176,6 +176,14 @@ impl Diagnostic {
         }
     }
 
+    /// Suggests the removal of an item or an entry; in words alone if it shares its line with something else.
+    pub fn suggest_removal(self, text: impl Into<String>, source: &SourceFile, span: Span) -> Self {
+        match removal(source, span) {
+            Some(removed) => self.suggest(text, [removed]),
+            None => self.help(text),
+        }
+    }
+
     /// Adds words to the first help.
     pub(crate) fn extend_help(mut self, more: &str) -> Self {
         if let Some(Wording::Text(text)) = self.helps.first_mut().map(|help| &mut help.wording) {
