@@ -2,6 +2,7 @@
 
 use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::transport_kind::TransportKind;
+use scl_text::gate_name::split;
 use scl_text::list::either;
 use std::str::FromStr;
 use std::sync::LazyLock;
@@ -88,16 +89,15 @@ impl TransportChoice {
 
     fn entries(&self) -> impl Iterator<Item = (&str, &str, TransportKind)> {
         self.of_gates.iter().filter_map(|(name, kind)| {
-            let (component, gate) = name.split_once('.')?;
+            let (component, gate) = split(name)?;
             Some((component, gate, *kind))
         })
     }
 }
 
 fn is_gate(name: &str) -> bool {
-    name.split_once('.').is_some_and(|(component, gate)| {
-        !component.is_empty() && !gate.is_empty() && !gate.contains('.') && !name.contains(char::is_whitespace)
-    })
+    let is_word = |word: &str| !word.is_empty() && !word.contains(char::is_whitespace);
+    name.contains('.') && name.split('.').all(is_word)
 }
 
 #[cfg(test)]

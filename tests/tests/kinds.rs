@@ -14,28 +14,28 @@ fn each_process_is_the_component_that_it_was_started_as() {
     on_each_transport(|system| {
         let mut controller = open_with(&system, MOTORS, "controller");
         let _left = motor(&system, "left_motor");
-        let right = motor(&system, "motors.right_motor");
+        let right = motor(&system, "motors.right.motor");
         for (command, answer) in
-            [("left 1", "left_motor 10"), ("right 2", "right_motor 20"), ("left 3", "left_motor 30")]
+            [("left 1", "left_motor 10"), ("right 2", "right.motor 20"), ("left 3", "left_motor 30")]
         {
             controller.tell(command);
             controller.expect(answer);
         }
         right.kill();
-        let _right = motor(&system, "right_motor");
+        let _right = motor(&system, "right.motor");
         controller.tell("right 4");
-        controller.expect("right_motor 40");
+        controller.expect("right.motor 40");
     });
 }
 
 #[test]
 fn a_process_that_does_not_know_its_component_says_so() {
-    let all = "set SCL_COMPONENT to `left_motor` or `right_motor`";
+    let all = "set SCL_COMPONENT to `left_motor` or `right.motor`";
     for (component, expected) in [
         ("", format!("this program is a `motor`: {all}")),
         ("gps", format!("this program is a `motor`, but was started as `gps`: {all}")),
         ("rover.left_motor", format!("but was started as `left_motor` of system `rover`: {all}")),
-        ("left_motor,right_motor", format!("but was started as `left_motor` or `right_motor`: {all}")),
+        ("left_motor,right.motor", format!("but was started as `left_motor` or `right.motor`: {all}")),
     ] {
         let exit = System::new().start_with(MOTORS, &[], &[("SCL_COMPONENT", component)]).wait_for_exit();
         assert!(!exit.status.success() && exit.text().contains(&expected), "{component}: {}", exit.text());

@@ -2,6 +2,7 @@
 
 mod dot;
 mod edge;
+mod frame;
 mod mermaid;
 
 use crate::load::{MaxSize, load_file, unsound};
@@ -14,7 +15,8 @@ use std::process::ExitCode;
 
 /// Draw the components of a topology, their gates and their connections, as text for Mermaid or Graphviz.
 ///
-/// Arrows point from the gate that sends to the gate that receives; requests are dashed and point both ways.
+/// Arrows point from the gate that sends to the gate that receives; requests are dashed and point both ways. Each group
+/// of components has a frame.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

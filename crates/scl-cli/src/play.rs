@@ -9,6 +9,7 @@ use scl::untyped::Component;
 use scl_observe::{System, problem_of};
 use scl_plan::{GateKind, GatePlan, Plan, SystemPlan};
 use scl_terminal::{Problem, choose_system, closest_name, escape, named_system, quoted_list};
+use scl_text::gate_name::split;
 use scl_value::MessageType;
 use std::path::{Path, PathBuf};
 
@@ -78,7 +79,7 @@ impl Plans {
 
     /// Returns the plan of a gate's component, and that of the gate itself.
     pub(crate) fn gate(&self, name: &str) -> Result<(Plan, GatePlan), Problem> {
-        let Some((component, gate)) = name.split_once('.') else {
+        let Some((component, gate)) = split(name) else {
             let problem = Problem::new(format!("`{}` is not the name of a gate", escape(name)));
             return Err(problem.help("write `component.gate`"));
         };

@@ -41,6 +41,21 @@ fn check(topology: &str, expected_code: i32, expected_out: &Expect, expected_err
 }
 
 #[test]
+fn components_in_groups_keep_their_names() {
+    let system = System::of_files(&[(
+        "topology.yaml",
+        "components:\n  - {name: arm.planner, gates: [{path: pub}]}\n  - \
+        {name: arm.driver, gates: [{path: sub}]}\nconnections:\n  - [arm.planner.path, arm.driver.path]\n",
+    )]);
+    let output = system.scl(&["expand"]).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        text.contains("- name: arm.planner\n") && text.contains("- - arm.planner.path\n  - arm.driver.path\n"),
+        "{text}"
+    );
+}
+
+#[test]
 fn a_topology_is_printed_without_kinds() {
     check(
         TOPOLOGY,

@@ -107,6 +107,79 @@ fn dot_shows_gates_types_and_directions() {
     );
 }
 
+const GROUPS: &str = "\
+system: rover
+components:
+  - {name: arm.hand.finger, gates: [{grip: sub}]}
+  - {name: pilot, gates: [{grip: pub}]}
+  - {name: arm.planner, gates: []}
+connections:
+  - [pilot.grip, arm.hand.finger.grip]
+";
+
+#[test]
+fn groups_are_frames() {
+    check(
+        GROUPS,
+        &[],
+        0,
+        &expect![[r#"
+        flowchart LR
+            subgraph c1["pilot"]
+                c1g0(["grip: pub"])
+            end
+            subgraph f0["arm"]
+                c2["planner"]
+                subgraph f1["hand"]
+                    subgraph c0["finger"]
+                        c0g0(["grip: sub"])
+                    end
+                end
+            end
+            c1g0 --> c0g0
+    "#]],
+        &expect![[""]],
+    );
+}
+
+#[test]
+fn groups_are_clusters_of_graphviz() {
+    check(
+        GROUPS,
+        &["--format", "dot"],
+        0,
+        &expect![[r#"
+            digraph "rover" {
+                rankdir=LR;
+                node [shape=plain, fontname="sans-serif"];
+                edge [fontname="sans-serif", fontsize=10];
+                "pilot" [label=<
+                    <table border="0" cellborder="1" cellspacing="0" cellpadding="4">
+                        <tr><td bgcolor="lightgrey"><b>pilot</b></td></tr>
+                        <tr><td port="grip" align="left">grip: pub</td></tr>
+                    </table>>];
+                subgraph cluster_0 {
+                    label="arm";
+                    "arm.planner" [label=<
+                        <table border="0" cellborder="1" cellspacing="0" cellpadding="4">
+                            <tr><td bgcolor="lightgrey"><b>planner</b></td></tr>
+                        </table>>];
+                    subgraph cluster_1 {
+                        label="hand";
+                        "arm.hand.finger" [label=<
+                            <table border="0" cellborder="1" cellspacing="0" cellpadding="4">
+                                <tr><td bgcolor="lightgrey"><b>finger</b></td></tr>
+                                <tr><td port="grip" align="left">grip: sub</td></tr>
+                            </table>>];
+                    }
+                }
+                "pilot":"grip" -> "arm.hand.finger":"grip";
+            }
+        "#]],
+        &expect![[""]],
+    );
+}
+
 #[test]
 fn a_file_with_errors_is_explained_instead() {
     check(

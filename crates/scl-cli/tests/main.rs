@@ -34,6 +34,8 @@ mod formats;
 #[cfg(feature = "generate")]
 mod generate;
 mod graph;
+#[cfg(all(feature = "run", feature = "record", feature = "observe"))]
+mod groups;
 #[cfg(feature = "observe")]
 mod hz;
 #[cfg(feature = "observe")]

@@ -6,6 +6,7 @@ use crate::system::System;
 use scl::runtime_dir::ComponentState;
 use scl_plan::GatePlan;
 use scl_terminal::{Problem, closest_name, escape, quoted_list};
+use scl_text::gate_name;
 
 const LIST: &str = "`scl list` shows what runs";
 
@@ -25,7 +26,7 @@ impl System {
     /// There is no such component or gate, or the component is stopped.
     pub fn component_and_gate(&self, name: &str) -> Result<(Component, Option<usize>), Problem> {
         let all = self.components();
-        let (component_name, gate_name) = name.split_once('.').map_or((name, None), |(name, gate)| (name, Some(gate)));
+        let (component_name, gate_name) = component_and_gate(&all, name);
         let component = component(self, &all, component_name)?;
         if component.announcement.is_none() {
             return Err(not_running(component));
@@ -41,7 +42,9 @@ impl System {
     /// peers runs.
     pub fn gate(&self, name: &str) -> Result<ObservedGate, Problem> {
         let all = self.components();
-        let Some((component_name, gate_name)) = name.split_once('.') else { return Err(not_a_gate(self, &all, name)) };
+        let (component_name, Some(gate_name)) = component_and_gate(&all, name) else {
+            return Err(not_a_gate(self, &all, name));
+        };
         let component = component(self, &all, component_name)?;
         if !component.is_running() {
             return Err(not_running(component));
@@ -65,7 +68,7 @@ impl System {
 /// # Errors
 /// It has no such gate, or it runs on another host and the gate's messages are seen there only.
 pub(crate) fn is_seen(system: &System, all: &[Component], name: &str) -> Result<bool, Problem> {
-    let (component_name, gate) = name.split_once('.').map_or((name, None), |(name, gate)| (name, Some(gate)));
+    let (component_name, gate) = component_and_gate(all, name);
     let component = component(system, all, component_name)?;
     let number = gate.map(|gate| gate_number(all, component, gate)).transpose()?;
     let has_taps = |number: usize| !taps(all, component, &component.gates()[number]).is_empty();
@@ -74,6 +77,11 @@ pub(crate) fn is_seen(system: &System, all: &[Component], name: &str) -> Result<
         (Some(host), Some(number)) if !has_taps(number) => Err(elsewhere(system, name, host)),
         (_, number) => Ok(number.is_none_or(has_taps)),
     }
+}
+
+/// A component, or a gate and its component, by a name that may be either.
+fn component_and_gate<'n>(all: &[Component], name: &'n str) -> (&'n str, Option<&'n str>) {
+    gate_name::component_and_gate(name, |name| all.iter().any(|component| component.name == name))
 }
 
 /// The component with this name among those of the system.

@@ -4,6 +4,7 @@ use crate::component::Component;
 use crate::system::System;
 use scl_plan::{ConnectionPlan, GateKind, GateOptions, GatePlan, Plan, Schema};
 use scl_terminal::Problem;
+use scl_text::gate_name::gate_in_file_name;
 use std::sync::Arc;
 
 impl System {
@@ -76,7 +77,7 @@ fn opposite_gate(component: &str, peer: &str, gate: &GatePlan, connection: &Conn
         codec: gate.codec.clone(),
         declared_at: gate.declared_at.clone(),
         endpoint: kind.shares_endpoint().then(|| connection.endpoint.clone()),
-        tap: kind.listens().then(|| format!("{component}.{}.tap", connection.peer_gate)),
+        tap: kind.listens().then(|| format!("{}.tap", gate_in_file_name(component, &connection.peer_gate))),
         contract: connection.contract.clone(),
         connections: vec![ConnectionPlan {
             peer_component: peer.to_owned(),

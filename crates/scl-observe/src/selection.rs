@@ -6,6 +6,7 @@ use crate::system::System;
 use scl_loader::{Request, load};
 use scl_plan::SystemPlan;
 use scl_terminal::{Problem, closest_name, escape, quoted_list};
+use scl_text::gate_name::{component_and_gate, split};
 use std::path::Path;
 
 /// Gates and whole components, named by the user.
@@ -70,7 +71,7 @@ impl Name {
             None => self.component == gate.component,
             Some(name) => {
                 self.component == gate.component && *name == gate.gate
-                    || gate.peers.iter().any(|peer| peer.split_once('.') == Some((&self.component, name)))
+                    || gate.peers.iter().any(|peer| split(peer) == Some((&self.component, name)))
             }
         }
     }
@@ -86,9 +87,13 @@ struct Lookup<'s> {
 
 impl Lookup<'_> {
     fn name(&mut self, written: &str) -> Result<Name, Problem> {
-        let (component, gate) = written.split_once('.').map_or((written, None), |(name, gate)| (name, Some(gate)));
-        let name = Name { component: component.to_owned(), gate: gate.map(str::to_owned) };
         let all = self.system.components();
+        let is_running = |name: &str| all.iter().any(|it| it.name == name);
+        let is_planned = self.planned().map(|plan| |name: &str| plan.component(name).is_ok());
+        let is_component =
+            |name: &str| is_running(name) || is_planned.as_ref().is_some_and(|is_planned| is_planned(name));
+        let (component, gate) = component_and_gate(written, is_component);
+        let name = Name { component: component.to_owned(), gate: gate.map(str::to_owned) };
         let known = all.iter().find(|it| it.name == component);
         if known.is_some_and(|known| known.is_running()) {
             if !lookup::is_seen(self.system, &all, written)? {

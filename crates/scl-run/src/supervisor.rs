@@ -351,7 +351,7 @@ fn unusable(run: &Run<'_>, components: &[String]) -> Option<String> {
 
 /// The report on a program that opens another component than the one that it was started as.
 fn wrong_program(member: &Member<'_>, opened: &str) -> String {
-    let shown = match opened.rsplit_once('.') {
+    let shown = match opened.split_once('.') {
         Some((system, name)) => format!("`{name}` of system `{system}`"),
         None => format!("`{opened}`"),
     };

@@ -18,9 +18,9 @@ pub fn closest_name<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
 
 /// The candidates that look most like `word`.
 ///
-/// A candidate that differs only in case is the nearest. Others start with the word, or are within a third of its
-/// length in edits (one edit for a word of two letters). All that are returned are equally near, and keep their order.
-/// `count_steps` receives the cost of each comparison.
+/// A candidate that differs only in case is the nearest. Others start with the word, end with it after a dot, or are
+/// within a third of its length in edits (one edit for a word of two letters). All that are returned are equally near,
+/// and keep their order. `count_steps` receives the cost of each comparison.
 pub fn nearest<'a>(
     word: &str,
     candidates: impl IntoIterator<Item = &'a str>,
@@ -55,8 +55,11 @@ pub fn one_edit_away<'a>(
 
 /// The number of edits between two lower-case words; `None` if it is more than `limit`.
 fn distance(word: &str, candidate: &str, limit: usize, count_steps: impl Fn(usize)) -> Option<usize> {
-    // An abbreviation, such as `que` for `queue`, counts as at most `limit` edits, however much is missing.
-    if word.len() >= ABBREVIATION && candidate.len() > word.len() && candidate.starts_with(word) {
+    // An abbreviation, such as `que` for `queue`, counts as at most `limit` edits, however much is missing. So does
+    // `planner` for `left_arm.planner`, which is in a group.
+    let is_own_name = || candidate.strip_suffix(word).is_some_and(|group| group.ends_with('.'));
+    let is_part = candidate.len() > word.len() && (candidate.starts_with(word) || is_own_name());
+    if word.len() >= ABBREVIATION && is_part {
         return Some(limit.min(candidate.chars().count() - word.chars().count()));
     }
     // A difference in length is a lower bound, and cheap: it keeps long lists of names fast.

@@ -20,6 +20,7 @@ mod finish;
 mod fitting_gate;
 mod foreign_package;
 mod gate_kind;
+mod group_name;
 mod inference;
 mod instances;
 mod island;
@@ -146,6 +147,7 @@ pub(crate) const RULES: &[&Rule] = &[
     &control::NO_EFFECT,
     &control::FIXED,
     &control::NO_REASON,
+    &group_name::TAKEN,
 ];
 
 /// What the checks need to know besides the file's text.
@@ -242,6 +244,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
 fn check_names(model: &Model, sources: &Sources, problems: &mut Diagnostics) {
     let renames = Renames::of(model, sources);
     name_spelling::check(model, &renames, problems);
+    group_name::check(model, &renames, problems);
     keyword::check(model, &renames, problems);
     similar_name::check(model, sources, &renames, problems);
     sender_enum::check(model, &renames, problems);

@@ -11,10 +11,11 @@ const KEYWORDS: [&str; 48] = [
 /// Words that stay keywords even with `r#` before them.
 const UNESCAPABLE: [&str; 5] = ["crate", "self", "Self", "super", "_"];
 
-/// The type of a component: `user_interface` and `user-interface` become `UserInterface`; capitals stay as they are.
+/// The type of a component: `user_interface` and `user-interface` become `UserInterface`, `left_arm.planner` becomes
+/// `LeftArmPlanner`; capitals stay as they are.
 pub fn component_type(name: &str) -> String {
     let mut out = String::with_capacity(name.len());
-    for word in name.split(['_', '-']) {
+    for word in name.split(['_', '-', '.']) {
         let mut letters = word.chars();
         if let Some(first) = letters.next() {
             out.push(first.to_ascii_uppercase());
@@ -27,7 +28,8 @@ pub fn component_type(name: &str) -> String {
     out
 }
 
-/// The field of a gate, without `r#`: `setPoint` and `set-point` become `set_point`.
+/// The field of a gate, without `r#`: `setPoint` and `set-point` become `set_point`. Of a component, the word for it in
+/// names of functions: `left_arm.planner` becomes `left_arm_planner`.
 pub fn gate_field(name: &str) -> String {
     let mut out = String::with_capacity(name.len() + 4);
     let letters: Vec<char> = name.chars().collect();
@@ -35,7 +37,7 @@ pub fn gate_field(name: &str) -> String {
         if letter.is_ascii_uppercase() && starts_word(&letters, at) {
             out.push('_');
         }
-        out.push(if letter == '-' { '_' } else { letter.to_ascii_lowercase() });
+        out.push(if matches!(letter, '-' | '.') { '_' } else { letter.to_ascii_lowercase() });
     }
     out
 }
@@ -76,6 +78,7 @@ mod tests {
             ("user_interface", "UserInterface"),
             ("user-interface", "UserInterface"),
             ("pySysMoCo", "PySysMoCo"),
+            ("left_arm.planner", "LeftArmPlanner"),
             ("GPS_", "GPS"),
             ("_1", "_1"),
             ("_", "_"),
@@ -95,6 +98,7 @@ mod tests {
             ("v2Data", "v2_data"),
             ("_x", "_x"),
             ("A_B", "a_b"),
+            ("left_arm.mainPlanner", "left_arm_main_planner"),
         ];
         for (name, expected) in cases {
             assert_eq!(gate_field(name), expected);

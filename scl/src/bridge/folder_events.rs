@@ -2,6 +2,7 @@
 
 use crate::runtime_dir::{Inotify, RuntimeDirError, SystemDir};
 use rustix::fs::inotify::{Event, ReadFlags, WatchFlags};
+use scl_text::gate_name::from_file_name;
 use std::collections::BTreeMap;
 use std::ffi::CStr;
 
@@ -58,7 +59,7 @@ impl FolderChange {
         }
         let name = event.file_name().map_or("", |name| CStr::to_str(name).unwrap_or_default());
         if let Some(component) = name.strip_suffix(".lock").or_else(|| name.strip_suffix(".json")) {
-            *components.entry(component.to_owned()).or_default() |= event.events().contains(ReadFlags::DELETE);
+            *components.entry(from_file_name(component)).or_default() |= event.events().contains(ReadFlags::DELETE);
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::service;
 use crate::spec::ComponentSpec;
 
 /// The environment variable. Its value is `rover.sensor`, or `sensor` for any system; several are separated by commas.
+/// The name of a component may contain dots, that of a system cannot.
 const VARIABLE: &str = "SCL_COMPONENT";
 
 /// What the process was started as.
@@ -20,21 +21,21 @@ impl Started {
 
     /// Whether a component is among them.
     pub(super) fn includes(&self, system: &str, component: &str) -> bool {
-        self.names().any(|(of, name)| name == component && of.is_none_or(|of| of == system))
+        self.names().any(|name| name == component || name.split_once('.') == Some((system, component)))
     }
 
-    /// For messages: `` `gps` of system `rover` ``; nothing if the variable is not set.
-    pub(super) fn shown(&self) -> Option<String> {
-        let one = |(system, name): (Option<&str>, &str)| match system {
-            Some(system) => format!("`{name}` of system `{system}`"),
-            None => format!("`{name}`"),
+    /// For messages: `` `gps` of system `rover` ``; nothing if the variable is not set. The names of `components` are
+    /// known not to begin with that of a system.
+    pub(super) fn shown(&self, components: &[&str]) -> Option<String> {
+        let one = |name: &str| match name.split_once('.') {
+            Some((system, component)) if !components.contains(&name) => format!("`{component}` of system `{system}`"),
+            _ => format!("`{name}`"),
         };
         self.0.as_ref().map(|_| self.names().map(one).collect::<Vec<_>>().join(" or "))
     }
 
-    fn names(&self) -> impl Iterator<Item = (Option<&str>, &str)> {
-        let names = self.0.iter().flat_map(|text| text.split(',')).map(str::trim).filter(|name| !name.is_empty());
-        names.map(|name| name.rsplit_once('.').map_or((None, name), |(system, name)| (Some(system), name)))
+    fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().flat_map(|text| text.split(',')).map(str::trim).filter(|name| !name.is_empty())
     }
 }
 
@@ -44,7 +45,9 @@ impl Started {
 /// [`OpenError::Unexpected`].
 pub(super) fn check(spec: &'static ComponentSpec, variables: Variables<'_>) -> Result<(), OpenError> {
     let started = Started::read(variables)?;
-    let Some(expected) = started.shown().filter(|_| !started.includes(spec.system, spec.name)) else { return Ok(()) };
+    let Some(expected) = started.shown(&[spec.name]).filter(|_| !started.includes(spec.system, spec.name)) else {
+        return Ok(());
+    };
     // A custom variable, with the prefix `X_` that `sd_notify(3)` recommends.
     service::tell(variables, &format!("X_SCL_OPENS={}.{}\n", spec.system, spec.name));
     Err(OpenError::Unexpected { component: spec.name, system: spec.system, expected })
@@ -60,6 +63,18 @@ mod tests {
             &ComponentSpec { system: "rover", name: "sensor", declared_at: "rover.yaml:1:1", gates: &[], schema: None };
         let variables = |name: &str| (name == VARIABLE).then_some(expected?).map(OsString::from);
         check(SPEC, &variables).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_component_in_a_group_is_expected_with_and_without_its_system() {
+        let includes = |value: &str, component: &str| Started(Some(value.to_owned())).includes("rover", component);
+        for value in ["rover.left_arm.planner", "left_arm.planner", "gps, left_arm.planner"] {
+            assert!(includes(value, "left_arm.planner"), "{value}");
+        }
+        for value in ["planner", "right_arm.planner", "left_arm", "drone.left_arm.planner", "rover.planner"] {
+            assert!(!includes(value, "left_arm.planner"), "{value}");
+        }
+        assert!(!includes("rover.left_arm.planner", "planner"));
     }
 
     #[test]

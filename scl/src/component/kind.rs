@@ -37,7 +37,7 @@ pub(crate) fn started_as(
         _ => Err(OpenError::WhichComponent {
             kind: kind.to_owned(),
             components: components.iter().map(|&name| name.to_owned()).collect(),
-            started: started.shown(),
+            started: started.shown(components),
         }),
     }
 }

@@ -6,6 +6,7 @@ use super::compared::Compared;
 use super::error::RuntimeDirError;
 use super::event_count::{EventCount, Seen};
 use super::temp_entry::{NAME_BYTES, remove_stale_entries};
+use scl_text::gate_name::{from_file_name, in_file_name};
 use std::ffi::OsString;
 use std::fs::{self, DirBuilder};
 use std::io;
@@ -159,7 +160,9 @@ impl SystemDir {
         if let Some(ending) = RESERVED.into_iter().find(|ending| endpoint.ends_with(ending)) {
             return Err(RuntimeDirError::ReservedName { endpoint: endpoint.to_owned(), ending });
         }
-        let path = self.path.join(plain("an endpoint", endpoint)?);
+        // In names of files, `+` stands for the dots in the name of a component.
+        let path = self.path.join(endpoint);
+        plain("an endpoint", &from_file_name(endpoint))?;
         // The socket is bound under a temporary name, which may be the longer of the two.
         let name = endpoint.len().max(NAME_BYTES);
         let length = self.path.as_os_str().as_bytes().len() + 1 + name;
@@ -173,7 +176,7 @@ impl SystemDir {
 
     /// Returns the path of one of a component's own files; `ending` starts with a full stop.
     pub(super) fn file_of(&self, component: &str, ending: &str) -> Result<PathBuf, RuntimeDirError> {
-        Ok(self.path.join(format!("{}{ending}", plain("a component", component)?)))
+        Ok(self.path.join(format!("{}{ending}", in_file_name(plain("a component", component)?))))
     }
 
     pub(super) fn schema_file(&self, hash: &str) -> Result<PathBuf, RuntimeDirError> {

@@ -4,6 +4,7 @@
 use super::error::RuntimeDirError;
 use super::{Inotify, SystemDir};
 use rustix::fs::inotify::{Event, ReadFlags, WatchFlags};
+use scl_text::gate_name::in_file_name;
 use std::ffi::{CStr, OsString};
 use std::io;
 use std::os::unix::ffi::OsStrExt;
@@ -59,7 +60,7 @@ impl FolderWatch {
             arrivals: Arrivals::begin(dir),
             runtime_folder,
             system: dir.folder().file_name().unwrap_or_default().to_owned(),
-            prefix: format!("{component}."),
+            prefix: format!("{}.", in_file_name(component)),
             schema: schema.map(|hash| format!("{hash}.schema")),
         })
     }

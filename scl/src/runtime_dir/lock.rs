@@ -4,6 +4,7 @@ use super::SystemDir;
 use super::error::{ComponentProcess, RuntimeDirError};
 use super::held_locks::{Attempt, FileId, lock_holder, try_lock, unlock};
 use scl_fork::ProcessMark;
+use scl_text::gate_name::in_file_name;
 use std::fs;
 use std::os::unix::fs::FileTypeExt;
 use std::path::{Path, PathBuf};
@@ -75,7 +76,7 @@ impl ComponentLock {
 
     fn is_leftover(&self, path: &Path) -> bool {
         let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-        let own = name.strip_prefix(&self.component).is_some_and(|rest| rest.starts_with('.'));
+        let own = name.strip_prefix(&in_file_name(&self.component)).is_some_and(|rest| rest.starts_with('.'));
         let is_socket = || fs::symlink_metadata(path).is_ok_and(|found| found.file_type().is_socket());
         own && ([".tcp", ".json", ".stats"].iter().any(|ending| name.ends_with(ending)) || is_socket())
     }

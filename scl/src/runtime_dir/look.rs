@@ -6,6 +6,7 @@ use super::lock::ComponentLock;
 use super::schema::SCHEMA_LIMIT;
 use super::small_file::read_file;
 use bytes::Bytes;
+use scl_text::gate_name::from_file_name;
 use std::collections::BTreeSet;
 use std::fs::{self, FileType};
 use std::io;
@@ -57,9 +58,12 @@ impl SystemDir {
     ///
     /// The folder cannot be read, for example because it was removed.
     pub fn components(&self) -> io::Result<Vec<String>> {
-        names(fs::read_dir(self.folder())?, |kind, name| {
+        let files = names(fs::read_dir(self.folder())?, |kind, name| {
             name.strip_suffix(".lock").or_else(|| name.strip_suffix(".json")).filter(|_| kind.is_file())
-        })
+        })?;
+        let mut components: Vec<String> = files.iter().map(|name| from_file_name(name)).collect();
+        components.sort_unstable();
+        Ok(components)
     }
 
     /// Returns whether a component runs. One that never ran in this folder counts as stopped.
@@ -96,7 +100,8 @@ fn names(entries: fs::ReadDir, pick: impl Fn(FileType, &str) -> Option<&str>) ->
     for entry in entries {
         let entry = entry?;
         let (name, kind) = (entry.file_name(), entry.file_type());
-        let picked = name.to_str().filter(|name| is_plain(name)).and_then(|name| pick(kind.ok()?, name));
+        let picked =
+            name.to_str().filter(|name| is_plain(&from_file_name(name))).and_then(|name| pick(kind.ok()?, name));
         found.extend(picked.map(str::to_owned));
     }
     found.remove("");

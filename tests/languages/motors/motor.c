@@ -80,7 +80,7 @@ static void control(void)
                                          : motors_controller_right_send(&controller, value, strlen(value), -1),
                "send");
         expect(motors_controller_states_recv_from(&controller, &state, &motor, -1), "recv_from");
-        say(motor == MOTORS_MOTOR_INSTANCE_LEFT_MOTOR ? "left_motor" : "right_motor", state);
+        say(motor == MOTORS_MOTOR_INSTANCE_LEFT_MOTOR ? "left_motor" : "right.motor", state);
     }
     expect(motors_controller_close(&controller, 0), "close");
 }
@@ -138,7 +138,7 @@ int main(int count, char **arguments)
         expect(motors_motor_open(&motor, NULL), "open");
     }
     expect(motors_motor_ready(&motor, -1), "ready");
-    puts(motor.instance == MOTORS_MOTOR_INSTANCE_LEFT_MOTOR ? "left_motor" : "right_motor");
+    puts(motor.instance == MOTORS_MOTOR_INSTANCE_LEFT_MOTOR ? "left_motor" : "right.motor");
     fflush(stdout);
     while (answer(&motor)) {
     }

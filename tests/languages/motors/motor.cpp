@@ -35,7 +35,7 @@ void control() {
         controller.ready();
         (side == "left" ? controller.left : controller.right).send(value);
         const auto [motor, state] = controller.states.recv_from();
-        std::cout << (motor == MotorInstance::LeftMotor ? "left_motor " : "right_motor ") << state << std::endl;
+        std::cout << (motor == MotorInstance::LeftMotor ? "left_motor " : "right.motor ") << state << std::endl;
     }
 }
 
@@ -88,7 +88,7 @@ int main(int count, char** arguments) try {
     }
     Motor motor = open(chosen);
     motor.ready();
-    std::cout << (motor.instance() == MotorInstance::LeftMotor ? "left_motor" : "right_motor") << std::endl;
+    std::cout << (motor.instance() == MotorInstance::LeftMotor ? "left_motor" : "right.motor") << std::endl;
     while (true) {
         answer(motor);
     }

@@ -34,20 +34,20 @@ fn each_process_is_the_component_that_it_was_started_as() {
         on_each_transport(|system| {
             let mut controller = open_with(&system, MOTORS, "controller");
             let mut left = start(&system, &motor, &["left_motor"], "");
-            let mut right = start(&system, &motor, &[], "motors.right_motor");
+            let mut right = start(&system, &motor, &[], "motors.right.motor");
             left.expect("left_motor");
-            right.expect("right_motor");
+            right.expect("right.motor");
             for (command, answer) in
-                [("left 1", "left_motor 10"), ("right 2", "right_motor 20"), ("left 3", "left_motor 30")]
+                [("left 1", "left_motor 10"), ("right 2", "right.motor 20"), ("left 3", "left_motor 30")]
             {
                 controller.tell(command);
                 controller.expect(answer);
             }
             right.kill();
-            let mut right = start(&system, &motor, &[], "right_motor");
-            right.expect("right_motor");
+            let mut right = start(&system, &motor, &[], "right.motor");
+            right.expect("right.motor");
             controller.tell("right 4");
-            controller.expect("right_motor 40");
+            controller.expect("right.motor 40");
         });
     }
 }
@@ -62,10 +62,10 @@ fn a_program_knows_who_has_sent_a_message() {
             let mut controller = start(&system, &language, &["controller"], "");
             controller.expect("open");
             let mut left = start(&system, &language, &[], "left_motor");
-            let mut right = start(&system, &language, &[], "right_motor");
+            let mut right = start(&system, &language, &[], "right.motor");
             left.expect("left_motor");
-            right.expect("right_motor");
-            for (command, answer) in [("left 1", "left_motor 10"), ("right 2", "right_motor 20")] {
+            right.expect("right.motor");
+            for (command, answer) in [("left 1", "left_motor 10"), ("right 2", "right.motor 20")] {
                 controller.tell(command);
                 controller.expect(answer);
             }
@@ -99,14 +99,14 @@ fn refused(motor: &Motor, argument: &[&str], component: &str) -> String {
 
 #[test]
 fn a_process_that_does_not_know_its_component_says_so() {
-    let all = "set SCL_COMPONENT to `left_motor` or `right_motor`";
+    let all = "set SCL_COMPONENT to `left_motor` or `right.motor`";
     for motor in languages() {
         let told = refused(&motor, &[], "");
         assert!(told.contains(&format!("this program is a `motor`: {all}")), "{told}");
         let told = refused(&motor, &[], "motors.controller");
         let expected = format!("this program is a `motor`, but was started as `controller` of system `motors`: {all}");
         assert!(told.contains(&expected), "{told}");
-        let told = refused(&motor, &["left_motor"], "right_motor");
+        let told = refused(&motor, &["left_motor"], "right.motor");
         let expected = "component `left_motor` of system `motors` was not expected";
         assert!(told.contains(expected), "{told}");
     }
@@ -137,9 +137,9 @@ fn python_opens_a_kind_from_the_topology_file() {
     let topology = topology();
     let dynamic = ["dynamic", text(&topology)];
     let mut left = start(&system, &python(), &dynamic, "left_motor");
-    let mut right = start(&system, &python(), &dynamic, "right_motor");
+    let mut right = start(&system, &python(), &dynamic, "right.motor");
     left.expect("left_motor");
-    right.expect("right_motor");
+    right.expect("right.motor");
     controller.tell("left 1");
     controller.expect("left_motor 10");
     let told = refused(&python(), &dynamic, "");

@@ -74,4 +74,4 @@ class SubFrom(Sub[T], Generic[S, T]):
         return self._sender_of(super().sender or "")
 
     def _sender_of(self, gate: str) -> S:
-        return self._senders(gate.partition(".")[0] if issubclass(self._senders, Instance) else gate)
+        return self._senders(gate.rpartition(".")[0] if issubclass(self._senders, Instance) else gate)

@@ -1,6 +1,8 @@
-//! A topology as Graphviz text: one table per component, one port per gate, and one edge per connection.
+//! A topology as Graphviz text: one table per component, one port per gate, one frame per group, and one edge per
+//! connection.
 
 use super::edge::edge_of;
+use super::frame::Frame;
 use scl_topology::topology::{Component, Connection, GateId, Topology};
 
 const STYLE: &str = "    rankdir=LR;
@@ -10,14 +12,37 @@ const STYLE: &str = "    rankdir=LR;
 
 /// Draws a topology. Edges of requests are dashed and have two heads.
 pub(crate) fn draw_dot(topology: &Topology) -> String {
-    let components = topology.components().map(|(_, component)| draw_component(topology, component));
+    let components = Drawing { topology, frames: 0 }.draw_frame(&Frame::of(topology));
     let connections = topology.connections().map(|(_, connection)| draw_connection(topology, connection));
-    let (components, connections): (String, String) = (components.collect(), connections.collect());
+    let connections: String = connections.collect();
     format!("digraph \"{}\" {{\n{STYLE}{components}{connections}}}\n", escape_quoted(topology.system()))
 }
 
-fn draw_component(topology: &Topology, component: &Component) -> String {
-    let (name, title) = (escape_quoted(component.name()), escape_html(component.name()));
+struct Drawing<'a> {
+    topology: &'a Topology,
+    /// The number of groups drawn so far.
+    frames: usize,
+}
+
+impl Drawing<'_> {
+    /// Graphviz draws a frame around a subgraph whose name starts with `cluster`.
+    fn draw_frame(&mut self, frame: &Frame<'_>) -> String {
+        let components = frame.components.iter();
+        let mut text: String =
+            components.map(|(id, name)| draw_component(self.topology, self.topology.component(*id), name)).collect();
+        for (name, frame) in &frame.groups {
+            let (number, label) = (self.frames, escape_quoted(name));
+            self.frames += 1;
+            text.push_str(&format!("    subgraph cluster_{number} {{\n        label=\"{label}\";\n"));
+            text.extend(self.draw_frame(frame).lines().map(|line| format!("    {line}\n")));
+            text.push_str("    }\n");
+        }
+        text
+    }
+}
+
+fn draw_component(topology: &Topology, component: &Component, title: &str) -> String {
+    let (name, title) = (escape_quoted(component.name()), escape_html(title));
     let gates = component.gates().iter().map(|&id| {
         let gate = topology.gate(id);
         let (name, kind) = (escape_html(gate.name()), gate.kind().word());

@@ -1,27 +1,54 @@
-//! A topology as Mermaid text: one box per component with its gates inside, and one arrow per connection.
+//! A topology as Mermaid text: one box per component with its gates inside, a box around each group, and one arrow per
+//! connection.
 
 use super::edge::edge_of;
-use scl_topology::topology::{Component, ComponentId, Connection, GateId, Topology};
+use super::frame::Frame;
+use scl_topology::topology::{ComponentId, Connection, GateId, Topology};
 
 /// Draws a topology: `pub` and `push` have an arrow `-->`, `req` the dashed `<-.->`.
 pub(crate) fn draw_mermaid(topology: &Topology) -> String {
-    let components = topology.components().map(|(id, component)| draw_component(topology, id, component));
-    let connections = topology.connections().map(|(_, connection)| draw_connection(topology, connection));
-    format!("flowchart LR\n{}{}", components.collect::<String>(), connections.collect::<String>())
+    let mut text = "flowchart LR\n".to_owned();
+    Drawing { topology, text: &mut text, frames: 0 }.draw_frame(&Frame::of(topology), "    ");
+    text.extend(topology.connections().map(|(_, connection)| draw_connection(topology, connection)));
+    text
 }
 
-fn draw_component(topology: &Topology, id: ComponentId, component: &Component) -> String {
-    let name = component_name(topology, id);
-    let label = escape(component.name());
-    // Mermaid does not draw empty subgraphs, so a component without gates becomes a node.
-    if component.gates().is_empty() {
-        return format!("    {name}[\"{label}\"]\n");
+struct Drawing<'a> {
+    topology: &'a Topology,
+    text: &'a mut String,
+    /// The number of groups drawn so far.
+    frames: usize,
+}
+
+impl Drawing<'_> {
+    fn draw_frame(&mut self, frame: &Frame<'_>, indent: &str) {
+        for (id, name) in &frame.components {
+            self.draw_component(*id, name, indent);
+        }
+        for (name, frame) in &frame.groups {
+            self.text.push_str(&format!("{indent}subgraph f{}[\"{}\"]\n", self.frames, escape(name)));
+            self.frames += 1;
+            self.draw_frame(frame, &format!("{indent}    "));
+            self.text.push_str(&format!("{indent}end\n"));
+        }
     }
-    let gates = component.gates().iter().map(|&id| {
-        let gate = topology.gate(id);
-        format!("        {}([\"{}: {}\"])\n", node_name(topology, id), escape(gate.name()), gate.kind().word())
-    });
-    format!("    subgraph {name}[\"{label}\"]\n{}    end\n", gates.collect::<String>())
+
+    fn draw_component(&mut self, id: ComponentId, name: &str, indent: &str) {
+        let (node, label) = (component_name(self.topology, id), escape(name));
+        let gates = self.topology.component(id).gates();
+        // Mermaid does not draw empty subgraphs, so a component without gates becomes a node.
+        if gates.is_empty() {
+            self.text.push_str(&format!("{indent}{node}[\"{label}\"]\n"));
+            return;
+        }
+        self.text.push_str(&format!("{indent}subgraph {node}[\"{label}\"]\n"));
+        for &id in gates {
+            let (node, gate) = (node_name(self.topology, id), self.topology.gate(id));
+            let (name, kind) = (escape(gate.name()), gate.kind().word());
+            self.text.push_str(&format!("{indent}    {node}([\"{name}: {kind}\"])\n"));
+        }
+        self.text.push_str(&format!("{indent}end\n"));
+    }
 }
 
 fn draw_connection(topology: &Topology, connection: &Connection) -> String {

@@ -7,6 +7,7 @@ use scl::{PeerStats, Pub, Push};
 use scl_observe::problem_of;
 use scl_plan::GatePlan;
 use scl_terminal::Problem;
+use scl_text::gate_name::split;
 use std::time::Duration;
 use tokio::time::{Instant, timeout_at};
 
@@ -61,7 +62,7 @@ impl Sender {
     }
 
     fn waits_for_optional(&self, plans: &Plans) -> bool {
-        let component = |peer: &PeerStats| peer.peer.split('.').next().map(str::to_owned);
+        let component = |peer: &PeerStats| split(&peer.peer).map(|(component, _)| component.to_owned());
         let missing = self.peer_stats().into_iter().filter(|peer| !peer.connected);
         missing.filter_map(|peer| component(&peer)).any(|peer| plans.is_running(&peer))
     }

@@ -1,7 +1,7 @@
 //! The schema of the file: its sections, and the keys of a component.
 
 use super::gate::{gate_schema, shared_gate_schema};
-use super::names::{NAME, Names};
+use super::names::{FULL_NAME, NAME, Names};
 use super::shape::shape_schema;
 use scl_topology::grammar::{COMPONENT_KEYS, Item, KIND, Key, OWN_PREFIX, SECTIONS, Shape, without_references};
 use serde_json::{Map, Value, json};
@@ -35,6 +35,7 @@ fn key_schema(key: &Key, names: &Names) -> Value {
     let mut schema = match key.shape {
         Shape::List(item) => list_schema(key, item, names),
         Shape::Name if key.key == KIND => names.kind_schema(),
+        Shape::Name if key.key == "name" => json!({ "type": "string", "pattern": FULL_NAME }),
         Shape::Name => json!({ "type": "string", "pattern": NAME }),
         other => shape_schema(other),
     };

@@ -1,6 +1,6 @@
 //! The schema of a gate: six kinds, each with its options.
 
-use super::names::{NAME, Names, PATH};
+use super::names::{FULL_NAME, NAME, Names, PATH};
 use super::shape::shape_schema;
 use scl_topology::grammar::{GateKind, GateOption, KindRow, OPTIONS, SHARED_GATE_KEYS, without_references};
 use serde_json::{Map, Value, json};
@@ -28,7 +28,7 @@ pub(super) fn shared_gate_schema(names: &Names) -> Value {
         schema["properties"][to] = json!({ "type": "string", "pattern": PATH, "description": end });
         schema["properties"][except] = json!({
             "description": "The components and kinds that do not get the gate.",
-            "type": ["string", "array"], "pattern": NAME, "items": { "type": "string", "pattern": NAME },
+            "type": ["string", "array"], "pattern": FULL_NAME, "items": { "type": "string", "pattern": FULL_NAME },
         });
         schema
     });

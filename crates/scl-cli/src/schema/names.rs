@@ -6,8 +6,11 @@ use serde_json::{Value, json};
 /// A word of letters, digits, `_` and single `-`.
 pub(super) const NAME: &str = "^[A-Za-z_](-?[A-Za-z0-9_])*-?$";
 
+/// A name, perhaps with those of groups before it: `left_arm.planner`.
+pub(super) const FULL_NAME: &str = "^[A-Za-z_](-?[A-Za-z0-9_])*-?(\\.[A-Za-z_](-?[A-Za-z0-9_])*-?)*$";
+
 /// `component.gate`.
-pub(super) const PATH: &str = "^[A-Za-z_](-?[A-Za-z0-9_])*-?\\.[A-Za-z_](-?[A-Za-z0-9_])*-?$";
+pub(super) const PATH: &str = "^[A-Za-z_](-?[A-Za-z0-9_])*-?(\\.[A-Za-z_](-?[A-Za-z0-9_])*-?)+$";
 
 /// A word of a dotted type.
 const WORD: &str = "([A-Za-z][A-Za-z0-9_]*|_[A-Za-z0-9_]+)";
@@ -58,7 +61,7 @@ impl Names {
     /// The kind of a component.
     pub(super) fn kind_schema(&self) -> Value {
         let known = json!({ "type": "string", "enum": self.kinds });
-        offered(known, self.kinds.is_empty(), &json!({ "type": "string", "pattern": NAME }), "One of the `kinds`.")
+        offered(known, self.kinds.is_empty(), &json!({ "type": "string", "pattern": FULL_NAME }), "One of the `kinds`.")
     }
 
     /// The type of `pub`, `sub`, `push` and `pull`.

@@ -15,7 +15,7 @@ enum class MotorInstance {
 enum class DisplayNumbersSender {
     /// left_motor.state
     LeftMotor,
-    /// right_motor.state
+    /// right.motor.state
     RightMotor,
     /// controller.left
     ControllerLeft,
@@ -27,7 +27,7 @@ namespace scl_generated {
 
 /// What the programs need of the topology file, as `scl plan` prints it.
 inline constexpr ::std::string_view plan = R"plan({"version": 1,"system": "motors","kinds": [{"name": "motor","components": ["left_motor",
-"right_motor"]}],"components": [{"name": "left_motor","declared_at": "motors.yaml:10:12",
+"right.motor"]}],"components": [{"name": "left_motor","declared_at": "motors.yaml:10:12",
 "schema": null,"gates": [{"name": "setpoint","kind": "sub","payload": {"message": "u32"},
 "codec": "json","declared_at": "motors.yaml:7:9","endpoint": null,"tap": null,
 "contract": "pseany5y","max_size": 67108864,"queue": 10,"when_full": "drop_oldest",
@@ -43,22 +43,22 @@ inline constexpr ::std::string_view plan = R"plan({"version": 1,"system": "motor
 "contract": "pseany5y","required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864
 },{"peer_component": "display","peer_gate": "numbers",
 "endpoint": "left_motor.state--display.numbers.pseany5y","contract": "pseany5y","required": false,
-"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "right_motor",
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "right.motor",
 "declared_at": "motors.yaml:11:12","schema": null,"gates": [{"name": "setpoint","kind": "sub",
 "payload": {"message": "u32"},"codec": "json","declared_at": "motors.yaml:7:9","endpoint": null,
 "tap": null,"contract": "pseany5y","max_size": 67108864,"queue": 10,"when_full": "drop_oldest",
 "backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
 "undecodable": "skip","connections": [{"peer_component": "controller","peer_gate": "right",
-"endpoint": "controller.right--right_motor.setpoint.pseany5y","contract": "pseany5y",
+"endpoint": "controller.right--right+motor.setpoint.pseany5y","contract": "pseany5y",
 "required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "state",
 "kind": "pub","payload": {"message": "u32"},"codec": "json","declared_at": "motors.yaml:8:9",
-"endpoint": null,"tap": "right_motor.state.tap","contract": "pseany5y","max_size": 67108864,
+"endpoint": null,"tap": "right+motor.state.tap","contract": "pseany5y","max_size": 67108864,
 "queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
 "timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
 "peer_component": "controller","peer_gate": "states",
-"endpoint": "right_motor.state--controller.states.pseany5y","contract": "pseany5y","required": true,
+"endpoint": "right+motor.state--controller.states.pseany5y","contract": "pseany5y","required": true,
 "queue": 10,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "display",
-"peer_gate": "numbers","endpoint": "right_motor.state--display.numbers.pseany5y",
+"peer_gate": "numbers","endpoint": "right+motor.state--display.numbers.pseany5y",
 "contract": "pseany5y","required": false,"queue": 100,"when_full": "drop_oldest",
 "max_size": 67108864}]}]},{"name": "controller","declared_at": "motors.yaml:12:11","schema": null,
 "gates": [{"name": "left","kind": "pub","payload": {"message": "u32"},"codec": "json",
@@ -74,8 +74,8 @@ inline constexpr ::std::string_view plan = R"plan({"version": 1,"system": "motor
 "codec": "json","declared_at": "motors.yaml:15:9","endpoint": null,"tap": "controller.right.tap",
 "contract": "pseany5y","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
 "backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
-"undecodable": "skip","connections": [{"peer_component": "right_motor","peer_gate": "setpoint",
-"endpoint": "controller.right--right_motor.setpoint.pseany5y","contract": "pseany5y",
+"undecodable": "skip","connections": [{"peer_component": "right.motor","peer_gate": "setpoint",
+"endpoint": "controller.right--right+motor.setpoint.pseany5y","contract": "pseany5y",
 "required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864},{
 "peer_component": "display","peer_gate": "numbers",
 "endpoint": "controller.right--display.numbers.pseany5y","contract": "pseany5y","required": false,
@@ -85,8 +85,8 @@ inline constexpr ::std::string_view plan = R"plan({"version": 1,"system": "motor
 "backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
 "undecodable": "skip","connections": [{"peer_component": "left_motor","peer_gate": "state",
 "endpoint": "left_motor.state--controller.states.pseany5y","contract": "pseany5y","required": true,
-"queue": 10,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "right_motor",
-"peer_gate": "state","endpoint": "right_motor.state--controller.states.pseany5y",
+"queue": 10,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "right.motor",
+"peer_gate": "state","endpoint": "right+motor.state--controller.states.pseany5y",
 "contract": "pseany5y","required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864}
 ]}]},{"name": "display","declared_at": "motors.yaml:17:11","schema": null,"gates": [{
 "name": "numbers","kind": "sub","payload": {"message": "u32"},"codec": "json",
@@ -95,8 +95,8 @@ inline constexpr ::std::string_view plan = R"plan({"version": 1,"system": "motor
 "timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
 "peer_component": "left_motor","peer_gate": "state",
 "endpoint": "left_motor.state--display.numbers.pseany5y","contract": "pseany5y","required": true,
-"queue": 100,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "right_motor",
-"peer_gate": "state","endpoint": "right_motor.state--display.numbers.pseany5y",
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "right.motor",
+"peer_gate": "state","endpoint": "right+motor.state--display.numbers.pseany5y",
 "contract": "pseany5y","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
 },{"peer_component": "controller","peer_gate": "left",
 "endpoint": "controller.left--display.numbers.pseany5y","contract": "pseany5y","required": true,
@@ -108,14 +108,14 @@ inline constexpr ::std::string_view plan = R"plan({"version": 1,"system": "motor
 
 inline constexpr const char* MotorNames[] = {
     "left_motor",
-    "right_motor",
+    "right.motor",
 };
 
 struct ControllerStatesSenders {
     using Sender = MotorInstance;
     static constexpr const char* names[] = {
         "left_motor.state",
-        "right_motor.state",
+        "right.motor.state",
     };
 };
 
@@ -123,7 +123,7 @@ struct DisplayNumbersSenders {
     using Sender = DisplayNumbersSender;
     static constexpr const char* names[] = {
         "left_motor.state",
-        "right_motor.state",
+        "right.motor.state",
         "controller.left",
         "controller.right",
     };
@@ -145,7 +145,7 @@ struct MotorPeer : ::scl::Component {
     ::scl::Sub<::std::string> state{*this, "state"};
 };
 
-/// A component of the kind `motor`: `left_motor`, `right_motor`.
+/// A component of the kind `motor`: `left_motor`, `right.motor`.
 struct Motor : ::scl::Component {
     /// Opens the component of the kind that `SCL_COMPONENT` names. Throws `scl::Error` if it names none of them,
     /// and `scl::Taken` if the component is already running.
@@ -216,11 +216,11 @@ struct Controller : ::scl::Component {
     /// JSON text of the Rust type `u32` (codec `json`).
     ::scl::Pub<::std::string> left{*this, "left"};
 
-    /// Connected to `right_motor.setpoint`, `display.numbers`.
+    /// Connected to `right.motor.setpoint`, `display.numbers`.
     /// JSON text of the Rust type `u32` (codec `json`).
     ::scl::Pub<::std::string> right{*this, "right"};
 
-    /// Connected to `left_motor.state`, `right_motor.state`.
+    /// Connected to `left_motor.state`, `right.motor.state`.
     /// JSON text of the Rust type `u32` (codec `json`).
     ::scl::From<::scl::Sub<::std::string>, scl_generated::ControllerStatesSenders> states{*this, "states"};
 };
@@ -250,7 +250,7 @@ struct Display : ::scl::Component {
     /// For `test`.
     explicit Display(::scl::TestEnd&& end) : ::scl::Component(::std::move(end), "display") {}
 
-    /// Connected to `left_motor.state`, `right_motor.state`, `controller.left`, `controller.right`.
+    /// Connected to `left_motor.state`, `right.motor.state`, `controller.left`, `controller.right`.
     /// JSON text of the Rust type `u32` (codec `json`).
     ::scl::From<::scl::Sub<::std::string>, scl_generated::DisplayNumbersSenders> numbers{*this, "numbers"};
 };

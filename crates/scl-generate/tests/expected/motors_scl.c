@@ -11,7 +11,7 @@
 #endif
 static const char plan[] =
     "{\"version\": 1,\"system\": \"motors\",\"kinds\": [{\"name\": \"motor\",\"components\": [\"left_motor\","
-    "\"right_motor\"]}],\"components\": [{\"name\": \"left_motor\",\"declared_at\": \"motors.yaml:10:12\","
+    "\"right.motor\"]}],\"components\": [{\"name\": \"left_motor\",\"declared_at\": \"motors.yaml:10:12\","
     "\"schema\": null,\"gates\": [{\"name\": \"setpoint\",\"kind\": \"sub\",\"payload\": {\"message\": \"u32\"},"
     "\"codec\": \"json\",\"declared_at\": \"motors.yaml:7:9\",\"endpoint\": null,\"tap\": null,"
     "\"contract\": \"pseany5y\",\"max_size\": 67108864,\"queue\": 10,\"when_full\": \"drop_oldest\","
@@ -27,22 +27,22 @@ static const char plan[] =
     "\"contract\": \"pseany5y\",\"required\": true,\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864"
     "},{\"peer_component\": \"display\",\"peer_gate\": \"numbers\","
     "\"endpoint\": \"left_motor.state--display.numbers.pseany5y\",\"contract\": \"pseany5y\",\"required\": false,"
-    "\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}]}]},{\"name\": \"right_motor\","
+    "\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}]}]},{\"name\": \"right.motor\","
     "\"declared_at\": \"motors.yaml:11:12\",\"schema\": null,\"gates\": [{\"name\": \"setpoint\",\"kind\": \"sub\","
     "\"payload\": {\"message\": \"u32\"},\"codec\": \"json\",\"declared_at\": \"motors.yaml:7:9\",\"endpoint\": null,"
     "\"tap\": null,\"contract\": \"pseany5y\",\"max_size\": 67108864,\"queue\": 10,\"when_full\": \"drop_oldest\","
     "\"backpressure\": false,\"latched\": false,\"timeout_ns\": 1000000000,\"in_flight\": 1,"
     "\"undecodable\": \"skip\",\"connections\": [{\"peer_component\": \"controller\",\"peer_gate\": \"right\","
-    "\"endpoint\": \"controller.right--right_motor.setpoint.pseany5y\",\"contract\": \"pseany5y\","
+    "\"endpoint\": \"controller.right--right+motor.setpoint.pseany5y\",\"contract\": \"pseany5y\","
     "\"required\": true,\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}]},{\"name\": \"state\","
     "\"kind\": \"pub\",\"payload\": {\"message\": \"u32\"},\"codec\": \"json\",\"declared_at\": \"motors.yaml:8:9\","
-    "\"endpoint\": null,\"tap\": \"right_motor.state.tap\",\"contract\": \"pseany5y\",\"max_size\": 67108864,"
+    "\"endpoint\": null,\"tap\": \"right+motor.state.tap\",\"contract\": \"pseany5y\",\"max_size\": 67108864,"
     "\"queue\": 100,\"when_full\": \"drop_oldest\",\"backpressure\": false,\"latched\": false,"
     "\"timeout_ns\": 1000000000,\"in_flight\": 1,\"undecodable\": \"skip\",\"connections\": [{"
     "\"peer_component\": \"controller\",\"peer_gate\": \"states\","
-    "\"endpoint\": \"right_motor.state--controller.states.pseany5y\",\"contract\": \"pseany5y\",\"required\": true,"
+    "\"endpoint\": \"right+motor.state--controller.states.pseany5y\",\"contract\": \"pseany5y\",\"required\": true,"
     "\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864},{\"peer_component\": \"display\","
-    "\"peer_gate\": \"numbers\",\"endpoint\": \"right_motor.state--display.numbers.pseany5y\","
+    "\"peer_gate\": \"numbers\",\"endpoint\": \"right+motor.state--display.numbers.pseany5y\","
     "\"contract\": \"pseany5y\",\"required\": false,\"queue\": 100,\"when_full\": \"drop_oldest\","
     "\"max_size\": 67108864}]}]},{\"name\": \"controller\",\"declared_at\": \"motors.yaml:12:11\",\"schema\": null,"
     "\"gates\": [{\"name\": \"left\",\"kind\": \"pub\",\"payload\": {\"message\": \"u32\"},\"codec\": \"json\","
@@ -58,8 +58,8 @@ static const char plan[] =
     "\"codec\": \"json\",\"declared_at\": \"motors.yaml:15:9\",\"endpoint\": null,\"tap\": \"controller.right.tap\","
     "\"contract\": \"pseany5y\",\"max_size\": 67108864,\"queue\": 100,\"when_full\": \"drop_oldest\","
     "\"backpressure\": false,\"latched\": false,\"timeout_ns\": 1000000000,\"in_flight\": 1,"
-    "\"undecodable\": \"skip\",\"connections\": [{\"peer_component\": \"right_motor\",\"peer_gate\": \"setpoint\","
-    "\"endpoint\": \"controller.right--right_motor.setpoint.pseany5y\",\"contract\": \"pseany5y\","
+    "\"undecodable\": \"skip\",\"connections\": [{\"peer_component\": \"right.motor\",\"peer_gate\": \"setpoint\","
+    "\"endpoint\": \"controller.right--right+motor.setpoint.pseany5y\",\"contract\": \"pseany5y\","
     "\"required\": true,\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864},{"
     "\"peer_component\": \"display\",\"peer_gate\": \"numbers\","
     "\"endpoint\": \"controller.right--display.numbers.pseany5y\",\"contract\": \"pseany5y\",\"required\": false,"
@@ -69,8 +69,8 @@ static const char plan[] =
     "\"backpressure\": false,\"latched\": false,\"timeout_ns\": 1000000000,\"in_flight\": 1,"
     "\"undecodable\": \"skip\",\"connections\": [{\"peer_component\": \"left_motor\",\"peer_gate\": \"state\","
     "\"endpoint\": \"left_motor.state--controller.states.pseany5y\",\"contract\": \"pseany5y\",\"required\": true,"
-    "\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864},{\"peer_component\": \"right_motor\","
-    "\"peer_gate\": \"state\",\"endpoint\": \"right_motor.state--controller.states.pseany5y\","
+    "\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864},{\"peer_component\": \"right.motor\","
+    "\"peer_gate\": \"state\",\"endpoint\": \"right+motor.state--controller.states.pseany5y\","
     "\"contract\": \"pseany5y\",\"required\": true,\"queue\": 10,\"when_full\": \"drop_oldest\",\"max_size\": 67108864}"
     "]}]},{\"name\": \"display\",\"declared_at\": \"motors.yaml:17:11\",\"schema\": null,\"gates\": [{"
     "\"name\": \"numbers\",\"kind\": \"sub\",\"payload\": {\"message\": \"u32\"},\"codec\": \"json\","
@@ -79,8 +79,8 @@ static const char plan[] =
     "\"timeout_ns\": 1000000000,\"in_flight\": 1,\"undecodable\": \"skip\",\"connections\": [{"
     "\"peer_component\": \"left_motor\",\"peer_gate\": \"state\","
     "\"endpoint\": \"left_motor.state--display.numbers.pseany5y\",\"contract\": \"pseany5y\",\"required\": true,"
-    "\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864},{\"peer_component\": \"right_motor\","
-    "\"peer_gate\": \"state\",\"endpoint\": \"right_motor.state--display.numbers.pseany5y\","
+    "\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864},{\"peer_component\": \"right.motor\","
+    "\"peer_gate\": \"state\",\"endpoint\": \"right+motor.state--display.numbers.pseany5y\","
     "\"contract\": \"pseany5y\",\"required\": true,\"queue\": 100,\"when_full\": \"drop_oldest\",\"max_size\": 67108864"
     "},{\"peer_component\": \"controller\",\"peer_gate\": \"left\","
     "\"endpoint\": \"controller.left--display.numbers.pseany5y\",\"contract\": \"pseany5y\",\"required\": true,"
@@ -151,17 +151,17 @@ static scl_status wait_for(scl_component *component, scl_gate *const *all, size_
 
 static const char *const motors_motor_instance_names[] = {
     "left_motor",
-    "right_motor",
+    "right.motor",
 };
 
 static const char *const motors_controller_states_senders[] = {
     "left_motor.state",
-    "right_motor.state",
+    "right.motor.state",
 };
 
 static const char *const motors_display_numbers_senders[] = {
     "left_motor.state",
-    "right_motor.state",
+    "right.motor.state",
     "controller.left",
     "controller.right",
 };

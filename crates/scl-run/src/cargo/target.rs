@@ -13,7 +13,7 @@ pub(crate) enum Target {
     Bin(String),
     Example(String),
     /// The one with the name of this component or, if there is none, of its kind. Cargo targets are often named with
-    /// hyphens, which these names cannot contain.
+    /// hyphens, and cannot contain the dots of groups: `left_arm_planner` is that of `left_arm.planner`.
     OfComponent {
         name: String,
         kind: Option<String>,
@@ -29,6 +29,11 @@ pub(crate) fn find<'a>(artifacts: &'a [Artifact], target: &Target, component: &s
     find_by(artifacts, target, component, default_run_of)
 }
 
+/// The name of the program of a component or kind.
+fn in_cargo(name: &str) -> String {
+    name.replace('.', "_")
+}
+
 /// Like [`find`]; `default_run` returns the `default-run` of a manifest.
 fn find_by<'a>(
     artifacts: &'a [Artifact],
@@ -36,7 +41,8 @@ fn find_by<'a>(
     component: &str,
     default_run: impl Fn(&Path) -> Option<String>,
 ) -> Result<&'a Artifact, Problem> {
-    let is_called = |artifact: &Artifact, name: &str| artifact.name == name || artifact.name.replace('-', "_") == name;
+    let is_called =
+        |artifact: &Artifact, name: &str| artifact.name == name || artifact.name.replace('-', "_") == in_cargo(name);
     let is_meant = |artifact: &&Artifact| match target {
         Target::Only => !artifact.is_example,
         Target::Bin(name) => !artifact.is_example && artifact.name == *name,
@@ -58,7 +64,7 @@ fn find_by<'a>(
             let problem = Problem::new(format!("cargo has built no program for component `{component}`"));
             let help = match target {
                 Target::OfComponent { name, kind } => {
-                    let name = kind.as_ref().unwrap_or(name);
+                    let name = in_cargo(kind.as_ref().unwrap_or(name));
                     format!("add `src/bin/{name}.rs`, or say in `launch.yaml` how to start it")
                 }
                 _ => "choose one with `--bin`".to_owned(),
@@ -98,6 +104,7 @@ mod tests {
             find(&all[..2], Target::OfComponent { name: name.to_owned(), kind: kind.map(str::to_owned) })
         };
         assert_eq!(of("user_interface", None), Ok("/t/p/user-interface".to_owned()));
+        assert_eq!(of("user.interface", None), Ok("/t/p/user-interface".to_owned()));
         assert_eq!(of("left_sensor", Some("sensor")), Ok("/t/p/sensor".to_owned()));
         assert_eq!(of("sensor", Some("user_interface")), Ok("/t/p/sensor".to_owned()));
         let none = of("left_motor", Some("motor")).unwrap_err();

@@ -10,6 +10,7 @@ use super::settings::Settings;
 use super::unknown_key::names_program;
 use super::value::{path, placed_texts, texts};
 use super::words::{bare, flow_list, flow_word};
+use scl_text::gate_name::split;
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
 use scl_topology::yaml::Node;
@@ -246,7 +247,7 @@ impl Reader<'_> {
             }
             return None;
         };
-        let is_own_gate = |(name, _): &(String, Span)| name.split('.').next() == Some(component) && name.contains('.');
+        let is_own_gate = |(name, _): &(String, Span)| split(name).is_some_and(|(owner, _)| owner == component);
         if !names.is_empty() && names.iter().all(is_own_gate) {
             let problem = WRONG_VALUE.at("`opens` lists components, not gates", names[0].1, "");
             let problem = problem.note(format!("the program of `{component}` may open that component without it"));

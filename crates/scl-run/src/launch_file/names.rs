@@ -3,6 +3,7 @@
 use super::reader::Reader;
 use super::rules::UNKNOWN_NAME;
 use scl_terminal::quoted_list;
+use scl_text::gate_name::split;
 use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::source::Span;
 use scl_topology::suggest::similar;
@@ -69,7 +70,7 @@ impl<'a> Reader<'a> {
                 true => known.iter().copied().filter(|known| has_part(known, &name)).take(4).collect(),
                 false => Vec::new(),
             };
-            let is_gate = name.split_once('.').filter(|(component, _)| known.contains(component));
+            let is_gate = split(&name).filter(|(component, _)| known.contains(component));
             let unused = || known.iter().copied().filter(|known| !self.started.contains(known));
             let problem = match (is_gate, near.is_empty(), places.len()) {
                 (Some((component, _)), ..) => {
@@ -124,7 +125,7 @@ pub(super) fn unknown_gate(name: &str, at: Span, known: &[String]) -> Diagnostic
     if !near.is_empty() {
         return problem.did_you_mean(name, &near);
     }
-    let of_component = |gate: &&str| gate.split('.').next() == name.split('.').next();
+    let of_component = |gate: &&str| split(gate).map(|(owner, _)| owner) == split(name).map(|(owner, _)| owner);
     let own: Vec<&str> = known.iter().map(String::as_str).filter(of_component).take(4).collect();
     let is_few = own.len() < 4 && (at.end - at.start) as usize == name.len();
     own.iter()

@@ -5,6 +5,7 @@ use super::reader::{Keys, Reader};
 use super::rules::WRONG_NAME;
 use scl::TransportKind;
 use scl_terminal::quoted_list;
+use scl_text::gate_name::split;
 use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
@@ -58,7 +59,7 @@ impl Reader<'_> {
 
     /// Checks the name of a gate, also against the topology if there is one: a wrong name would have no effect.
     fn check_gate(&mut self, name: &str, at: Span) {
-        let parts = name.split_once('.').filter(|(component, gate)| is_word(component) && is_word(gate));
+        let parts = split(name).filter(|_| name.split('.').all(is_word));
         let Some((component, _)) = parts else {
             let problem = WRONG_NAME.at(format!("a gate is named `component.gate`, not `{name}`"), at, "");
             let problem = self.gates_like(problem, name, at);
@@ -73,7 +74,7 @@ impl Reader<'_> {
             return self.check_component(component, at);
         }
         let problem = unknown_gate(name, at, &known.gates);
-        let of_component = |gate: &&String| gate.split_once('.').is_some_and(|(owner, _)| owner == component);
+        let of_component = |gate: &&String| split(gate).is_some_and(|(owner, _)| owner == component);
         let own: Vec<&String> = known.gates.iter().filter(of_component).collect();
         self.report(problem.note(if known.components.iter().any(|it| it == component) {
             match own.is_empty() {
@@ -92,7 +93,7 @@ impl Reader<'_> {
         let gates = self.known.map(|known| known.gates.as_slice()).unwrap_or_default();
         let last = name.rsplit(['.', '/', ':']).next().unwrap_or(name);
         let parts: Vec<&str> = name.split(['.', '/', ':']).filter(|part| !part.is_empty()).collect();
-        let fits = |gate: &&String| match gate.split_once('.') {
+        let fits = |gate: &&String| match split(gate) {
             Some((component, gate)) if parts.len() == 1 => component == name || gate == name,
             Some((component, gate)) => parts.contains(&component) && gate == last,
             None => false,

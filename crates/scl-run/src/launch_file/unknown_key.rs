@@ -9,6 +9,7 @@ use super::reader::{Keys, Reader};
 use super::shape::variables;
 use super::words::bare;
 use scl_terminal::quoted_list;
+use scl_text::gate_name::split;
 use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
@@ -255,7 +256,7 @@ impl Reader<'_> {
         let component = owner.trim_start_matches("component ").trim_matches('`');
         let text = "`transports` at the top of the file has the transports of single gates";
         let gates = self.known.map(|known| known.gates.as_slice()).unwrap_or_default();
-        let is_own = |gate: &&String| gate.split_once('.').is_some_and(|(of, _)| of == component);
+        let is_own = |gate: &&String| split(gate).is_some_and(|(of, _)| of == component);
         let moved = || {
             let word = field.value.text()?;
             let entries: Vec<String> =

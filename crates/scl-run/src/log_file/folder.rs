@@ -1,6 +1,7 @@
 //! Where the logs of a system are.
 
 use super::{OLDER_FILES, numbered};
+use scl_text::gate_name::{from_file_name, in_file_name};
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -31,11 +32,11 @@ impl LogFolder {
     /// The names of the components that have a log, sorted.
     pub fn components(&self) -> Vec<String> {
         let logs = names(&self.path).into_iter();
-        logs.filter_map(|name| name.strip_suffix(".log").map(str::to_owned)).collect()
+        logs.filter_map(|name| name.strip_suffix(".log").map(from_file_name)).collect()
     }
 
     pub(super) fn file_of(&self, component: &str) -> Option<PathBuf> {
-        is_plain(component).then(|| self.path.join(format!("{component}.log")))
+        is_plain(component).then(|| self.path.join(format!("{}.log", in_file_name(component))))
     }
 
     /// The existing files of a component's log, the oldest first.

@@ -5,6 +5,7 @@ use super::end::{End, MOST_PLACES};
 use super::wildcard;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::source::{Span, Spanned};
+use scl_text::gate_name::split;
 use scl_text::list::{listed, shortened};
 use std::collections::HashMap;
 
@@ -13,7 +14,8 @@ pub(crate) const RULE: Rule = Rule {
     code: "SCL0503",
     severity: Severity::Error,
     title: "end is not `component.gate`",
-    explanation: "An end is written `component.gate`: two names with one dot and nothing else between them. Other \
+    explanation: "An end is written `component.gate`: two names with one dot and nothing else between them. If the \
+                  component is in a group, the name of the group is part of its own: `left_arm.planner.command`. Other \
                   separators, spaces and wildcards are not allowed.",
     example: " components:
    - name: sensor
@@ -89,11 +91,16 @@ struct Respelt {
     edits: Vec<Edit>,
 }
 
-/// Splits an end into component and gate. Returns `None` if it has another shape.
-pub(super) fn parts(text: &str) -> Option<(&str, &str)> {
-    let (component, gate) = text.split_once('.')?;
+/// Splits an end into component and gate. Returns `None` if it has another shape, for example more than one dot in a
+/// file without groups.
+pub(super) fn parts<'t>(draft: &Draft<'_>, text: &'t str) -> Option<(&'t str, &'t str)> {
+    let (component, gate) = split(text)?;
     let is_name = |name: &str| !name.is_empty() && name.chars().all(is_letter);
-    (is_name(component) && is_name(gate)).then_some((component, gate))
+    let may_be_component = match component.contains('.') {
+        true => draft.has_groups() && component.split('.').all(is_name),
+        false => is_name(component),
+    };
+    (may_be_component && is_name(gate)).then_some((component, gate))
 }
 
 fn is_letter(letter: char) -> bool {
@@ -115,6 +122,9 @@ fn respelt(draft: &Draft<'_>, text: &str) -> Option<(String, usize)> {
     }
     if let [only] = words.as_slice() {
         found = split_anywhere(draft, only);
+    } else if let Some(gate) = draft.find(&words.join(".")) {
+        // `left_arm/planner/command`.
+        found = vec![gate];
     } else if found.is_empty() {
         // `drive.left.currents` of the component `drive_left`.
         found = split_anywhere(draft, &words.join("_"));
@@ -136,6 +146,7 @@ fn split_anywhere(draft: &Draft<'_>, word: &str) -> Vec<usize> {
 
 fn slip(text: &str, words: &[&str]) -> String {
     match words {
+        [_, _, _, ..] if !text.contains('.') => "no dots between the names".to_owned(),
         [_, _, _, ..] if text.matches('.').count() > 1 => "more than one dot".to_owned(),
         [_, _, _, ..] => "only a component and its gate".to_owned(),
         [component, gate] if text.starts_with(component) && text.ends_with(gate) => {

@@ -8,6 +8,7 @@ use crate::source::{Sources, Span, Spanned};
 use crate::suggest::Searches;
 use crate::topology::{Codec, DeclaredOptions, GateKind, Payload, TypeName};
 use crate::work;
+use scl_text::gate_name::{groups_of, split};
 use std::collections::{HashMap, HashSet};
 
 /// Maximum number of unknown names that are compared with all others.
@@ -30,6 +31,8 @@ pub(super) struct Draft<'m> {
     /// How many unknown names may still be compared with all others, see [`Draft::may_search`].
     searches: Searches,
     components_by_name: HashMap<&'m str, Vec<usize>>,
+    /// The names of the groups that components are in.
+    groups: HashSet<&'m str>,
     gate_by_name: HashMap<(&'m str, &'m str), usize>,
     gates_by_name: HashMap<&'m str, Vec<usize>>,
 }
@@ -87,6 +90,7 @@ impl<'m> Draft<'m> {
             component_names: sorted_names(model),
             searches: Searches::new(searches(model)),
             components_by_name: HashMap::new(),
+            groups: HashSet::new(),
             gate_by_name: HashMap::new(),
             gates_by_name: HashMap::new(),
         };
@@ -100,6 +104,7 @@ impl<'m> Draft<'m> {
         let index = self.components.len();
         let first_gate = self.gates.len();
         self.components_by_name.entry(&model.name.value).or_default().push(index);
+        self.groups.extend(groups_of(&model.name.value));
         for gate in &model.gates {
             let at = self.gates.len();
             let first = *self.gate_by_name.entry((&model.name.value, &gate.name.value)).or_insert(at);
@@ -148,6 +153,15 @@ impl<'m> Draft<'m> {
         indices.inspect(|_| work::add(1)).map(|&index| self.components[index].model)
     }
 
+    pub(super) fn has_groups(&self) -> bool {
+        !self.groups.is_empty()
+    }
+
+    /// Whether components are in a group of this name.
+    pub(super) fn is_group(&self, name: &str) -> bool {
+        self.groups.contains(name)
+    }
+
     pub(super) fn component(&self, name: &str) -> Option<usize> {
         self.components_by_name.get(name).and_then(|all| all.first()).copied()
     }
@@ -159,7 +173,7 @@ impl<'m> Draft<'m> {
 
     /// The gate that an end names: `component.gate`.
     pub(super) fn find(&self, end: &str) -> Option<usize> {
-        let (component, gate) = end.split_once('.')?;
+        let (component, gate) = split(end)?;
         self.gate(component, gate)
     }
 

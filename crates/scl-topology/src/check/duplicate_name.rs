@@ -6,6 +6,7 @@ use super::end::{End, Fault, MOST_PLACES};
 use super::named::{Name, with_first};
 use super::{merge, namespace, twin_gate};
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
+use scl_text::gate_name::split;
 
 /// SCL0301.
 pub(crate) const COMPONENT: Rule = Rule {
@@ -61,7 +62,7 @@ pub(super) fn check<'m>(draft: &Draft<'m>, faults: &mut Vec<(Fault<'m>, Vec<End>
         {
             let fits = |fault: &Fault<'m>, ends: &[End]| match fault {
                 Fault::Component(_) => ends.iter().take(SEARCHED).all(|&[link, end]| {
-                    let gate = draft.links[link].model.ends[end].value.split_once('.').map(|(_, gate)| gate);
+                    let gate = split(&draft.links[link].model.ends[end].value).map(|(_, gate)| gate);
                     declared.gates.iter().any(|own| Some(own.name.value.as_str()) == gate)
                 }),
                 _ => false,

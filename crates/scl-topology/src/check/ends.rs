@@ -48,7 +48,9 @@ fn fault<'m>(draft: &Draft<'m>, [link, end]: End) -> Option<Fault<'m>> {
     if found.is_some() || text.is_empty() {
         return None;
     }
-    let Some((component, gate)) = connection_end::parts(text) else { return Some(Fault::Shape) };
+    // A whole component in a group looks like a gate of another one.
+    let parts = connection_end::parts(draft, text).filter(|_| draft.component(text).is_none());
+    let Some((component, gate)) = parts else { return Some(Fault::Shape) };
     Some(match draft.component(component) {
         _ if draft.gate(gate, component).is_some() => Fault::Swapped(component, gate),
         None => Fault::Component(component),

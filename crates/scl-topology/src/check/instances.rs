@@ -4,6 +4,7 @@
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{ComponentModel, Model};
 use crate::source::Span;
+use scl_text::gate_name::component_and_gate;
 use scl_text::list::listed;
 use std::collections::HashMap;
 
@@ -83,7 +84,8 @@ impl<'m> Places<'m> {
     fn components(&self, found: &Diagnostic) -> Vec<&'m ComponentModel> {
         let mut named: Vec<&ComponentModel> = Vec::new();
         for word in found.message.split('`').skip(1).step_by(2) {
-            let component = word.split('.').next().and_then(|name| self.components.get(name));
+            let is_component = |name: &str| self.components.contains_key(name);
+            let component = self.components.get(component_and_gate(word, is_component).0);
             named.extend(component.filter(|it| !named.iter().any(|known| std::ptr::eq(*known, **it))));
         }
         named

@@ -74,7 +74,8 @@ pub(super) fn check<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut 
 /// Whether the name, or the Rust name that is made of it, cannot be a name even with `r#`. Names that start with `__`
 /// are reserved, which is another rule.
 fn is_unusable(noun: Noun, name: &str) -> bool {
-    !name.starts_with("__") && (is_unescapable(name) || is_well_formed(name) && is_unescapable(&rust_name(noun, name)))
+    !name.starts_with("__")
+        && (is_unescapable(name) || noun.is_well_formed(name) && is_unescapable(&rust_name(noun, name)))
 }
 
 fn rust_name(noun: Noun, name: &str) -> String {
@@ -130,7 +131,7 @@ pub(crate) const FOREIGN: Rule = Rule {
 };
 
 fn check_foreign<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
-    for (noun, name) in names(model).filter(|(_, name)| is_well_formed(&name.value)) {
+    for (noun, name) in names(model).filter(|(noun, name)| noun.is_well_formed(&name.value)) {
         let field = gate_field(&name.value);
         let spellings = match noun {
             Noun::System => continue,

@@ -4,6 +4,7 @@
 use crate::diagnostic::{Diagnostic, Edit, removal};
 use crate::model::{ComponentModel, ConnectionModel, GateModel, Model};
 use crate::source::Sources;
+use scl_text::gate_name::split;
 use std::collections::{HashMap, HashSet};
 
 /// Maximum length of the text between two declarations that is searched, in bytes.
@@ -57,7 +58,7 @@ fn merged(model: &Model, sources: &Sources, kept: &ComponentModel, copy: &Compon
     let pairs: HashSet<[&str; 2]> = model.connections.iter().map(ends).collect();
     for connection in &model.connections {
         let renamed = ends(connection).map(|end| {
-            let gate = end.split_once('.').filter(|(of, _)| *of == copy.name.value).map(|(_, gate)| gate)?;
+            let gate = split(end).filter(|(of, _)| *of == copy.name.value).map(|(_, gate)| gate)?;
             Some(format!("{}.{gate}", kept.name.value))
         });
         if renamed.iter().all(Option::is_none) {

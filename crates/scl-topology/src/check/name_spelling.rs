@@ -17,7 +17,8 @@ pub(crate) const CHARACTERS: Rule = Rule {
     severity: Severity::Error,
     title: "invalid character in a name",
     explanation: "Names become socket paths, Rust fields and names in other languages, so they consist of letters, \
-                  digits, `_` and `-`. A dot cannot be part of one, as it separates component and gate.",
+                  digits, `_` and `-`. A dot separates component and gate, and the names of groups from what is in \
+                  them, as in `left_arm.planner`.",
     example: " components:
 -  - name: gps sensor
 +  - name: gps_sensor
@@ -27,26 +28,29 @@ pub(crate) const CHARACTERS: Rule = Rule {
 
 pub(super) fn check<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
     for (noun, name) in names(model) {
-        if let Some(what) = forbidden(&name.value) {
+        if let Some(what) = forbidden(noun, &name.value) {
             problems.push(wrong_character(renames, noun, name, &what));
         }
         if let Some(letter) = name.value.chars().find(|&letter| is_foreign(letter)) {
             problems.push(foreign_letter(renames, noun, name, letter));
         }
-        let first = name.value.chars().next();
-        let spelt = name.value.chars().all(is_allowed) && !name.value.contains("--");
-        if let Some(first) = first.filter(|&first| spelt && !may_start(first)) {
-            problems.push(wrong_start(renames, noun, name, first));
+        let is_spelt = noun
+            .words(&name.value)
+            .all(|word| !word.is_empty() && word.chars().all(is_allowed) && !word.contains("--"));
+        if let Some(word) = noun.words(&name.value).find(|word| is_spelt && !word.starts_with(may_start)) {
+            problems.push(wrong_start(renames, noun, name, word));
         }
     }
 }
 
 /// What the name must not contain, in words.
-fn forbidden(name: &str) -> Option<String> {
+fn forbidden(noun: Noun, name: &str) -> Option<String> {
     if name.is_empty() || name.chars().any(is_foreign) {
         return None;
     }
-    match name.chars().find(|&letter| !is_allowed(letter)) {
+    // A dot stands between the names of groups and that of the component.
+    let may_have_dots = noun.may_have_group() && name.split('.').all(|word| !word.is_empty());
+    match name.chars().find(|&letter| !(is_allowed(letter) || may_have_dots && letter == '.')) {
         Some(letter) => Some(described(letter)),
         None => name.contains("--").then(|| "two hyphens in a row".to_owned()),
     }
@@ -81,6 +85,9 @@ fn wrong_character<'m>(renames: &Renames<'m>, noun: Noun, name: &'m Spanned<Stri
     match noun {
         Noun::System => found,
         _ if what.starts_with("two") => found.note("`--` separates the two ends in the name of a socket"),
+        _ if noun.may_have_group() => {
+            found.note("a dot separates the name of a group from what is in it: `left_arm.planner`")
+        }
         _ => {
             found.note("the dot separates component and gate in `component.gate`, so a name cannot contain one either")
         }
@@ -182,10 +189,10 @@ const ORDINALS: [(&str, &str); 9] = [
     ("9th", "ninth"),
 ];
 
-fn wrong_start<'m>(renames: &Renames<'m>, noun: Noun, name: &'m Spanned<String>, first: char) -> Diagnostic {
+fn wrong_start<'m>(renames: &Renames<'m>, noun: Noun, name: &'m Spanned<String>, word: &str) -> Diagnostic {
     let headline = format!("a {} name must start with a letter or `_`", noun.word());
-    let start = if first == '-' { "starts with a hyphen" } else { "starts with a digit" };
-    let ways = alternatives(&name.value);
+    let start = if word.starts_with('-') { "starts with a hyphen" } else { "starts with a digit" };
+    let ways: Vec<String> = alternatives(word).iter().map(|other| name.value.replacen(word, other, 1)).collect();
     let found = START.at(headline, name.span, start).otherwise("choose another name");
     let edits = |way: &str| renames.edits(noun, name, way);
     let mut found = found.choose_all(("write ", ""), ways.iter().map(|way| (way.as_str(), edits(way))));
@@ -222,15 +229,15 @@ mod tests {
         rule_example(
             &CHARACTERS,
             expect![[r#"
-            error: [SCL0303] a component name cannot contain a space
-             --> topology.yaml:2:11
-              |
-            2 |   - name: gps sensor
-              |           ^^^^^^^^^^ allowed: a-z A-Z 0-9 _ -
-              |
-              = help: write `gps_sensor`
-              = note: the dot separates component and gate in `component.gate`, so a name cannot contain one either
-        "#]],
+                error: [SCL0303] a component name cannot contain a space
+                 --> topology.yaml:2:11
+                  |
+                2 |   - name: gps sensor
+                  |           ^^^^^^^^^^ allowed: a-z A-Z 0-9 _ -
+                  |
+                  = help: write `gps_sensor`
+                  = note: a dot separates the name of a group from what is in it: `left_arm.planner`
+            "#]],
         );
     }
 
@@ -240,7 +247,7 @@ mod tests {
         let advice = |name: &str| advice(&format!("components:\n  - name: '{name}'\n    gates: []\n"));
         let told: String = names.iter().map(|name| format!("{}\n", advice(name))).collect();
         expect![[r#"
-            SCL0303 a component name cannot contain a dot [write `a_b`]
+
             SCL0303 a component name cannot contain a slash [write `a_b`]
             SCL0303 a component name cannot contain two hyphens in a row [write `a_b`]
             SCL0303 a component name cannot contain `+` [write `a_b`]

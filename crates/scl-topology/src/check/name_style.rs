@@ -1,7 +1,7 @@
 //! Lints about names that work. SCL0313: a component whose type hides a name that every Rust file has in scope.
 //! SCL0314: a name in another style than the fields and modules of Rust.
 
-use super::named::{Noun, is_well_formed, names, types};
+use super::named::{Noun, names, types};
 use super::rename::Renames;
 use crate::diagnostic::{Diagnostics, Rule, Severity};
 use crate::model::Model;
@@ -46,7 +46,7 @@ pub(super) fn check<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut 
 }
 
 fn check_prelude(model: &Model, problems: &mut Diagnostics) {
-    for (noun, name) in types(model).filter(|(_, name)| is_well_formed(&name.value)) {
+    for (noun, name) in types(model).filter(|(noun, name)| noun.is_well_formed(&name.value)) {
         let rust = component_type(&name.value);
         let Some((_, hidden)) = PRELUDE.iter().find(|(short, _)| *short == rust) else { continue };
         let start = format!("{} `{}` becomes the Rust type `{rust}`", noun.word(), name.value);
@@ -74,8 +74,9 @@ pub(crate) const NOT_SNAKE_CASE: Rule = Rule {
 };
 
 fn check_snake_case<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
-    for (noun, name) in names(model).filter(|(noun, name)| *noun != Noun::System && is_well_formed(&name.value)) {
-        let snake = gate_field(&name.value);
+    let in_programs = names(model).filter(|(noun, name)| *noun != Noun::System && noun.is_well_formed(&name.value));
+    for (noun, name) in in_programs {
+        let snake = name.value.split('.').map(gate_field).collect::<Vec<_>>().join(".");
         if snake != name.value {
             let headline = format!("{} name `{}` is not snake_case", noun.word(), name.value);
             problems.push(

@@ -30,6 +30,21 @@ impl Noun {
         }
     }
 
+    /// Whether a name follows the rules of spelling.
+    pub(super) fn is_well_formed(self, name: &str) -> bool {
+        self.words(name).all(is_well_formed)
+    }
+
+    /// The names of the groups and the own name that a full name consists of.
+    pub(super) fn words(self, name: &str) -> impl Iterator<Item = &str> {
+        name.split(move |letter| letter == '.' && self.may_have_group())
+    }
+
+    /// Whether the name may contain those of groups: `left_arm.planner`.
+    pub(super) fn may_have_group(self) -> bool {
+        self.is_type()
+    }
+
     /// Whether the name becomes that of a type.
     pub(super) fn is_type(self) -> bool {
         matches!(self, Noun::Kind | Noun::Component)
@@ -49,7 +64,7 @@ pub(super) fn types(model: &Model) -> impl DoubleEndedIterator<Item = (Noun, &Na
     kinds.chain(model.components.iter().map(|component| (Noun::Component, &component.name)))
 }
 
-/// Whether a name follows the rules of spelling, so that the rules about its meaning can check it.
+/// Whether a name without a group follows the rules of spelling, so that the rules about its meaning can check it.
 pub(super) fn is_well_formed(name: &str) -> bool {
     name.chars().all(is_allowed) && !name.contains("--") && name.starts_with(may_start)
 }

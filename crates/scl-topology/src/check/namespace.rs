@@ -3,7 +3,7 @@
 
 use super::draft::Draft;
 use super::end::{End, Fault};
-use super::named::is_well_formed;
+use super::named::Noun;
 use crate::diagnostic::Edit;
 use scl_text::list::all_of;
 
@@ -28,17 +28,20 @@ pub(super) fn prefixed(
     };
     let mut names: Vec<String> = Vec::new();
     let mut edits: Vec<Edit> = Vec::new();
-    for &end in ends.iter().take(SEARCHED) {
-        let Some([prefix, gate]) = parts(end) else { continue };
-        let name = format!("{prefix}_{component}");
-        let place = draft.links[end[0]].model.ends[end[1]].span;
-        edits.push(Edit::new(place, draft.sources.quoted_as(place, &format!("{name}.{gate}"))));
+    for &end_of in ends.iter().take(SEARCHED) {
+        let Some([prefix, gate]) = parts(end_of) else { continue };
+        let name = format!("{prefix}.{component}");
+        let place = draft.links[end_of[0]].model.ends[end_of[1]].span;
+        let end = format!("{name}.{gate}");
+        if draft.links[end_of[0]].model.ends[end_of[1]].value != end {
+            edits.push(Edit::new(place, draft.sources.quoted_as(place, &end)));
+        }
         if !names.contains(&name) {
             names.push(name);
         }
     }
     let declared: Vec<_> = draft.declarations(component).take(names.len() + 1).collect();
-    if names.len() != declared.len() || !names.iter().all(|name| is_well_formed(name)) {
+    if names.len() != declared.len() || !names.iter().all(|name| Noun::Component.is_well_formed(name)) {
         return None;
     }
     let renamed = declared.iter().zip(&names).map(|(component, name)| {
@@ -47,5 +50,5 @@ pub(super) fn prefixed(
     });
     edits.extend(renamed);
     ends.retain(|end| parts(*end).is_none());
-    Some((format!("there are no namespaces; name them {}, also in the connections", all_of(&names)), edits))
+    Some((format!("name them {}, as the connections do", all_of(&names)), edits))
 }

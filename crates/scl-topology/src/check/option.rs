@@ -5,6 +5,7 @@ use super::draft::Draft;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::grammar::{self, GateKind, GateOption, OutOfRange};
 use crate::model::OptionModel;
+use scl_text::gate_name::split;
 use scl_text::list::{all_of, listed};
 use std::collections::HashMap;
 
@@ -53,7 +54,7 @@ pub(super) fn check(draft: &mut Draft<'_>, problems: &mut Diagnostics) {
 /// The gates at the other ends of each gate's connections, as they are written.
 fn peers(draft: &Draft<'_>) -> HashMap<usize, Vec<usize>> {
     let mut peers: HashMap<usize, Vec<usize>> = HashMap::new();
-    let gate = |end: &str| end.split_once('.').and_then(|(component, gate)| draft.gate(component, gate));
+    let gate = |end: &str| split(end).and_then(|(component, gate)| draft.gate(component, gate));
     for connection in &draft.model.connections {
         let [one, other] = &connection.ends;
         if let (Some(one), Some(other)) = (gate(&one.value), gate(&other.value)) {

@@ -2,7 +2,7 @@
 //! shortened instead, see [`resolve`](crate::resolve).
 
 use super::draft::Draft;
-use super::named::{LONGEST_NAME, is_well_formed};
+use super::named::{LONGEST_NAME, Noun};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::resolve::{CONTRACT_LENGTH, TAP};
 use crate::socket_paths::SocketPaths;
@@ -30,7 +30,11 @@ pub(super) fn check(draft: &Draft<'_>, paths: &SocketPaths, system: &str, proble
         let Some(ending) = gate.kind.and_then(longest_ending) else { continue };
         let names = [draft.component_name(at), &gate.model.name.value];
         // Repeated gates and names that are too long or malformed are reported by other rules.
-        if gate.duplicate || names.iter().any(|name| name.len() > LONGEST_NAME || !is_well_formed(name)) {
+        if gate.duplicate
+            || names.iter().any(|name| name.len() > LONGEST_NAME)
+            || !Noun::Component.is_well_formed(names[0])
+            || !Noun::Gate.is_well_formed(names[1])
+        {
             continue;
         }
         let length = folder.len() + names[0].len() + 1 + names[1].len() + ending.len();

@@ -63,6 +63,8 @@ pub(super) fn check<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut 
 }
 
 fn is_reserved(noun: Noun, name: &str) -> bool {
+    // In programs, `scl.planner` becomes `scl_planner`.
+    let name = name.replace('.', "_");
     match noun {
         // A system's name only becomes a folder, so no name is reserved; `topology` is the usual default.
         Noun::System => false,
@@ -76,7 +78,7 @@ fn is_reserved(noun: Noun, name: &str) -> bool {
 /// A name without the reserved part, or with another word.
 fn other_name(name: &str) -> String {
     let bare = name.trim_start_matches('_');
-    let bare = bare.strip_prefix("scl_").unwrap_or(bare).trim_start_matches('_');
+    let bare = bare.strip_prefix("scl_").or(bare.strip_prefix("scl.")).unwrap_or(bare).trim_start_matches('_');
     match bare {
         "" | "scl" | "topology" => format!("my_{bare}").trim_end_matches('_').to_owned(),
         _ => bare.to_owned(),

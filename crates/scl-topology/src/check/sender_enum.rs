@@ -8,6 +8,7 @@ use crate::model::{ComponentModel, GateModel, Model};
 use crate::rust_name::{component_type, gate_field};
 use crate::senders::enum_name;
 use crate::topology::GateKind;
+use scl_text::gate_name::split;
 use std::collections::{HashMap, HashSet};
 
 /// Reports components and kinds with the name of such an enum, and gates whose enums would have one name. An enum of
@@ -57,7 +58,7 @@ fn gates_with_several_peers(model: &Model) -> Vec<(&ComponentModel, &GateModel)>
         model.components.iter().map(|component| (component.name.value.as_str(), component)).collect();
     let mut told = HashSet::new();
     let gates = several.into_iter().filter_map(|end| {
-        let (component, gate) = end.split_once('.')?;
+        let (component, gate) = split(end)?;
         let component = *by_name.get(component)?;
         let owner = component.of.and_then(|kind| model.kinds.get(kind)).unwrap_or(component);
         let gate = owner.gates.iter().find(|it| it.name.value == gate)?;

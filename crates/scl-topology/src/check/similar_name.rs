@@ -2,7 +2,7 @@
 //! and `_` tell apart.
 
 use super::merge;
-use super::named::{Name, Noun, is_well_formed, types, with_first};
+use super::named::{Name, Noun, types, with_first};
 use super::rename::Renames;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::model::Model;
@@ -50,7 +50,7 @@ const MOST_SEARCHES: usize = 16;
 
 pub(super) fn check<'m>(model: &'m Model, sources: &Sources, renames: &Renames<'m>, problems: &mut Diagnostics) {
     let names = types(model).map(|(_, name)| name);
-    for (number, (first, second, rust)) in collisions(names, component_type).enumerate() {
+    for (number, (first, second, rust)) in collisions(Noun::Component, names, component_type).enumerate() {
         let nouns = [first, second].map(|name| noun_of(model, name));
         let headline = format!("{} would both become the Rust type `{rust}`", pair(nouns, first, second));
         let mut found = collision(&SAME_TYPE, headline, [first, second], &rust);
@@ -66,7 +66,7 @@ pub(super) fn check<'m>(model: &'m Model, sources: &Sources, renames: &Renames<'
     check_letter_case(model, renames, problems);
     for owner in model.owners() {
         let names = owner.gates.iter().map(|gate| &gate.name);
-        for (first, second, rust) in collisions(names, gate_field) {
+        for (first, second, rust) in collisions(Noun::Gate, names, gate_field) {
             let (a, b, owner) = (&first.value, &second.value, &owner.name.value);
             let headline = format!("gates `{a}` and `{b}` of `{owner}` would both become the Rust field `{rust}`");
             let found = collision(&SAME_FIELD, headline, [first, second], &rust);
@@ -104,7 +104,7 @@ const BESIDE: [(&str, bool, &str); 2] =
 /// Reports components and kinds with the name of a type that the macro generates beside another one: `ControllerPeer`
 /// beside `Controller`, and `MotorInstance` beside the kind `Motor`.
 fn check_beside<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
-    let well_formed = owners(model).filter(|(_, name)| is_well_formed(&name.value));
+    let well_formed = owners(model).filter(|(noun, name)| noun.is_well_formed(&name.value));
     let by_type: HashMap<String, (Noun, &Name)> =
         well_formed.rev().map(|(noun, name)| (component_type(&name.value), (noun, name))).collect();
     for (noun, name) in owners(model) {
@@ -155,10 +155,11 @@ pub(super) fn taken<'m>(renames: &Renames<'m>, noun: Noun, name: &'m Name, taken
 
 /// The names that collide with an earlier, different name in Rust. Another rule reports equal names.
 fn collisions<'m>(
+    noun: Noun,
     names: impl Iterator<Item = &'m Name>,
     rust: fn(&str) -> String,
 ) -> impl Iterator<Item = (&'m Name, &'m Name, String)> {
-    let names = names.filter(|name| is_well_formed(&name.value));
+    let names = names.filter(move |name| noun.is_well_formed(&name.value));
     let different = with_first(names, rust).filter(|(first, name)| first.value != name.value);
     different.map(move |(first, name)| (first, name, rust(&name.value)))
 }
@@ -199,7 +200,7 @@ fn check_names<'m>(
     renames: &Renames<'m>,
     problems: &mut Diagnostics,
 ) {
-    let names = names.filter(|name| is_well_formed(&name.value));
+    let names = names.filter(|name| noun(name).is_well_formed(&name.value));
     // Two names that become the same Rust name are already an error.
     let alike = with_first(names, folded).filter(|(first, name)| rust(&first.value) != rust(&name.value));
     for (first, name) in alike {

@@ -3,13 +3,14 @@
 use super::commented_out;
 use super::draft::Draft;
 use super::end::{End, with_places};
-use super::named::is_well_formed;
+use super::named::Noun;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::habits::compact;
 use crate::rust_name::{component_type, gate_field};
 use crate::source::Span;
 use crate::suggest::{MOST, nearest, similar};
 use crate::topology::GateKind;
+use scl_text::gate_name::split;
 use scl_text::list::{listed, shortened};
 
 /// SCL0501.
@@ -90,7 +91,7 @@ pub(super) fn check<'m>(
     }
     let meant = if draft.may_search() { meant(draft, component, ends) } else { Meant::default() };
     mark(draft, &meant, ends);
-    if meant.names.iter().any(|name| !is_well_formed(name)) {
+    if meant.names.iter().any(|name| !Noun::Component.is_well_formed(name)) {
         // The declaration is reported, and its name may become this one.
         return;
     }
@@ -99,7 +100,19 @@ pub(super) fn check<'m>(
     let similar = declarations.map(|at| (draft.components[at].model.name.span, label));
     let found = UNKNOWN.at(headline, places[0], "no component has this name").labels(similar);
     let found = with_ways(draft, found, component, &meant, ends, &places).otherwise(declare(draft, component, ends));
-    problems.push(with_places(found.note(declared(draft)), &places));
+    let note = match draft.is_group(component) {
+        true => format!("`{component}` is a group; in it are {}", shortened(&members(draft, component))),
+        false => declared(draft),
+    };
+    problems.push(with_places(found.note(note), &places));
+}
+
+/// The components in a group, in quotes.
+fn members(draft: &Draft<'_>, group: &str) -> Vec<String> {
+    let prefix = format!("{group}.");
+    let names = &draft.component_names;
+    let first = names.partition_point(|name| *name < prefix.as_str());
+    names[first..].iter().take_while(|name| name.starts_with(&prefix)).map(|name| format!("`{name}`")).collect()
 }
 
 /// Says which gates the component would have.
@@ -155,7 +168,7 @@ fn with_ways(
     let declared = draft.component(only).map(|at| draft.components[at].model.name.span).filter(|_| !has_uses);
     let has_all = || ends.iter().all(|end| gate_of(draft, only, *end).is_some());
     let renamed = declared
-        .filter(|_| is_well_formed(component) && has_all())
+        .filter(|_| Noun::Component.is_well_formed(component) && !draft.is_group(component) && has_all())
         .map(|at| Edit::new(at, draft.sources.quoted_as(at, component)));
     match renamed {
         // `SensorUnit` is only what Rust calls `sensor_unit`.
@@ -263,7 +276,7 @@ fn words(name: &str) -> impl Iterator<Item = &str> {
 }
 
 fn gate_name<'m>(draft: &Draft<'m>, [link, end]: End) -> &'m str {
-    draft.links[link].model.ends[end].value.split_once('.').map_or("", |(_, gate)| gate)
+    split(&draft.links[link].model.ends[end].value).map_or("", |(_, gate)| gate)
 }
 
 /// The gate of the component `name` that has the name of the gate at an end.

@@ -7,6 +7,7 @@ use crate::kinds::{choose, each_of};
 use crate::model::{ComponentModel, Model, SharedGateModel};
 use crate::source::{Sources, Span, Spanned};
 use crate::suggest::Searches;
+use scl_text::gate_name::split;
 use scl_text::list::listed;
 use std::collections::{HashMap, HashSet};
 
@@ -106,7 +107,7 @@ impl<'m> Known<'m> {
             let found = NO_TO.at(format!("gate `{}` of `{EVERYONE}` has no `to`", name.value), name.span, "");
             problems.push(found.help("`to: logger.records` names the gate at the other end"));
         }
-        let owner = to.and_then(|to| to.value.split_once('.')).map(|(component, _)| component);
+        let owner = to.and_then(|to| split(&to.value)).map(|(component, _)| component);
         let kind = owner.and_then(|owner| self.kind_of(owner)).map(|kind| kind.name.value.as_str());
         let mut names: HashSet<&str> = owner.into_iter().chain(kind).collect();
         for name in &entry.except {
@@ -128,7 +129,7 @@ impl<'m> Known<'m> {
             problems.push(self.choose(found, to, Vec::new()));
             return false;
         }
-        let Some((name, gate)) = to.value.split_once('.') else {
+        let Some((name, gate)) = split(&to.value) else {
             let found = UNKNOWN_TO.at("`to` is written `component.gate`", to.span, "");
             problems.push(self.choose(found, to, Vec::new()));
             return false;
@@ -179,7 +180,7 @@ impl<'m> Known<'m> {
         } else if !is_known && !self.model.components_unread && !self.model.kinds_unread {
             let model = self.model;
             // `camera.log`: the gate with its component.
-            let gate_of = word.split_once('.').map(|(owner, _)| owner);
+            let gate_of = split(word).map(|(owner, _)| owner);
             let near = match gate_of.filter(|owner| self.components.contains_key(owner)) {
                 Some(owner) => vec![owner],
                 None => self.searches.similar(word, model.owners().map(|owner| owner.name.value.as_str())),

@@ -168,7 +168,8 @@ pub static COMPONENT_KEYS: [Key; 5] = [
         default: "",
         summary: "The name, in snake_case: `user_interface` becomes the Rust type `UserInterface`.",
         text: "Names consist of ASCII letters, digits, `_` and `-`, and start with a letter or `_`. The same holds for \
-               gates.",
+               gates. The name of a component may begin with that of a group: `left_arm.planner`. See \
+               [groups](#groups).",
         example: "components:\n  - name: user_interface\n    gates: []\n",
     },
     Key {

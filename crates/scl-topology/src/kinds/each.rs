@@ -5,6 +5,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::model::ConnectionModel;
 use crate::source::{Sources, Span, Spanned};
 use crate::suggest::Searches;
+use scl_text::gate_name::split;
 use scl_text::list::listed;
 
 /// SCL1305.
@@ -224,7 +225,7 @@ impl Reader<'_, '_> {
         let text = end.value.as_str();
         let each = each_of(text);
         let (word, path) = each.map_or_else(|| without_mark(text), |path| (EACH, path));
-        let Some((name, gate)) = path.split_once('.') else {
+        let Some((name, gate)) = split(path) else {
             return if each.is_some() { self.misshapen(end, path) } else { End::Gate };
         };
         match known.kinds.get(name) {
@@ -302,7 +303,7 @@ impl Reader<'_, '_> {
             true => found,
             false => found.note(format!("components of the kind: {}", listed(components))),
         });
-        match path.split_once('.') {
+        match split(path) {
             Some((_, gate)) => End::Each(at, gate.to_owned()),
             None => End::Broken,
         }

@@ -5,6 +5,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity, removal};
 use crate::model::ConnectionModel;
 use crate::source::{Sources, Span, Spanned};
 use crate::suggest::Searches;
+use scl_text::gate_name::split;
 use scl_text::list::listed;
 use std::collections::{HashMap, HashSet};
 
@@ -111,7 +112,7 @@ fn propose(
 fn each_of<'m>(connections: &'m [ConnectionModel], kind: &str) -> Vec<(Span, &'m str)> {
     let ends = connections.iter().flat_map(|connection| &connection.ends);
     let of_kind = ends.filter_map(|end| {
-        let (name, gate) = super::each_of(&end.value)?.split_once('.')?;
+        let (name, gate) = split(super::each_of(&end.value)?)?;
         (name == kind).then_some((end.span, gate))
     });
     of_kind.collect()

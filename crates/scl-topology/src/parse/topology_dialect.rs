@@ -49,10 +49,11 @@ fn implausible(model: &Model) -> usize {
             || !kind.is_empty() && !is_kind(kind)
             || gate.payload.as_ref().is_some_and(|payload| !is_type(&payload.value))
     });
-    let odd_owners = owners().filter(|owner| !is_name(&owner.name.value));
+    let are_names = |text: &str| text.split('.').all(|name| !name.is_empty() && is_name(name));
+    let odd_owners = owners().filter(|owner| !are_names(&owner.name.value));
     let is_end = |end: &str| {
         let end = kinds::each_of(end).unwrap_or(end);
-        end.split('.').count() == 2 && end.split('.').all(|name| !name.is_empty() && is_name(name))
+        end.contains('.') && are_names(end)
     };
     let odd_ends = model.connections.iter().flat_map(|pair| &pair.ends).filter(|end| !is_end(&end.value));
     odd_gates.count() + odd_owners.count() + odd_ends.count()

@@ -4,6 +4,7 @@ use super::contract::{contract, gate_contract};
 use super::{CONTRACT_LENGTH, TAP};
 use crate::fingerprint;
 use crate::topology::{ConnectionId, GateId, GateKind, Topology};
+use scl_text::gate_name::gate_in_file_name;
 
 /// The name of a connection's socket.
 ///
@@ -15,7 +16,7 @@ pub(super) fn endpoint(topology: &Topology, connection: ConnectionId) -> String 
     if let Some(own) = gate_endpoint(topology, link.sink()) {
         return own;
     }
-    let pair = format!("{}--{}", topology.gate_path(link.source()), topology.gate_path(link.sink()));
+    let pair = format!("{}--{}", in_file_name(topology, link.source()), in_file_name(topology, link.sink()));
     format!("{}.{}", shortened(&pair, topology.connection_room), contract(topology, connection))
 }
 
@@ -23,7 +24,7 @@ pub(super) fn endpoint(topology: &Topology, connection: ConnectionId) -> String 
 /// The other kinds have none.
 pub(super) fn gate_endpoint(topology: &Topology, gate: GateId) -> Option<String> {
     let listens = matches!(topology.gate(gate).kind(), GateKind::Rep | GateKind::Pull);
-    listens.then(|| format!("{}.{}", topology.gate_path(gate), gate_contract(topology, gate)))
+    listens.then(|| format!("{}.{}", in_file_name(topology, gate), gate_contract(topology, gate)))
 }
 
 /// The name of the socket at which tools observe a `pub`, `rep` or `pull` gate: `<component>.<gate>.tap`. The other
@@ -31,7 +32,13 @@ pub(super) fn gate_endpoint(topology: &Topology, gate: GateId) -> Option<String>
 ///
 /// No contract is `tap`, and no other file of a component has this ending, so gates may be called `lock` or `json`.
 pub(super) fn tap_endpoint(topology: &Topology, gate: GateId) -> Option<String> {
-    topology.gate(gate).kind().listens().then(|| format!("{}{TAP}", topology.gate_path(gate)))
+    topology.gate(gate).kind().listens().then(|| format!("{}{TAP}", in_file_name(topology, gate)))
+}
+
+/// A gate in the name of a socket: `left_arm+planner.command`.
+fn in_file_name(topology: &Topology, gate: GateId) -> String {
+    let gate = topology.gate(gate);
+    gate_in_file_name(topology.component(gate.component()).name(), gate.name())
 }
 
 /// Shortens the names of a connection's gates to `room` bytes, with a fingerprint at their end. Checked names are

@@ -24,7 +24,7 @@ __all__ = [
 
 _PLAN = r"""
 {"version": 1,"system": "motors","kinds": [{"name": "motor","components": ["left_motor",
-"right_motor"]}],"components": [{"name": "left_motor","declared_at": "motors.yaml:10:12",
+"right.motor"]}],"components": [{"name": "left_motor","declared_at": "motors.yaml:10:12",
 "schema": null,"gates": [{"name": "setpoint","kind": "sub","payload": {"message": "u32"},
 "codec": "json","declared_at": "motors.yaml:7:9","endpoint": null,"tap": null,
 "contract": "pseany5y","max_size": 67108864,"queue": 10,"when_full": "drop_oldest",
@@ -40,22 +40,22 @@ _PLAN = r"""
 "contract": "pseany5y","required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864
 },{"peer_component": "display","peer_gate": "numbers",
 "endpoint": "left_motor.state--display.numbers.pseany5y","contract": "pseany5y","required": false,
-"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "right_motor",
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]}]},{"name": "right.motor",
 "declared_at": "motors.yaml:11:12","schema": null,"gates": [{"name": "setpoint","kind": "sub",
 "payload": {"message": "u32"},"codec": "json","declared_at": "motors.yaml:7:9","endpoint": null,
 "tap": null,"contract": "pseany5y","max_size": 67108864,"queue": 10,"when_full": "drop_oldest",
 "backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
 "undecodable": "skip","connections": [{"peer_component": "controller","peer_gate": "right",
-"endpoint": "controller.right--right_motor.setpoint.pseany5y","contract": "pseany5y",
+"endpoint": "controller.right--right+motor.setpoint.pseany5y","contract": "pseany5y",
 "required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "state",
 "kind": "pub","payload": {"message": "u32"},"codec": "json","declared_at": "motors.yaml:8:9",
-"endpoint": null,"tap": "right_motor.state.tap","contract": "pseany5y","max_size": 67108864,
+"endpoint": null,"tap": "right+motor.state.tap","contract": "pseany5y","max_size": 67108864,
 "queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
 "timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
 "peer_component": "controller","peer_gate": "states",
-"endpoint": "right_motor.state--controller.states.pseany5y","contract": "pseany5y","required": true,
+"endpoint": "right+motor.state--controller.states.pseany5y","contract": "pseany5y","required": true,
 "queue": 10,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "display",
-"peer_gate": "numbers","endpoint": "right_motor.state--display.numbers.pseany5y",
+"peer_gate": "numbers","endpoint": "right+motor.state--display.numbers.pseany5y",
 "contract": "pseany5y","required": false,"queue": 100,"when_full": "drop_oldest",
 "max_size": 67108864}]}]},{"name": "controller","declared_at": "motors.yaml:12:11","schema": null,
 "gates": [{"name": "left","kind": "pub","payload": {"message": "u32"},"codec": "json",
@@ -71,8 +71,8 @@ _PLAN = r"""
 "codec": "json","declared_at": "motors.yaml:15:9","endpoint": null,"tap": "controller.right.tap",
 "contract": "pseany5y","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
 "backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
-"undecodable": "skip","connections": [{"peer_component": "right_motor","peer_gate": "setpoint",
-"endpoint": "controller.right--right_motor.setpoint.pseany5y","contract": "pseany5y",
+"undecodable": "skip","connections": [{"peer_component": "right.motor","peer_gate": "setpoint",
+"endpoint": "controller.right--right+motor.setpoint.pseany5y","contract": "pseany5y",
 "required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864},{
 "peer_component": "display","peer_gate": "numbers",
 "endpoint": "controller.right--display.numbers.pseany5y","contract": "pseany5y","required": false,
@@ -82,8 +82,8 @@ _PLAN = r"""
 "backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
 "undecodable": "skip","connections": [{"peer_component": "left_motor","peer_gate": "state",
 "endpoint": "left_motor.state--controller.states.pseany5y","contract": "pseany5y","required": true,
-"queue": 10,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "right_motor",
-"peer_gate": "state","endpoint": "right_motor.state--controller.states.pseany5y",
+"queue": 10,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "right.motor",
+"peer_gate": "state","endpoint": "right+motor.state--controller.states.pseany5y",
 "contract": "pseany5y","required": true,"queue": 10,"when_full": "drop_oldest","max_size": 67108864}
 ]}]},{"name": "display","declared_at": "motors.yaml:17:11","schema": null,"gates": [{
 "name": "numbers","kind": "sub","payload": {"message": "u32"},"codec": "json",
@@ -92,8 +92,8 @@ _PLAN = r"""
 "timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
 "peer_component": "left_motor","peer_gate": "state",
 "endpoint": "left_motor.state--display.numbers.pseany5y","contract": "pseany5y","required": true,
-"queue": 100,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "right_motor",
-"peer_gate": "state","endpoint": "right_motor.state--display.numbers.pseany5y",
+"queue": 100,"when_full": "drop_oldest","max_size": 67108864},{"peer_component": "right.motor",
+"peer_gate": "state","endpoint": "right+motor.state--display.numbers.pseany5y",
 "contract": "pseany5y","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
 },{"peer_component": "controller","peer_gate": "left",
 "endpoint": "controller.left--display.numbers.pseany5y","contract": "pseany5y","required": true,
@@ -108,14 +108,14 @@ class MotorInstance(_scl.Instance):
     """The components of the kind `motor`."""
 
     LEFT_MOTOR = "left_motor"
-    RIGHT_MOTOR = "right_motor"
+    RIGHT_MOTOR = "right.motor"
 
 
 class DisplayNumbersSender(_scl.Sender):
     """The gates that send to `display.numbers`."""
 
     LEFT_MOTOR = "left_motor.state"
-    RIGHT_MOTOR = "right_motor.state"
+    RIGHT_MOTOR = "right.motor.state"
     CONTROLLER_LEFT = "controller.left"
     CONTROLLER_RIGHT = "controller.right"
 
@@ -153,7 +153,7 @@ class Motor(
     instances=MotorInstance,
     counterpart=MotorPeer,
 ):
-    """A component of the kind `motor`: `left_motor`, `right_motor` of `motors`, declared at `motors.yaml:5:11`.
+    """A component of the kind `motor`: `left_motor`, `right.motor` of `motors`, declared at `motors.yaml:5:11`.
 
     Gates:
         setpoint: `sub` subscribes to `u32` from `controller.left`, `controller.right`
@@ -222,8 +222,8 @@ class Controller(
 
     Gates:
         left: `pub` publishes `u32` to `left_motor.setpoint`, `display.numbers`
-        right: `pub` publishes `u32` to `right_motor.setpoint`, `display.numbers`
-        states: `sub` subscribes to `u32` from `left_motor.state`, `right_motor.state`
+        right: `pub` publishes `u32` to `right.motor.setpoint`, `display.numbers`
+        states: `sub` subscribes to `u32` from `left_motor.state`, `right.motor.state`
     """
 
     left: _scl.Pub[_Any]
@@ -235,7 +235,7 @@ class Controller(
     """
 
     right: _scl.Pub[_Any]
-    """`pub`: publishes `u32` to `right_motor.setpoint`, `display.numbers`.
+    """`pub`: publishes `u32` to `right.motor.setpoint`, `display.numbers`.
 
     Options: `codec: json`.
 
@@ -243,7 +243,7 @@ class Controller(
     """
 
     states: _scl.SubFrom[MotorInstance, _Any]
-    """`sub`: subscribes to `u32` from `left_motor.state`, `right_motor.state`.
+    """`sub`: subscribes to `u32` from `left_motor.state`, `right.motor.state`.
 
     Options: `codec: json`, `queue: 10`.
 
@@ -277,11 +277,11 @@ class Display(
     """The component `display` of `motors`, declared at `motors.yaml:17:11`.
 
     Gates:
-        numbers: `sub` subscribes to `u32` from `left_motor.state`, `right_motor.state`, `controller.left`, `controller.right`
+        numbers: `sub` subscribes to `u32` from `left_motor.state`, `right.motor.state`, `controller.left`, `controller.right`
     """
 
     numbers: _scl.SubFrom[DisplayNumbersSender, _Any]
-    """`sub`: subscribes to `u32` from `left_motor.state`, `right_motor.state`, `controller.left`, `controller.right`.
+    """`sub`: subscribes to `u32` from `left_motor.state`, `right.motor.state`, `controller.left`, `controller.right`.
 
     Options: `codec: json`.
 

@@ -10,8 +10,8 @@ pub(in crate::parse) fn of(items: &[Node]) -> Option<Vec<[Spanned<String>; 2]>> 
     let end = |item: &Node| {
         let text = item.text().filter(|_| item.is_plain())?;
         let is_name = |name: &str| !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || "_-".contains(c));
-        let (component, gate) = text.split_once('.')?;
-        (is_name(component) && is_name(gate)).then(|| Spanned { value: text.to_owned(), span: item.span })
+        (text.contains('.') && text.split('.').all(is_name))
+            .then(|| Spanned { value: text.to_owned(), span: item.span })
     };
     let (pairs, rest) = items.as_chunks::<2>();
     let pairs = pairs.iter().map(|[first, second]| Some([end(first)?, end(second)?])).collect::<Option<Vec<_>>>()?;
