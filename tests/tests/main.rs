@@ -13,6 +13,7 @@ mod exit;
 mod forking;
 mod freshness;
 mod fuzz;
+mod groups;
 mod kill;
 mod kinds;
 mod latched;

@@ -2,6 +2,7 @@
 
 use scl_tests::{Process, System};
 
+pub(crate) const ARMS: &str = env!("CARGO_BIN_EXE_arms");
 pub(crate) const BOUNDED: &str = env!("CARGO_BIN_EXE_bounded");
 pub(crate) const CIRCLE: &str = env!("CARGO_BIN_EXE_circle");
 pub(crate) const DROPPER: &str = env!("CARGO_BIN_EXE_dropper");

@@ -118,7 +118,7 @@ fn every_error_is_shown_and_counted() {
               | ^^^^^^^^^ not a section of a topology
               |
               = help: did you mean `components`?
-              = note: sections: `components`, `connections`, `kinds`, `everyone`, `include`, `system`, `schemas`, `schema_roots`, `codec`, `scl`
+              = note: sections: `components`, `connections`, `kinds`, `everyone`, `include`, `exports`, `system`, `schemas`, `schema_roots`, `codec`, `scl`
               = note: keys that start with `x-` are ignored, for your own use
 
             error: [SCL0202] unknown section `colour`
@@ -127,7 +127,7 @@ fn every_error_is_shown_and_counted() {
             3 | colour: red
               | ^^^^^^ not a section of a topology
               |
-              = note: sections: `components`, `connections`, `kinds`, `everyone`, `include`, `system`, `schemas`, `schema_roots`, `codec`, `scl`
+              = note: sections: `components`, `connections`, `kinds`, `everyone`, `include`, `exports`, `system`, `schemas`, `schema_roots`, `codec`, `scl`
               = note: keys that start with `x-` are ignored, for your own use
 
             topology.yaml: 2 errors
@@ -141,8 +141,8 @@ fn json_goes_to_standard_output_one_object_a_line() {
     let expected = Expected {
         code: 1,
         out: expect![[r#"
-            {"code":"SCL0202","severity":"error","message":"unknown section `componets`","file":"topology.yaml","line":1,"column":1,"end_line":1,"end_column":10,"labels":[{"file":"topology.yaml","line":1,"column":1,"end_line":1,"end_column":10,"text":"not a section of a topology"}],"helps":["did you mean `components`?"],"notes":["sections: `components`, `connections`, `kinds`, `everyone`, `include`, `system`, `schemas`, `schema_roots`, `codec`, `scl`","keys that start with `x-` are ignored, for your own use"],"fixes":[{"file":"topology.yaml","line":1,"column":1,"end_line":1,"end_column":10,"replacement":"components","sure":true,"proposal":0,"help":0}]}
-            {"code":"SCL0202","severity":"error","message":"unknown section `colour`","file":"topology.yaml","line":3,"column":1,"end_line":3,"end_column":7,"labels":[{"file":"topology.yaml","line":3,"column":1,"end_line":3,"end_column":7,"text":"not a section of a topology"}],"helps":[],"notes":["sections: `components`, `connections`, `kinds`, `everyone`, `include`, `system`, `schemas`, `schema_roots`, `codec`, `scl`","keys that start with `x-` are ignored, for your own use"],"fixes":[]}
+            {"code":"SCL0202","severity":"error","message":"unknown section `componets`","file":"topology.yaml","line":1,"column":1,"end_line":1,"end_column":10,"labels":[{"file":"topology.yaml","line":1,"column":1,"end_line":1,"end_column":10,"text":"not a section of a topology"}],"helps":["did you mean `components`?"],"notes":["sections: `components`, `connections`, `kinds`, `everyone`, `include`, `exports`, `system`, `schemas`, `schema_roots`, `codec`, `scl`","keys that start with `x-` are ignored, for your own use"],"fixes":[{"file":"topology.yaml","line":1,"column":1,"end_line":1,"end_column":10,"replacement":"components","sure":true,"proposal":0,"help":0}]}
+            {"code":"SCL0202","severity":"error","message":"unknown section `colour`","file":"topology.yaml","line":3,"column":1,"end_line":3,"end_column":7,"labels":[{"file":"topology.yaml","line":3,"column":1,"end_line":3,"end_column":7,"text":"not a section of a topology"}],"helps":[],"notes":["sections: `components`, `connections`, `kinds`, `everyone`, `include`, `exports`, `system`, `schemas`, `schema_roots`, `codec`, `scl`","keys that start with `x-` are ignored, for your own use"],"fixes":[]}
         "#]],
         err: expect![[""]],
     };

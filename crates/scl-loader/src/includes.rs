@@ -6,14 +6,16 @@ use crate::read::{Unreadable, read_text};
 use crate::request::Request;
 use crate::unreadable::{file_names, is_yaml, similar_file, why};
 use scl_topology::diagnostic::{Diagnostic, Diagnostics};
+use scl_topology::groups::{Group, Scope};
 use scl_topology::join::{
     CIRCLE, ELSEWHERE, MOST_FILES, MOST_LEVELS, NO_EFFECT, TOO_MANY, UNREADABLE, is_without_effect, join,
 };
-use scl_topology::model::Model;
-use scl_topology::parse::{Part, complete, parse_part};
+use scl_topology::model::{IncludeModel, Model};
+use scl_topology::parse::{Part, parse_part};
 use scl_topology::source::{FileId, Sources, Span, Spanned};
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A file that belongs to a topology because another file includes it.
 #[derive(Debug, Clone)]
@@ -28,25 +30,29 @@ pub struct Included {
     pub by: Span,
 }
 
-/// Reads the files that a topology file includes, and returns what all of them declare. Those that are `known` are not
-/// read from disk.
+/// Reads a topology file and those that it includes. Those that are `known` are not read from disk.
 pub(crate) fn read(
     request: &Request,
     main: FileId,
     known: &[Included],
     sources: &mut Sources,
     problems: &mut Diagnostics,
-) -> (Model, Vec<Included>) {
+) -> (Scope, Vec<Included>) {
     let model = parse_part(sources, main, Part::Main, problems);
-    let entries = model.include.clone();
     let identity = identity(&request.path);
     let known = known.iter().map(|file| (file.path.as_path(), file.file)).collect();
-    let names = HashSet::from([identity.clone()]);
-    let mut reader = Reader { request, known, sources, problems, model, included: Vec::new(), names };
-    reader.include(&entries, Path::new(""), &mut vec![identity]);
-    let Reader { mut model, included, .. } = reader;
-    complete(&mut model, sources, problems);
-    (model, included)
+    let mut reader = Reader {
+        request,
+        known,
+        sources,
+        problems,
+        parsed: HashMap::new(),
+        told: HashSet::new(),
+        included: Vec::new(),
+        scopes: HashMap::new(),
+    };
+    let scope = reader.scope(model, Path::new(""), &mut vec![identity]);
+    (scope, reader.included)
 }
 
 /// Says of each problem in an included file which other files include it.
@@ -71,76 +77,153 @@ struct Reader<'r> {
     known: HashMap<&'r Path, FileId>,
     sources: &'r mut Sources,
     problems: &'r mut Diagnostics,
-    /// What the files declare that were read so far.
-    model: Model,
+    /// What each file declares that was read so far, by what the operating system calls it.
+    parsed: HashMap<PathBuf, (FileId, Model)>,
+    /// What is reported already: a file that becomes several groups has each problem once.
+    told: HashSet<(&'static str, Span)>,
     included: Vec<Included>,
-    /// The files that were read so far, as the operating system names them.
-    names: HashSet<PathBuf>,
+    /// What the groups of a file contain.
+    scopes: HashMap<PathBuf, Arc<Scope>>,
+}
+
+/// An entry of `include`, and the file that it names.
+struct Named<'e> {
+    entry: &'e IncludeModel,
+    path: PathBuf,
+    /// Its path from the folder of the topology file.
+    relative: PathBuf,
+    /// What the operating system calls it.
+    identity: PathBuf,
 }
 
 impl Reader<'_> {
-    /// Reads the `entries` of a file in `folder`, which is relative to that of the topology file. `chain` are the files
-    /// over which it was reached, and the file itself.
-    fn include(&mut self, entries: &[Spanned<String>], folder: &Path, chain: &mut Vec<PathBuf>) {
+    /// Joins a file in `folder`, which is relative to that of the topology file, with those that it includes. `chain`
+    /// are the files over which it was reached, and the file itself.
+    fn scope(&mut self, model: Model, folder: &Path, chain: &mut Vec<PathBuf>) -> Scope {
+        let mut model = model;
+        let entries = take_entries(&mut model, folder);
+        let mut names = HashSet::from_iter(chain.last().cloned());
+        let mut scope = Scope { model, groups: Vec::new() };
+        self.include(&entries, folder, chain, &mut scope, &mut names);
+        scope
+    }
+
+    /// Reads the `entries` of a file. `names` are the files that the scope has already.
+    fn include(
+        &mut self,
+        entries: &[IncludeModel],
+        folder: &Path,
+        chain: &mut Vec<PathBuf>,
+        scope: &mut Scope,
+        names: &mut HashSet<PathBuf>,
+    ) {
         let mut named: HashMap<PathBuf, Span> = HashMap::new();
         for entry in entries {
-            let relative = plain(&folder.join(&entry.value));
-            self.problems.extend(elsewhere(entry, &relative));
+            let file = &entry.file;
+            let relative = plain(&folder.join(&file.value));
+            self.report(elsewhere(file, &relative));
             let path = self.request.path.parent().unwrap_or(Path::new("")).join(&relative);
-            let identity = identity(&path);
-            if let Some(first) = named.insert(identity.clone(), entry.span) {
-                let found = NO_EFFECT.at(format!("`{}` is included twice", entry.value), entry.span, "second time");
-                let found = found.label(first, "first time");
-                self.problems.push(self.removing(found, "remove one of the two", entry));
-            } else if chain.contains(&identity) {
-                let found = circle(entry, chain.last() == Some(&identity));
-                let text = "remove the entry: all files share one space of names";
-                self.problems.push(self.removing(found, text, entry));
-            } else if self.names.insert(identity.clone()) {
-                chain.push(identity);
-                self.add(entry, path, &relative, chain);
-                chain.pop();
+            let found = Named { entry, identity: identity(&path), path, relative };
+            let is_group = entry.group.is_some();
+            if chain.contains(&found.identity) {
+                let problem = circle(file, chain.last() == Some(&found.identity));
+                let text = match is_group {
+                    true => "remove the entry: a file cannot be a group in itself",
+                    false => "remove the entry: all files share one space of names",
+                };
+                self.report(Some(self.removing(problem, text, entry).otherwise(text)));
+                // What names the group is not wrong.
+                scope.model.components_unread |= is_group;
+            } else if is_group {
+                self.add_group(&found, chain, scope);
+            } else if let Some(first) = named.insert(found.identity.clone(), file.span) {
+                let problem = NO_EFFECT.at(format!("`{}` is included twice", file.value), file.span, "second time");
+                let problem = problem.label(first, "first time");
+                self.report(Some(self.removing(problem, "remove one of the two", entry)));
+            } else if names.insert(found.identity.clone()) {
+                self.add(&found, chain, scope, names);
             }
         }
     }
 
-    /// Reads one file, and those that it includes.
-    fn add(&mut self, entry: &Spanned<String>, path: PathBuf, relative: &Path, chain: &mut Vec<PathBuf>) {
-        // The chain begins with the topology file and ends with this one.
-        if chain.len() > MOST_LEVELS + 1 || self.included.len() == MOST_FILES {
-            self.model.cut_off = true;
-            let message = format!("`{}` is one file too many", entry.value);
-            let found = TOO_MANY.at(message, entry.span, "");
-            self.problems.push(found.help(format!(
+    /// Adds what a file declares, and those that it includes, to those of the scope.
+    fn add(&mut self, named: &Named<'_>, chain: &mut Vec<PathBuf>, scope: &mut Scope, names: &mut HashSet<PathBuf>) {
+        let Some((_, mut part)) = self.parsed(named, chain, &mut scope.model) else { return };
+        let entries = take_entries(&mut part, parent(&named.relative));
+        join(&mut scope.model, part, self.problems);
+        chain.push(named.identity.clone());
+        self.include(&entries, parent(&named.relative), chain, scope, names);
+        chain.pop();
+    }
+
+    /// Adds a file as a group.
+    fn add_group(&mut self, named: &Named<'_>, chain: &mut Vec<PathBuf>, scope: &mut Scope) {
+        let Some(name) = named.entry.group.clone() else { return };
+        let Some((file, part)) = self.parsed(named, chain, &mut scope.model) else { return };
+        let inner = match self.scopes.get(&named.identity) {
+            Some(known) => Arc::clone(known),
+            None => {
+                chain.push(named.identity.clone());
+                let inner = Arc::new(self.scope(part, parent(&named.relative), chain));
+                chain.pop();
+                self.scopes.insert(named.identity.clone(), Arc::clone(&inner));
+                inner
+            }
+        };
+        scope.groups.push(Group { name, file, stem: stem(&named.relative), scope: inner });
+    }
+
+    /// What a file declares, whose paths start at the folder of the topology file. `None` if it cannot be read, which
+    /// is reported: anything may be missing in `model`.
+    fn parsed(&mut self, named: &Named<'_>, chain: &[PathBuf], model: &mut Model) -> Option<(FileId, Model)> {
+        let entry = named.entry;
+        let name = &entry.file;
+        let is_known = self.parsed.contains_key(&named.identity);
+        // The chain begins with the topology file.
+        if chain.len() > MOST_LEVELS || self.included.len() == MOST_FILES && !is_known {
+            model.cut_off = true;
+            let found = TOO_MANY.at(format!("`{}` is one file too many", name.value), name.span, "");
+            self.report(Some(found.help(format!(
                 "a system has at most {MOST_FILES} files, and each is reached over at most {MOST_LEVELS} others"
-            )));
-            return;
+            ))));
+            return None;
         }
-        let opened = match entry.value.ends_with(".proto") {
-            true => Err(schema(entry)),
-            false => self.open(&path, relative).map_err(|cause| self.unreadable(entry, &path, cause)),
+        if let Some(known) = self.parsed.get(&named.identity) {
+            return Some(known.clone());
+        }
+        let opened = match name.value.ends_with(".proto") {
+            true => Err(schema(name)),
+            false => self.open(&named.path, &named.relative).map_err(|cause| self.unreadable(name, &named.path, cause)),
         };
         let file = match opened {
             Ok(file) => file,
             Err(problem) => {
-                self.model.cut_off = true;
-                self.problems.push(problem);
-                return;
+                model.cut_off = true;
+                self.report(Some(problem));
+                return None;
             }
         };
-        self.included.push(Included { file, path, relative: relative.to_path_buf(), by: entry.span });
+        let Named { path, relative, .. } = named;
+        self.included.push(Included { file, path: path.clone(), relative: relative.clone(), by: entry.span });
         let mut part = parse_part(self.sources, file, Part::Included, self.problems);
         if is_without_effect(&part) {
-            let found = NO_EFFECT.at(format!("`{}` declares nothing", entry.value), entry.span, "has no effect");
-            self.problems.push(self.removing(found, "remove the entry, or add components to the file", entry));
+            let found = NO_EFFECT.at(format!("`{}` declares nothing", name.value), name.span, "has no effect");
+            let text = "remove the entry, or add components to the file";
+            self.report(Some(self.removing(found, text, entry)));
         }
-        let folder = relative.parent().unwrap_or(Path::new(""));
-        let entries = part.include.clone();
-        for path in part.include.iter_mut().chain(&mut part.schemas).chain(&mut part.schema_roots) {
-            path.value = plain(&folder.join(&path.value)).display().to_string();
+        for path in part.schemas.iter_mut().chain(&mut part.schema_roots) {
+            path.value = plain(&parent(relative).join(&path.value)).display().to_string();
         }
-        join(&mut self.model, part, self.problems);
-        self.include(&entries, folder, chain);
+        self.parsed.insert(named.identity.clone(), (file, part.clone()));
+        Some((file, part))
+    }
+
+    fn report(&mut self, problem: Option<Diagnostic>) {
+        let Some(problem) = problem else { return };
+        let at = problem.primary.as_ref().map(|label| label.span);
+        if at.is_none_or(|at| self.told.insert((problem.code(), at))) {
+            self.problems.push(problem);
+        }
     }
 
     /// The text of a file: as it was read before, in place of that on disk, or from disk.
@@ -187,7 +270,7 @@ impl Reader<'_> {
     }
 
     /// Suggests to remove an entry.
-    fn removing(&self, found: Diagnostic, text: &'static str, entry: &Spanned<String>) -> Diagnostic {
+    fn removing(&self, found: Diagnostic, text: &'static str, entry: &IncludeModel) -> Diagnostic {
         found.suggest_removal(text, self.sources.file(entry.span.file), entry.span)
     }
 
@@ -201,6 +284,27 @@ impl Reader<'_> {
 /// The path of a file by which it is recognized under another one.
 fn identity(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
+}
+
+/// The entries of `include` of a file in `folder`. Those that stay in the model start at the folder of the topology
+/// file.
+fn take_entries(model: &mut Model, folder: &Path) -> Vec<IncludeModel> {
+    let entries = model.include.clone();
+    for entry in &mut model.include {
+        entry.file.value = plain(&folder.join(&entry.file.value)).display().to_string();
+    }
+    entries
+}
+
+fn parent(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
+}
+
+/// The name of a file without its extension, as it stands before those of kinds.
+fn stem(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let stem: String = stem.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '_' }).collect();
+    if stem.starts_with(|letter: char| letter.is_ascii_digit()) { format!("_{stem}") } else { stem }
 }
 
 fn elsewhere(entry: &Spanned<String>, relative: &Path) -> Option<Diagnostic> {

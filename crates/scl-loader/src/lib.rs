@@ -9,6 +9,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 #![deny(missing_docs)]
 
+mod files;
 mod includes;
 mod name_each;
 mod no_panic;
@@ -31,7 +32,7 @@ pub use schemas::{Outline, Schemas, rust};
 #[cfg(feature = "protobuf")]
 pub use schemas::{files_for, walk};
 
-use scl_topology::check::{Facts, check};
+use scl_topology::check::{Facts, check_with_parts};
 use scl_topology::diagnostic::{Diagnostic, Diagnostics};
 use scl_topology::model::Model;
 use scl_topology::source::{FileId, Sources, Span};
@@ -113,9 +114,9 @@ fn with_text(request: &Request, text: Result<String, read::Unreadable>) -> Loade
 fn checked(request: &Request, mut loaded: Loaded) -> Loaded {
     let Some(file) = loaded.file else { return loaded };
     let mut found = Diagnostics::new();
-    let (model, included) = includes::read(request, file, &[], &mut loaded.sources, &mut found);
-    loaded.files_read.extend(included.iter().map(|file| file.path.clone()));
-    (loaded.model, loaded.included) = (model, included);
+    let files = files::read(request, file, &[], &mut loaded.sources, &mut found);
+    loaded.files_read.extend(files.included.iter().map(|file| file.path.clone()));
+    (loaded.model, loaded.included) = (files.model, files.included);
     let mut of_schemas = Diagnostics::new();
     let compiled = schemas::compile(request, &loaded.model, &mut loaded.sources, &mut of_schemas);
     let of_schemas = of_schemas.into_sorted();
@@ -129,8 +130,8 @@ fn checked(request: &Request, mut loaded: Loaded) -> Loaded {
     loaded.files_read.extend(compiled.files_read);
     loaded.schemas = compiled.schemas;
     loaded.outlines = compiled.outlines;
-    loaded.topology = check(&loaded.model, &facts, &loaded.sources, &mut found);
-    loaded.diagnostics = found.into_sorted();
+    (loaded.topology, loaded.diagnostics) =
+        check_with_parts(&loaded.model, &files.parts, &facts, &loaded.sources, found);
     trial::try_advice(request, &mut loaded, file, &facts, &of_schemas);
     loaded.diagnostics = includes::tell_chain(loaded.diagnostics, &loaded.included, &loaded.sources);
     loaded

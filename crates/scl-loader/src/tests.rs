@@ -7,6 +7,7 @@ use scl_topology::diagnostic::{Severity, render};
 use std::fs;
 use std::process::Command;
 
+mod groups;
 #[cfg(feature = "protobuf")]
 mod imports;
 mod includes;

@@ -1,8 +1,8 @@
 //! The trial of advice: each copy of the file is checked as the file itself was.
 
-use crate::{Loaded, Request, includes, schemas};
+use crate::{Loaded, Request, files, schemas};
 use scl_topology::advice::{self, ChangedCopy, Extent, Judged};
-use scl_topology::check::{Facts, check};
+use scl_topology::check::{Facts, check_with_parts};
 use scl_topology::diagnostic::{Diagnostic, Diagnostics};
 use scl_topology::source::{FileId, SourceFile, Spanned};
 use std::borrow::Cow;
@@ -20,7 +20,8 @@ pub(crate) fn try_advice(
     let judge = |copies: &[ChangedCopy]| {
         let mut sources = ChangedCopy::replace_in(copies, &loaded.sources);
         let mut problems = Diagnostics::new();
-        let (model, _) = includes::read(request, file, &loaded.included, &mut sources, &mut problems);
+        let files::Files { model, parts, .. } =
+            files::read(request, file, &loaded.included, &mut sources, &mut problems);
         let names = |of: &[Spanned<String>]| of.iter().map(|name| name.value.clone()).collect::<Vec<_>>();
         let is_same = names(&model.schemas) == names(&loaded.model.schemas)
             && names(&model.schema_roots) == names(&loaded.model.schema_roots);
@@ -34,8 +35,8 @@ pub(crate) fn try_advice(
                 Cow::Owned(Facts { messages: compiled.messages, unlisted: compiled.unlisted, ..facts.clone() })
             }
         };
-        check(&model, &facts, &sources, &mut problems);
-        Judged { problems: problems.into_sorted(), extent: Extent::of(&model) }
+        let (_, problems) = check_with_parts(&model, &parts, &facts, &sources, problems);
+        Judged { problems, extent: Extent::of(&model) }
     };
     let files = std::iter::once(file).chain(loaded.included.iter().map(|file| file.file));
     let files: Vec<&SourceFile> = files.map(|file| loaded.sources.file(file)).collect();

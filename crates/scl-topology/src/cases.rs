@@ -97,6 +97,35 @@ fn every_case_in_an_included_file() {
     assert!(differences.is_empty(), "{}", differences.join("\n"));
 }
 
+/// A file that becomes a group has the same problems, told once and in its own words, and so has one that becomes two.
+#[test]
+fn every_case_in_a_group() {
+    let mut differences = Vec::new();
+    for name in FILES {
+        let path = format!("{}/tests/cases/{name}.txt", env!("CARGO_MANIFEST_DIR"));
+        for case in file::read(&std::fs::read_to_string(&path).unwrap()) {
+            let has_setting = ["system", "codec"].iter().any(|key| section(&case.text, key).is_some());
+            // Several groups may be islands.
+            if WHOLE_FILES.contains(&case.code.as_str()) || has_setting || case.code == "SCL0706" {
+                continue;
+            }
+            let alone = headlines(&case.code, &case.text);
+            for groups in [&["left"][..], &["left", "right"]] {
+                let entries = groups.iter().map(|group| format!("  - {{file: part.yaml, as: {group}}}\n"));
+                let main = format!("include:\n{}", entries.collect::<String>());
+                let mut other = headlines_in(&case.code, &[("topology.yaml", &main), ("part.yaml", &case.text)]);
+                // `left._left` is `left__left` in C++.
+                other.retain(|line| !(line.contains("._left`") && line.contains("two underscores")));
+                if other != alone {
+                    let (code, title, text) = (&case.code, &case.title, &case.text);
+                    differences.push(format!("{groups:?} {code} {title}: {text}{alone:#?}{other:#?}"));
+                }
+            }
+        }
+    }
+    assert!(differences.is_empty(), "{}", differences.join("\n"));
+}
+
 /// Checks about what a whole file lacks.
 const WHOLE_FILES: [&str; 4] = ["SCL0203", "SCL0205", "SCL0206", "SCL0115"];
 

@@ -15,6 +15,7 @@ mod duplicate_name;
 mod end;
 mod ends;
 mod exchange_type;
+mod export;
 mod feedback;
 mod finish;
 mod fitting_gate;
@@ -37,6 +38,7 @@ mod no_effect;
 mod option;
 mod option_edit;
 mod pair_kinds;
+mod parts;
 mod path_length;
 mod payload_fault;
 mod payload_type;
@@ -79,6 +81,7 @@ use rename::Renames;
 use std::collections::BTreeMap;
 
 pub use all_rules::{ALL, find};
+pub use parts::{check_with_parts, without_repeats};
 pub use unknown_component::UNKNOWN as UNKNOWN_COMPONENT;
 
 /// The rules of this stage, by their codes.
@@ -147,7 +150,6 @@ pub(crate) const RULES: &[&Rule] = &[
     &control::NO_EFFECT,
     &control::FIXED,
     &control::NO_REASON,
-    &group_name::TAKEN,
 ];
 
 /// What the checks need to know besides the file's text.
@@ -208,6 +210,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     let codec = codec_name::check(&mut draft, problems);
 
     ends::check(&mut draft, problems);
+    export::check(&mut draft, problems);
     payload_type::check_number(&draft, problems);
     duplicate_connection::check(&mut draft, problems);
     pair_kinds::check(&mut draft, problems);

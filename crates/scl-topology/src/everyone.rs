@@ -72,7 +72,7 @@ pub(crate) fn expand(model: &mut Model, sources: &Sources, problems: &mut Diagno
     if model.everyone.is_empty() {
         return;
     }
-    let Added { gates, connections, broken, is_cut_off } = Added::of(model, sources, problems);
+    let Added { gates, connections, broken, is_cut_off, .. } = Added::of(model, sources, problems);
     let kinds = model.kinds.len();
     for (owner, gate) in gates {
         match owner.checked_sub(kinds) {
@@ -90,6 +90,8 @@ pub(crate) fn expand(model: &mut Model, sources: &Sources, problems: &mut Diagno
 struct Added {
     /// The gates with their owners: first the kinds, then the components.
     gates: Vec<(usize, GateModel)>,
+    /// The owners with the places of the gates that they have got.
+    added: HashSet<(usize, Span)>,
     connections: Vec<ConnectionModel>,
     /// Gates whose other end is wrong: nobody calls them unconnected.
     broken: Vec<Spanned<String>>,
@@ -101,10 +103,10 @@ impl Added {
     fn of(model: &Model, sources: &Sources, problems: &mut Diagnostics) -> Self {
         let mut added = Self::default();
         let mut known = Known::of(model, sources);
-        let mut entries: HashMap<&str, Span> = HashMap::new();
+        let mut entries: HashMap<(usize, &str), Span> = HashMap::new();
         for entry in &model.everyone {
             let name = &entry.gate.name;
-            if let Some(first) = entries.insert(&name.value, name.span) {
+            if let Some(first) = entries.insert((entry.group, &name.value), name.span) {
                 let found = TAKEN.at(format!("`{EVERYONE}` has two gates `{}`", name.value), name.span, "second one");
                 problems.push(found.label(first, "first one").help("rename one of the two"));
                 continue;
@@ -130,8 +132,17 @@ impl Added {
     ) -> bool {
         let name = &entry.gate.name;
         let mut number = 0_usize;
+        let in_group = model.components.iter().filter(|component| model.is_within(component.group, entry.group));
+        let kinds_in_group: HashSet<&str> = in_group.filter_map(|it| Some(it.kind.as_ref()?.value.as_str())).collect();
         for (at, owner) in model.kinds.iter().chain(&model.components).enumerate() {
             let is_kind = at < model.kinds.len();
+            let is_in_group = match is_kind {
+                true => entry.group == 0 || kinds_in_group.contains(owner.name.value.as_str()),
+                false => model.is_within(owner.group, entry.group),
+            };
+            if !is_in_group {
+                continue;
+            }
             // The components of a kind get the gate of the kind.
             let has_kind = !is_kind && owner.kind.is_some();
             let of = owner.name.value.as_str();
@@ -146,13 +157,17 @@ impl Added {
             if self.gates.len() == MOST {
                 return false;
             }
-            self.gates.push((at, entry.gate.clone()));
+            // A file may have become several groups, of which each has the entry, and whose components are of one kind.
+            if self.added.insert((at, name.span)) {
+                self.gates.push((at, entry.gate.clone()));
+            }
             let end = if is_kind { each_end(of, &name.value) } else { format!("{of}.{}", name.value) };
             let end = Spanned { value: end, span: name.span };
             match checked.to {
                 Some(to) => {
                     let connection = ConnectionModel::new([end, to.clone()], entry.gate.span);
-                    self.connections.push(ConnectionModel { from_everyone: true, ..connection });
+                    let group = entry.group;
+                    self.connections.push(ConnectionModel { from_everyone: true, group, ..connection });
                 }
                 None => self.broken.push(end),
             }

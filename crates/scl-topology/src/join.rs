@@ -88,6 +88,7 @@ pub fn join(model: &mut Model, included: Model, problems: &mut Diagnostics) {
         problems.push(found.help("move it to the file that no other one includes, or remove it"));
     }
     model.include.extend(included.include);
+    model.exports.extend(included.exports);
     add_paths(&mut model.schemas, included.schemas);
     add_paths(&mut model.schema_roots, included.schema_roots);
     model.kinds.extend(included.kinds);
@@ -105,13 +106,14 @@ pub fn join(model: &mut Model, included: Model, problems: &mut Diagnostics) {
 
 /// Whether a file declares nothing, and includes no other.
 pub fn is_without_effect(model: &Model) -> bool {
-    let Model { include, schemas, kinds, everyone, components, connections, .. } = model;
+    let Model { include, exports, schemas, kinds, everyone, components, connections, .. } = model;
     let is_unread = model.cut_off || model.components_unread || model.kinds_unread || model.connections_unread;
-    let lists_are_empty = include.is_empty() && schemas.is_empty() && kinds.is_empty() && everyone.is_empty();
+    let lists_are_empty =
+        include.is_empty() && exports.is_empty() && schemas.is_empty() && kinds.is_empty() && everyone.is_empty();
     !is_unread && lists_are_empty && components.is_empty() && connections.is_empty() && model.broken_ends.is_empty()
 }
 
-fn add_paths(paths: &mut Vec<Spanned<String>>, added: Vec<Spanned<String>>) {
+pub(crate) fn add_paths(paths: &mut Vec<Spanned<String>>, added: Vec<Spanned<String>>) {
     for path in added {
         // A path that one file names twice is a mistake, which is found later.
         let is_known = |known: &Spanned<String>| known.value == path.value && known.span.file != path.span.file;

@@ -153,8 +153,8 @@ struct Known<'m> {
     gates: HashSet<(usize, &'m str)>,
     /// The kind of each component, if it has one that is known.
     kind_of: Vec<Option<usize>>,
-    /// The components of each kind.
-    components_of: Vec<Vec<&'m str>>,
+    /// The components of each kind, with their groups.
+    components_of: Vec<Vec<(&'m str, usize)>>,
     /// The components by their names.
     components: HashMap<&'m str, &'m ComponentModel>,
     /// The kinds that components name and the file does not declare. They are reported once, there.
@@ -174,7 +174,7 @@ impl<'m> Known<'m> {
             if components.insert(name, component).is_none()
                 && let Some(kind) = kind
             {
-                components_of[*kind].push(name);
+                components_of[*kind].push((name, component.group));
             }
         }
         let names = model.kinds.iter().map(|kind| kind.name.value.as_str()).collect();
@@ -184,6 +184,12 @@ impl<'m> Known<'m> {
         let named = model.components.iter().filter_map(|component| Some(component.kind.as_ref()?.value.as_str()));
         let unknown = named.filter(|name| !kinds.contains_key(name)).collect();
         Self { model, names, kinds, gates, kind_of, components_of, components, unknown }
+    }
+
+    /// The components of a kind that are in a group.
+    fn components_in(&self, kind: usize, group: usize) -> impl Iterator<Item = &'m str> {
+        let components = self.components_of[kind].iter().filter(move |(_, of)| self.model.is_within(*of, group));
+        components.map(|(name, _)| *name)
     }
 
     fn report_repeated(&self, problems: &mut Diagnostics) {

@@ -6,7 +6,7 @@
 //! `everyone`, so that the checks see components, gates and pairs only. For a broken file, the macro still generates
 //! the structs that it can read from the model, so that completion in editors keeps working.
 
-use crate::source::{Span, Spanned};
+use crate::source::{FileId, Span, Spanned};
 
 /// A whole file, or all files of a system together: those that `include` names, joined by [`crate::join::join`].
 #[derive(Debug, Clone, Default)]
@@ -14,7 +14,11 @@ pub struct Model {
     /// `system:`.
     pub system: Option<Spanned<String>>,
     /// `include:`, of all files; the paths start at the folder of the topology file.
-    pub include: Vec<Spanned<String>>,
+    pub include: Vec<IncludeModel>,
+    /// `exports:`, of all files that are in no group.
+    pub exports: Vec<ExportModel>,
+    /// The groups that files have become, the inner ones after those around them. The first one is the file itself.
+    pub groups: Vec<GroupModel>,
     /// `schemas:`.
     pub schemas: Vec<Spanned<String>>,
     /// `schema_roots:`.
@@ -47,6 +51,41 @@ pub struct Model {
     pub cut_off: bool,
 }
 
+/// One entry of `include`.
+#[derive(Debug, Clone)]
+pub struct IncludeModel {
+    /// The path of the file.
+    pub file: Spanned<String>,
+    /// `as:`, the name of the group that the file becomes.
+    pub group: Option<Spanned<String>>,
+    /// The whole entry.
+    pub span: Span,
+}
+
+/// A file that has become a group.
+#[derive(Debug, Clone, Default)]
+pub struct GroupModel {
+    /// Its full name: `left_arm.hand`.
+    pub name: String,
+    /// The number of the group around it in [`Model::groups`]; of the first, its own.
+    pub parent: usize,
+    /// The file.
+    pub file: Option<FileId>,
+    /// Where `as` names it.
+    pub at: Option<Span>,
+    /// What it exports: names for the outside, and the full names of the gates.
+    pub exports: Vec<ExportModel>,
+}
+
+/// One entry of `exports`.
+#[derive(Debug, Clone)]
+pub struct ExportModel {
+    /// Its name for the outside.
+    pub name: Spanned<String>,
+    /// The gate that it stands for.
+    pub gate: Spanned<String>,
+}
+
 /// One entry of `components`, or of `kinds`.
 #[derive(Debug, Clone)]
 pub struct ComponentModel {
@@ -66,6 +105,9 @@ pub struct ComponentModel {
     pub gates_entry: Option<Span>,
     /// Some gates could not be read, and a problem says so. A gate that seems to be unknown may be one of them.
     pub gates_unread: bool,
+    /// The number of its group in [`Model::groups`]; 0 if it is in no file that has become one. Of a kind, the first
+    /// group of its file.
+    pub group: usize,
     /// The whole entry, without the dash before it.
     pub span: Span,
 }
@@ -98,6 +140,8 @@ pub struct SharedGateModel {
     pub to: Option<Spanned<String>>,
     /// `except:`, the components and kinds that do not get it.
     pub except: Vec<Spanned<String>>,
+    /// The number of the group whose components get it, in [`Model::groups`].
+    pub group: usize,
     /// Some keys could not be read, and a problem says so. `to` may be one of them.
     pub unread: bool,
 }
@@ -120,6 +164,8 @@ pub struct ConnectionModel {
     pub ends: [Spanned<String>; 2],
     /// The kind of each end that is written `each kind.gate`.
     pub each: [Option<String>; 2],
+    /// The number of the group in which it stands, in [`Model::groups`]: `each` is about the components in that one.
+    pub group: usize,
     /// It comes from `everyone`: its first end is not written, and has the place of the gate there.
     pub from_everyone: bool,
     /// The whole pair.
@@ -140,10 +186,28 @@ impl Model {
     pub fn owners(&self) -> impl Iterator<Item = &ComponentModel> {
         self.kinds.iter().chain(self.components.iter().filter(|component| component.of.is_none()))
     }
+
+    /// Whether a group is another one or in it.
+    pub fn is_within(&self, group: usize, other: usize) -> bool {
+        self.around(group).any(|around| around == other)
+    }
+
+    /// A group and those around it.
+    pub(crate) fn around(&self, group: usize) -> impl Iterator<Item = usize> {
+        let parent = |group: &usize| self.groups.get(*group).map(|it| it.parent).filter(|parent| parent != group);
+        std::iter::successors(Some(group), parent)
+    }
+}
+
+impl IncludeModel {
+    pub(crate) fn plain(file: Spanned<String>) -> Self {
+        let span = file.span;
+        Self { file, group: None, span }
+    }
 }
 
 impl ConnectionModel {
     pub(crate) fn new(ends: [Spanned<String>; 2], span: Span) -> Self {
-        Self { ends, each: [None, None], from_everyone: false, span }
+        Self { ends, each: [None, None], group: 0, from_everyone: false, span }
     }
 }

@@ -14,6 +14,7 @@ mod extension;
 mod field;
 mod fields;
 mod gate;
+mod include;
 mod meant;
 mod name;
 mod option;

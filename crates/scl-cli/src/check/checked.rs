@@ -99,7 +99,8 @@ impl Checked {
     pub(super) fn depends_on(&self) -> Vec<PathBuf> {
         let folder = self.path.parent().unwrap_or(Path::new(""));
         let model = &self.loaded.model;
-        let named = model.include.iter().chain(&model.schemas).map(|file| folder.join(&file.value));
+        let included = model.include.iter().map(|entry| &entry.file);
+        let named = included.chain(&model.schemas).map(|file| folder.join(&file.value));
         let read = self.loaded.files_read.iter().cloned();
         std::iter::once(self.path.clone()).chain(named).chain(read).collect()
     }

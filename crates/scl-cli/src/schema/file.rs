@@ -1,9 +1,11 @@
 //! The schema of the file: its sections, and the keys of a component.
 
 use super::gate::{gate_schema, shared_gate_schema};
-use super::names::{FULL_NAME, NAME, Names};
+use super::names::{FULL_NAME, NAME, Names, PATH};
 use super::shape::shape_schema;
-use scl_topology::grammar::{COMPONENT_KEYS, Item, KIND, Key, OWN_PREFIX, SECTIONS, Shape, without_references};
+use scl_topology::grammar::{
+    COMPONENT_KEYS, INCLUDE_KEYS, Item, KIND, Key, OWN_PREFIX, SECTIONS, Shape, without_references,
+};
 use serde_json::{Map, Value, json};
 
 /// The whole schema.
@@ -59,15 +61,38 @@ fn list_schema(key: &Key, item: Item, names: &Names) -> Value {
         }
         Item::Gate => gate_schema(names),
         Item::SharedGate => shared_gate_schema(names),
-        Item::Topology => {
-            json!({ "type": "string", "pattern": "\\S", "description": "A file, for example `sensors.yaml`." })
-        }
+        Item::Topology => include_schema(),
+        Item::Export => return exports_schema(),
     };
     // A list of components or gates that is still empty is a warning, not an error.
     match (key.is_required(), item) {
         (true, _) | (_, Item::File | Item::Folder | Item::Topology) => json!({ "type": "array", "items": items }),
         (false, _) => json!({ "type": ["array", "null"], "items": items }),
     }
+}
+
+/// A file, or a file that becomes a group.
+fn include_schema() -> Value {
+    let path = json!({ "type": "string", "pattern": "\\S", "description": "A file, for example `sensors.yaml`." });
+    let [file, group] = INCLUDE_KEYS;
+    let entry = json!({
+        "type": "object",
+        "description": "A file, which becomes a group with `as`.",
+        "properties": { file: path, group: { "type": "string", "pattern": FULL_NAME, "description": "The group." } },
+        "required": [file],
+        "additionalProperties": false,
+    });
+    json!({ "anyOf": [path, entry] })
+}
+
+/// Names for the outside, each with its gate.
+fn exports_schema() -> Value {
+    let entries = json!({
+        "type": "object",
+        "propertyNames": { "pattern": NAME },
+        "additionalProperties": { "type": "string", "pattern": PATH },
+    });
+    json!({ "anyOf": [entries, { "type": "array", "items": entries }, { "type": "null" }] })
 }
 
 fn component_schema(keys: &[Key], description: &str, names: &Names) -> Value {

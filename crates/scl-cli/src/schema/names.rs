@@ -2,6 +2,7 @@
 
 use scl_topology::model::Model;
 use serde_json::{Value, json};
+use std::collections::HashMap;
 
 /// A word of letters, digits, `_` and single `-`.
 pub(super) const NAME: &str = "^[A-Za-z_](-?[A-Za-z0-9_])*-?$";
@@ -28,15 +29,20 @@ pub(super) struct Names {
 impl Names {
     /// The names of a file as it is written; it may have errors.
     pub(super) fn of(model: &Model) -> Self {
-        let kinds = model.kinds.iter().map(|kind| kind.name.value.clone()).collect();
+        // What is in groups cannot be named from outside.
+        let own_kinds = || model.kinds.iter().filter(|kind| kind.group == 0);
+        let kinds = own_kinds().map(|kind| kind.name.value.clone()).collect();
         let mut names = Self { kinds, ..Self::default() };
-        let kinds = model.kinds.iter().map(|kind| (format!("each {}", kind.name.value), kind));
+        let exports = exports(model);
+        let kinds = own_kinds().map(|kind| (format!("each {}", kind.name.value), kind));
         let components = model.components.iter().map(|component| (component.name.value.clone(), component));
         for (owner, entry) in kinds.chain(components) {
             for gate in &entry.gates {
                 let payload = gate.payload.as_ref().map_or("", |payload| payload.value.as_str());
                 let words = format!("{} {payload}", gate.kind.value).trim().to_owned();
-                names.ends.push((format!("{owner}.{}", gate.name.value), words));
+                let end = format!("{owner}.{}", gate.name.value);
+                let end = if entry.group == 0 { Some(end) } else { exports.get(&*end).cloned() };
+                names.ends.extend(end.map(|end| (end, words)));
                 let types = if payload.contains("->") { &mut names.exchanges } else { &mut names.messages };
                 if !payload.is_empty() && !types.iter().any(|known| known == payload) {
                     types.push(payload.to_owned());
@@ -73,6 +79,16 @@ impl Names {
     pub(super) fn exchange_schema(&self, description: &str) -> Value {
         offered_types(&self.exchanges, &format!("{}\\s*->\\s*{}", dotted(), dotted()), description)
     }
+}
+
+/// What the groups of the file export: by the gates, their names for the outside.
+fn exports(model: &Model) -> HashMap<&str, String> {
+    let outermost = model.groups.iter().skip(1).filter(|group| group.parent == 0);
+    let exports = outermost.flat_map(|group| {
+        let name = |name: &str| format!("{}.{name}", group.name);
+        group.exports.iter().map(move |export| (export.gate.value.as_str(), name(&export.name.value)))
+    });
+    exports.collect()
 }
 
 /// The pattern of a dotted type.

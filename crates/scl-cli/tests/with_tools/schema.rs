@@ -112,6 +112,30 @@ fn a_file_adds_its_gates_even_with_errors() {
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
 }
 
+#[test]
+fn of_groups_the_exported_gates_are_offered() {
+    let main = "\
+include:
+  - {file: arm.yaml, as: left_arm}
+  - {file: arm.yaml, as: right_arm}
+components:
+  - {name: pilot, gates: [{left: {pub: Command}}]}
+connections:
+  - [pilot.left, left_arm.command]
+";
+    let arm = "\
+components:
+  - {name: planner, gates: [{command: {sub: Command}}, {path: {pub: Path}}]}
+exports: {command: planner.command}
+";
+    let offered = |file: &str| {
+        let system = System::of_files(&[("topology.yaml", main), ("arm.yaml", arm)]);
+        schema(&system, &[file])["properties"]["connections"]["items"]["items"]["anyOf"][0]["enum"].clone()
+    };
+    assert_eq!(offered("topology.yaml"), json!(["pilot.left", "left_arm.command", "right_arm.command"]));
+    assert_eq!(offered("arm.yaml"), json!(["planner.command", "planner.path"]));
+}
+
 /// The server's program, installed below the target folder once.
 fn language_server() -> PathBuf {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();

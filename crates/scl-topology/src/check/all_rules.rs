@@ -2,7 +2,7 @@
 
 use super::RULES;
 use crate::diagnostic::Rule;
-use crate::{diagnostic, everyone, external, join, kinds, parse};
+use crate::{diagnostic, everyone, external, groups, join, kinds, parse};
 use std::sync::LazyLock;
 
 /// All rules, sorted by code.
@@ -13,6 +13,7 @@ pub static ALL: LazyLock<Vec<&'static Rule>> = LazyLock::new(|| {
         kinds::RULES,
         everyone::RULES,
         join::RULES,
+        groups::RULES,
         RULES,
         &[&diagnostic::TOO_MANY],
         external::RULES,

@@ -1,12 +1,12 @@
 //! SCL0407: a word that is no codec. Sets the codecs that gates name themselves.
 
 use super::draft::Draft;
-use super::named::is_word;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::grammar::CodecRow;
 use crate::habits;
 use crate::rust_name::{is_keyword, is_unescapable};
 use crate::source::Spanned;
+use crate::spelling::is_word;
 use crate::suggest::similar;
 use crate::topology::Codec;
 

@@ -3,27 +3,11 @@
 
 use super::named::Noun;
 use super::rename::Renames;
-use crate::diagnostic::{Diagnostics, Rule, Severity};
+use crate::diagnostic::Diagnostics;
+use crate::groups::TAKEN;
 use crate::model::Model;
 use scl_text::gate_name::groups_of;
 use std::collections::HashMap;
-
-/// SCL1601.
-pub(crate) const TAKEN: Rule = Rule {
-    code: "SCL1601",
-    severity: Severity::Error,
-    title: "component has the name of a group",
-    explanation: "A component has the name of a group, which other components have before their own. `left_arm.planner` \
-                  could then be a component in the group `left_arm`, or a gate of the component `left_arm`. Rename the \
-                  component, or move it into the group.",
-    example: " components:
--  - name: left_arm
-+  - name: left_arm.driver
-     gates: []
-   - name: left_arm.planner
-     gates: []
-",
-};
 
 pub(super) fn check<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Diagnostics) {
     // The first component in each group.
@@ -50,8 +34,8 @@ pub(super) fn check<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut 
 
 #[cfg(test)]
 mod tests {
-    use super::TAKEN;
     use crate::check::testing::{advice, codes, rule_example};
+    use crate::groups::TAKEN;
     use expect_test::expect;
 
     #[test]

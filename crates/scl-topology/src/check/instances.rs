@@ -3,14 +3,14 @@
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{ComponentModel, Model};
-use crate::source::Span;
+use crate::source::{FileId, Span};
 use scl_text::gate_name::component_and_gate;
 use scl_text::list::listed;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Merges the problems of one rule at one place of a kind, of a connection with `each`, or of an entry of `everyone`.
 pub(super) fn tell_once(model: &Model, problems: &mut Diagnostics) {
-    if model.kinds.is_empty() && model.everyone.is_empty() {
+    if model.kinds.is_empty() && model.everyone.is_empty() && model.groups.len() < 2 {
         return;
     }
     let places = Places::of(model);
@@ -56,6 +56,8 @@ struct Places<'m> {
     numbers: Vec<usize>,
     /// The kinds, the connections with `each` and the gates of `everyone`, sorted. None overlaps another.
     shared: Vec<Span>,
+    /// The files that have become groups, with those that they include: all that is declared in a group.
+    in_groups: HashSet<FileId>,
 }
 
 impl<'m> Places<'m> {
@@ -69,12 +71,18 @@ impl<'m> Places<'m> {
         let mut shared: Vec<Span> = model.kinds.iter().map(|kind| kind.span).chain(each).chain(everyone).collect();
         shared.sort_unstable();
         shared.dedup();
-        Self { components, numbers, shared }
+        let in_groups = model.components.iter().filter(|component| component.group > 0);
+        let in_groups = in_groups.map(|component| component.span.file);
+        let of_groups = model.groups.iter().filter_map(|group| group.file);
+        Self { components, numbers, shared, in_groups: in_groups.chain(of_groups).collect() }
     }
 
     /// The rule and the place of a problem, if several components may have it there.
     fn place(&self, found: &Diagnostic) -> Option<Place> {
         let at = found.primary.as_ref()?.span;
+        if self.in_groups.contains(&at.file) {
+            return Some((found.code(), at));
+        }
         let next = self.shared.partition_point(|shared| (shared.file, shared.start) <= (at.file, at.start));
         let shared = self.shared.get(next.checked_sub(1)?)?;
         (shared.file == at.file && at.end <= shared.end).then(|| (found.code(), at))

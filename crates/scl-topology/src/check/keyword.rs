@@ -1,13 +1,14 @@
 //! Names that a language reserves. SCL0306: a gate whose field needs `r#`. SCL0307: a name that not even `r#` makes
 //! usable. SCL0315: a keyword of C++ or Python: the same file is read by programs in these languages.
 
-use super::named::{Noun, is_well_formed, names};
+use super::named::{Noun, names};
 use super::rename::Renames;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::keywords::{is_cpp, is_python};
 use crate::model::Model;
 use crate::rust_name::{component_type, gate_field, is_keyword, is_unescapable};
 use crate::source::Spanned;
+use crate::spelling::is_well_formed;
 use scl_text::list::all_of;
 
 /// SCL0306.

@@ -2,12 +2,13 @@
 //! of other languages. SCL0304: a letter outside of ASCII; the parser reports those that look like an ASCII letter.
 //! SCL0305: a name that starts with a digit or a hyphen, which no programming language can spell.
 
-use super::named::{Noun, is_allowed, may_start, names};
+use super::named::{Noun, names};
 use super::rename::Renames;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::model::Model;
 use crate::parse::{FILL_IN, placeholder};
 use crate::source::Spanned;
+use crate::spelling::{is_allowed, may_start};
 
 pub(crate) use crate::parse::LETTER;
 

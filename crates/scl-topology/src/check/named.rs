@@ -2,6 +2,7 @@
 
 use crate::model::Model;
 use crate::source::Spanned;
+use crate::spelling::is_well_formed;
 use std::collections::HashMap;
 use std::hash::Hash;
 
@@ -64,16 +65,6 @@ pub(super) fn types(model: &Model) -> impl DoubleEndedIterator<Item = (Noun, &Na
     kinds.chain(model.components.iter().map(|component| (Noun::Component, &component.name)))
 }
 
-/// Whether a name without a group follows the rules of spelling, so that the rules about its meaning can check it.
-pub(super) fn is_well_formed(name: &str) -> bool {
-    name.chars().all(is_allowed) && !name.contains("--") && name.starts_with(may_start)
-}
-
-/// Whether it is a word of ASCII letters, digits and `_` that does not start with a digit.
-pub(super) fn is_word(word: &str) -> bool {
-    word.starts_with(may_start) && word.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
-}
-
 /// Each name with the first one that has the same key, which may be itself.
 pub(super) fn with_first<'m, K: Eq + Hash>(
     names: impl Iterator<Item = &'m Name>,
@@ -81,12 +72,4 @@ pub(super) fn with_first<'m, K: Eq + Hash>(
 ) -> impl Iterator<Item = (&'m Name, &'m Name)> {
     let mut first = HashMap::new();
     names.map(move |name| (*first.entry(key(&name.value)).or_insert(name), name))
-}
-
-pub(super) fn is_allowed(letter: char) -> bool {
-    letter.is_ascii_alphanumeric() || letter == '_' || letter == '-'
-}
-
-pub(super) fn may_start(letter: char) -> bool {
-    letter.is_ascii_alphabetic() || letter == '_'
 }

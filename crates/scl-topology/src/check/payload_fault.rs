@@ -1,7 +1,5 @@
 //! A text that cannot be a type name: why, and what may be meant.
 
-use super::named;
-
 /// Why a text is no type name.
 pub(super) struct Fault {
     pub(super) label: &'static str,
@@ -96,5 +94,5 @@ fn is_bytes(text: &str) -> bool {
 }
 
 fn is_word(word: &str) -> bool {
-    word != "_" && named::is_word(word)
+    word != "_" && crate::spelling::is_word(word)
 }

@@ -1,9 +1,9 @@
 //! The system's name: `system:`, or else derived from the file's name.
 
 use super::Facts;
-use super::named::is_allowed;
 use crate::fingerprint;
 use crate::model::Model;
+use crate::spelling::is_allowed;
 
 /// Maximum length of a name that is derived from the file's name. Longer ones are cut: a file's name is not chosen to
 /// be part of socket paths.

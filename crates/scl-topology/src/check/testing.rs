@@ -1,14 +1,17 @@
 //! Helpers for the tests of the rules: a text goes in, the messages that users read come out.
 
-use super::{Facts, SchemaMessages, check, find};
+use super::{Facts, SchemaMessages, check_with_parts, find, without_repeats};
 use crate::advice::{ChangedCopy, Extent, Judged, try_advice_in_files};
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity, render};
+use crate::groups::{Group, Scope, flatten};
 use crate::join::join;
+use crate::model::Model;
 use crate::parse::{Part, complete, parse_part};
 use crate::socket_paths::SocketPaths;
 use crate::source::{FileId, SourceFile, Sources};
 use crate::topology::Topology;
 use expect_test::Expect;
+use std::sync::Arc;
 
 /// The warnings that small examples cannot avoid: no connections, and gates without a peer.
 pub(crate) const USUAL: [&str; 7] = ["SCL0206", "SCL0209", "SCL0701", "SCL0702", "SCL0703", "SCL0704", "SCL0705"];
@@ -104,33 +107,67 @@ fn run(yaml: &str, messages: Option<&[&str]>) -> (Option<Topology>, Vec<Diagnost
     run_files(&[("topology.yaml", yaml)], messages)
 }
 
-fn run_files(files: &[(&str, &str)], messages: Option<&[&str]>) -> (Option<Topology>, Vec<Diagnostic>, Sources) {
-    let mut sources = Sources::new();
-    let files: Vec<FileId> = files.iter().map(|(name, text)| sources.add(*name, *text)).collect();
+/// The files that the first one includes, joined with it or as groups.
+fn scope(sources: &Sources, files: &[FileId], problems: &mut Diagnostics) -> Scope {
+    let mut scope = Scope { model: parse_part(sources, files[0], Part::Main, problems), groups: Vec::new() };
+    let parts = files[1..].iter().map(|file| {
+        let model = parse_part(sources, *file, Part::Included, problems);
+        (sources.file(*file).path(), *file, Arc::new(Scope { model, groups: Vec::new() }))
+    });
+    for (path, file, part) in parts.collect::<Vec<_>>() {
+        let entries: Vec<_> = scope.model.include.iter().filter(|entry| entry.file.value == path).cloned().collect();
+        for entry in entries {
+            let scope_of_file = Arc::clone(&part);
+            match entry.group {
+                Some(name) => scope.groups.push(Group { name, file, stem: "file".to_owned(), scope: scope_of_file }),
+                None => join(&mut scope.model, scope_of_file.model.clone(), problems),
+            }
+        }
+    }
+    scope
+}
+
+fn written_out(scope: &Scope, sources: &Sources, problems: &mut Diagnostics) -> Model {
+    let mut model = flatten(scope.clone(), sources, problems);
+    complete(&mut model, sources, problems);
+    model
+}
+
+/// The facts about a file whose schemas declare these messages.
+fn facts(messages: Option<&[&str]>) -> Facts {
     let declared = |names: &[&str]| SchemaMessages {
         names: names.iter().map(|&name| name.to_owned()).collect(),
         enums: [("uav.Mode".to_owned(), vec!["uav.Status".to_owned()])].into(),
         ..SchemaMessages::default()
     };
     let messages = messages.map(|names| vec![declared(names)]);
-    let facts =
-        Facts { default_system: "topology".to_owned(), messages, sockets: SocketPaths::example(), ..Facts::default() };
+    Facts { default_system: "topology".to_owned(), messages, sockets: SocketPaths::example(), ..Facts::default() }
+}
+
+fn run_files(files: &[(&str, &str)], messages: Option<&[&str]>) -> (Option<Topology>, Vec<Diagnostic>, Sources) {
+    let mut sources = Sources::new();
+    let files: Vec<FileId> = files.iter().map(|(name, text)| sources.add(*name, *text)).collect();
+    let facts = facts(messages);
     let judge = |sources: &Sources| {
         let mut problems = Diagnostics::new();
-        let mut model = parse_part(sources, files[0], Part::Main, &mut problems);
-        for file in &files[1..] {
-            let part = parse_part(sources, *file, Part::Included, &mut problems);
-            join(&mut model, part, &mut problems);
-        }
-        complete(&mut model, sources, &mut problems);
-        let topology = check(&model, &facts, sources, &mut problems);
+        let scope = scope(sources, &files, &mut problems);
+        let (mut of_parts, mut found) = (Diagnostics::new(), Diagnostics::new());
+        let mut groups: Vec<&Group> = scope.groups.iter().collect();
+        groups.dedup_by_key(|group| group.file);
+        let parts: Vec<Model> =
+            groups.into_iter().map(|group| written_out(&group.scope, sources, &mut of_parts)).collect();
+        let model = written_out(&scope, sources, &mut found);
+        without_repeats(&mut found, &mut of_parts, &parts);
+        problems.append(of_parts);
+        problems.append(found);
+        let (topology, problems) = check_with_parts(&model, &parts, &facts, sources, problems);
         assert_eq!(
             topology.is_none(),
-            problems.has_errors(),
+            problems.iter().any(|problem| problem.severity == Severity::Error),
             "a topology comes out exactly when there is no error: {}",
             sources.file(files[0]).text()
         );
-        (topology, Judged { problems: problems.into_sorted(), extent: Extent::of(&model) })
+        (topology, Judged { problems, extent: Extent::of(&model) })
     };
     let (topology, mut found) = judge(&sources);
     let all: Vec<&SourceFile> = files.iter().map(|file| sources.file(*file)).collect();

@@ -2,10 +2,10 @@
 
 use super::draft::Draft;
 use super::end::{End, with_places};
-use super::named::is_well_formed;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Rule, Severity};
 use crate::rust_name::gate_field;
 use crate::source::Span;
+use crate::spelling::is_well_formed;
 use crate::suggest::{MOST, nearest};
 use crate::topology::GateKind;
 use scl_text::list::shortened;

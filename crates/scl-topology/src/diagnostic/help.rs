@@ -97,9 +97,12 @@ impl Diagnostic {
         texts.into_iter().fold(self, Self::help)
     }
 
-    /// Adds a help that is shown only if no proposal is left after the trial.
+    /// Adds a help that is shown only if no proposal is left after the trial. Does nothing if there is a help with
+    /// these words alone.
     pub fn otherwise(self, text: impl Into<String>) -> Self {
-        self.with_help(Wording::Otherwise(clipped(text)), Vec::new())
+        let text = clipped(text);
+        let says_so = |help: &Help| help.proposals.is_empty() && help.text() == text;
+        if self.helps.iter().any(says_so) { self } else { self.with_help(Wording::Otherwise(text), Vec::new()) }
     }
 
     /// Adds a help with the changes that it describes. The mistake is known to be at their place: if they pass the

@@ -33,7 +33,7 @@ pub const FORMAT: u32 = 1;
 pub const OWN_PREFIX: &str = "x-";
 
 /// The sections, in the order in which messages list them.
-pub static SECTIONS: [Key; 10] = [
+pub static SECTIONS: [Key; 11] = [
     Key {
         key: "components",
         shape: Shape::List(Item::Component),
@@ -100,8 +100,22 @@ everyone:
         shape: Shape::List(Item::Topology),
         default: "none",
         summary: "Other topology files, whose components, kinds and connections belong to the same system.",
-        text: "Paths are relative to the folder of the file that contains them. See [several files](#several-files).",
-        example: "include: [sensors.yaml, arm/arm.yaml]\n",
+        text: "Paths are relative to the folder of the file that contains them. With `as`, a file becomes a group. See \
+               [several files](#several-files) and [groups](#groups).",
+        example: "include:\n  - sensors.yaml\n  - {file: arm.yaml, as: left_arm}\n",
+    },
+    Key {
+        key: EXPORTS,
+        shape: Shape::List(Item::Export),
+        default: "none",
+        summary: "The gates that can be connected from outside if the file is a group, each with its name there.",
+        text: "See [groups](#groups).",
+        example: "components:
+  - name: planner
+    gates:
+      - command: {sub: rover.Command}
+exports: {command: planner.command}
+",
     },
     Key {
         key: "system",
@@ -149,6 +163,12 @@ everyone:
 
 /// The section that names other files of the same system.
 pub const INCLUDE: &str = "include";
+
+/// The keys of an entry of `include`: the file, and the name of the group that it becomes.
+pub const INCLUDE_KEYS: [&str; 2] = ["file", "as"];
+
+/// The section of the gates of a group that can be connected from outside.
+pub const EXPORTS: &str = "exports";
 
 /// The section of the gates that every component has.
 pub const EVERYONE: &str = "everyone";

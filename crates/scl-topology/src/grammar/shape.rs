@@ -58,6 +58,8 @@ pub enum Item {
     Component,
     /// Pairs of gates.
     Connection,
+    /// Gates with their names for the outside.
+    Export,
     /// Names of files.
     File,
     /// Paths of folders.
@@ -127,6 +129,7 @@ impl Shape {
             Shape::Word(words) => listed(words.iter().map(|word| word.word)),
             Shape::List(Item::Component) => "a list of components".to_owned(),
             Shape::List(Item::Connection) => "a list of pairs".to_owned(),
+            Shape::List(Item::Export) => "names, each with a gate".to_owned(),
             Shape::List(Item::File | Item::Topology) => "a list of files".to_owned(),
             Shape::List(Item::Folder) => "a list of folders".to_owned(),
             Shape::List(Item::Gate) => "a list of gates".to_owned(),

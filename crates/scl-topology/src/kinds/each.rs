@@ -196,7 +196,7 @@ impl Reader<'_, '_> {
             }
         };
         let name = &self.known.model.kinds[kind].name.value;
-        for component in &self.known.components_of[kind] {
+        for component in self.known.components_in(kind, connection.group) {
             let mut one = connection.clone();
             one.ends[at].value = format!("{component}.{gate}");
             one.each[at] = Some(name.clone());
@@ -211,7 +211,7 @@ impl Reader<'_, '_> {
             let named = |value: String| Spanned { value, span: end.span };
             match found {
                 End::Each(kind, gate) => {
-                    let components = self.known.components_of[*kind].iter();
+                    let components = self.known.components_in(*kind, connection.group);
                     ends.broken.extend(components.map(|component| named(format!("{component}.{gate}"))));
                 }
                 End::Gate => ends.broken.push(end.clone()),
@@ -298,10 +298,10 @@ impl Reader<'_, '_> {
             .at(format!("`{}` is a kind, not a component", kind.name.value), end.span, "")
             .label(kind.name.span, "the kind is declared here");
         let found = self.choose(found, end, std::iter::once(format!("{EACH} {path}")));
-        let components = &self.known.components_of[at];
-        self.problems.push(match components.is_empty() {
-            true => found,
-            false => found.note(format!("components of the kind: {}", listed(components))),
+        let components = self.known.components_of[at].iter().map(|(component, _)| component);
+        self.problems.push(match components.len() {
+            0 => found,
+            _ => found.note(format!("components of the kind: {}", listed(components))),
         });
         match split(path) {
             Some((_, gate)) => End::Each(at, gate.to_owned()),

@@ -273,6 +273,7 @@ pub(super) fn unread_component(name: Spanned<String>) -> ComponentModel {
         of: None,
         gates: Vec::new(),
         gates_entry: None,
+        group: 0,
         gates_unread: true,
         span,
     }

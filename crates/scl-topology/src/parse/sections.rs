@@ -18,7 +18,8 @@ impl Reader<'_> {
             match field.key {
                 "system" => self.model.system = self.name_in(*field, "system name"),
                 "codec" => self.model.codec = self.name_in(*field, "codec"),
-                grammar::INCLUDE => self.model.include = self.read_files(*field, "included file", "a file"),
+                grammar::INCLUDE => self.model.include = self.read_includes(*field),
+                grammar::EXPORTS => self.read_exports(*field),
                 "schemas" => self.model.schemas = self.read_files(*field, "schema file", "a schema"),
                 "schema_roots" => {
                     self.model.schema_roots = self.read_files(*field, "folder of schemas", "a folder of schemas");
@@ -56,7 +57,7 @@ impl Reader<'_> {
         }
     }
 
-    fn read_files(&mut self, field: Field<'_>, what: &str, one: &str) -> Vec<Spanned<String>> {
+    pub(super) fn read_files(&mut self, field: Field<'_>, what: &str, one: &str) -> Vec<Spanned<String>> {
         match &field.value.kind {
             NodeKind::Unread => Vec::new(),
             NodeKind::Sequence { items } => items.iter().filter_map(|item| self.name(item, what, one)).collect(),

@@ -28,7 +28,7 @@ impl Reader<'_> {
             let unread = gate.options_unread || to.is_some();
             let to = to.and_then(|(key, value)| self.name_in(field("to", &key, &value), "gate in `to`"));
             let except = except.map_or_else(Vec::new, |(key, value)| self.read_except(field("except", &key, &value)));
-            self.model.everyone.push(SharedGateModel { gate, to, except, unread });
+            self.model.everyone.push(SharedGateModel { gate, to, except, group: 0, unread });
         }
     }
 

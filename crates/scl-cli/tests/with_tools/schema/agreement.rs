@@ -62,7 +62,7 @@ fn topologies() -> Vec<String> {
     let page = page();
     let blocks = page.split("```yaml\n").skip(1).map(|rest| rest.split("```").next().unwrap().to_owned());
     texts.extend(blocks.filter(|block| block.contains("components:")));
-    texts.push("include: [sensors.yaml, arm.yaml]\n".to_owned());
+    texts.push("include: [sensors.yaml, {file: arm.yaml, as: left_arm}]\n".to_owned());
     for folder in ["crates/scl-topology/tests/files", "examples", "ui-tests", "tests", "scl"] {
         read_files(&root.join(folder), &mut texts);
     }

@@ -27,7 +27,8 @@ fn assert_sound(example: &str, others: &[&str]) {
     let text = completed(example);
     let included = others.iter().filter_map(|other| {
         let name = other.strip_prefix("# ")?.lines().next()?;
-        example.contains(&format!("include: [{name}]")).then_some((name, *other))
+        let is_included = example.contains(&format!("include: [{name}]")) || example.contains(&format!("file: {name}"));
+        is_included.then_some((name, *other))
     });
     let files: Vec<(&str, &str)> = std::iter::once(("topology.yaml", text.as_str())).chain(included).collect();
     let (found, sources) = problems_in_files(&files, None);

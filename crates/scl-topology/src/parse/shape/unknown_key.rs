@@ -271,7 +271,7 @@ mod tests {
                   | ^^^^^^^^^^ not a section of a topology
                   |
                   = help: did you mean `connections`?
-                  = note: sections: `components`, `connections`, `kinds`, `everyone`, `include`, `system`, `schemas`, `schema_roots`, `codec`, `scl`
+                  = note: sections: `components`, `connections`, `kinds`, `everyone`, `include`, `exports`, `system`, `schemas`, `schema_roots`, `codec`, `scl`
                   = note: keys that start with `x-` are ignored, for your own use"#]],
         );
     }
