@@ -15,6 +15,8 @@ mod full_queue;
 #[cfg(all(feature = "conformance", feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
 mod guarantees;
 #[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
+mod held_memory;
+#[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
 mod kinds;
 #[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
 mod latched;

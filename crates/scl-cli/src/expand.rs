@@ -3,6 +3,7 @@
 use crate::load::{MaxSize, load_file, unsound};
 use clap::Args;
 use scl_terminal::{Problem, print_out};
+use scl_topology::grammar::MEMORY;
 use scl_topology::model::{ComponentModel, ConnectionModel, GateModel, Model};
 use scl_topology::source::Spanned;
 use serde_yaml::{Mapping, Value};
@@ -64,6 +65,9 @@ fn component(component: &ComponentModel) -> Value {
     }
     if component.optional == Some(true) {
         entry.insert("optional".into(), true.into());
+    }
+    if let Some(memory) = &component.memory {
+        entry.insert(MEMORY.into(), text(memory));
     }
     entry.insert("gates".into(), component.gates.iter().map(gate).collect());
     entry.into()

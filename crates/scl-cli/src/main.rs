@@ -23,7 +23,6 @@ mod exit;
 mod expand;
 mod explain;
 mod external;
-#[cfg(any(feature = "observe", feature = "run"))]
 mod format;
 #[cfg(feature = "generate")]
 mod generate;

@@ -250,6 +250,19 @@ fn optional_peers_are_not_waited_for() {
 }
 
 #[test]
+fn a_bound_changes_no_plan() {
+    check(
+        &[("- name: controller", "- name: controller\n    memory: 32GiB")],
+        1,
+        expect![[r#"
+        ~ component `controller`: memory from `no bound` to `32GiB`
+
+        nothing to rebuild
+    "#]],
+    );
+}
+
+#[test]
 fn json_says_the_same() {
     let new = ROVER.replace("sensor: sub", "sensor: {sub: rover.Measurement, queue: 1}");
     let system = System::of_files(&[("old.yaml", ROVER), ("new.yaml", &new)]);

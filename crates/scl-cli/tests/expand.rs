@@ -11,6 +11,7 @@ kinds:
   - name: motor
     doc: One motor with its controller.
     optional: true
+    memory: 8GiB
     gates:
       - setpoint: {sub: rover.Setpoint, queue: 1, when_full: drop_oldest}
       - state: {pub: rover.MotorState, doc: 'yes', latched: true}
@@ -18,7 +19,7 @@ kinds:
 x-own: 1
 components:
   - {name: left_motor, kind: motor}
-  - {name: right_motor, kind: motor, optional: false, doc: 'The other: it turns.'}
+  - {name: right_motor, kind: motor, optional: false, memory: 9GiB, doc: 'The other: it turns.'}
   - name: controller
     gates:
       - motors: {pub: rover.Setpoint}
@@ -61,56 +62,58 @@ fn a_topology_is_printed_without_kinds() {
         TOPOLOGY,
         0,
         &expect![[r#"
-        system: rover
-        codec: json
-        components:
-        - name: left_motor
-          doc: One motor with its controller.
-          optional: true
-          gates:
-          - setpoint:
-              sub: rover.Setpoint
-              queue: 1
-              when_full: drop_oldest
-          - state:
-              pub: rover.MotorState
-              doc: yes
-              latched: true
-          - raw: pub
-        - name: right_motor
-          doc: 'The other: it turns.'
-          gates:
-          - setpoint:
-              sub: rover.Setpoint
-              queue: 1
-              when_full: drop_oldest
-          - state:
-              pub: rover.MotorState
-              doc: yes
-              latched: true
-          - raw: pub
-        - name: controller
-          gates:
-          - motors:
-              pub: rover.Setpoint
-          - states:
-              sub: null
-              queue: 10
-          - raw: sub
-        connections:
-        - - controller.motors
-          - left_motor.setpoint
-        - - controller.motors
-          - right_motor.setpoint
-        - - left_motor.state
-          - controller.states
-        - - right_motor.state
-          - controller.states
-        - - left_motor.raw
-          - controller.raw
-        - - right_motor.raw
-          - controller.raw
-    "#]],
+            system: rover
+            codec: json
+            components:
+            - name: left_motor
+              doc: One motor with its controller.
+              optional: true
+              memory: 8GiB
+              gates:
+              - setpoint:
+                  sub: rover.Setpoint
+                  queue: 1
+                  when_full: drop_oldest
+              - state:
+                  pub: rover.MotorState
+                  doc: yes
+                  latched: true
+              - raw: pub
+            - name: right_motor
+              doc: 'The other: it turns.'
+              memory: 9GiB
+              gates:
+              - setpoint:
+                  sub: rover.Setpoint
+                  queue: 1
+                  when_full: drop_oldest
+              - state:
+                  pub: rover.MotorState
+                  doc: yes
+                  latched: true
+              - raw: pub
+            - name: controller
+              gates:
+              - motors:
+                  pub: rover.Setpoint
+              - states:
+                  sub: null
+                  queue: 10
+              - raw: sub
+            connections:
+            - - controller.motors
+              - left_motor.setpoint
+            - - controller.motors
+              - right_motor.setpoint
+            - - left_motor.state
+              - controller.states
+            - - right_motor.state
+              - controller.states
+            - - left_motor.raw
+              - controller.raw
+            - - right_motor.raw
+              - controller.raw
+        "#]],
         &expect![[""]],
     );
 }
@@ -136,16 +139,16 @@ fn a_topology_with_errors_is_not_printed() {
         1,
         &expect![[""]],
         &expect![[r#"
-        error: [SCL1305] `moter` is no kind
-          --> topology.yaml:23:6
-           |
-        23 |   - [each moter.state, controller.states]
-           |      ^^^^^^^^^^^^^^^^
-           |
-           = help: write `each motor.state`
-           = note: declared kinds: `motor`
+            error: [SCL1305] `moter` is no kind
+              --> topology.yaml:24:6
+               |
+            24 |   - [each moter.state, controller.states]
+               |      ^^^^^^^^^^^^^^^^
+               |
+               = help: write `each motor.state`
+               = note: declared kinds: `motor`
 
-    "#]],
+        "#]],
     );
 }
 

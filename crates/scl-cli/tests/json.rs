@@ -11,6 +11,7 @@ const VALUES: &[&[&str]] = &[
     &["info", "sensor.measurements"],
     &["info", "controller.commands"],
     &["call", "controller.commands", "--template"],
+    &["plan", "--memory"],
 ];
 
 /// Queries whose answer is a stream, with what ends it.

@@ -32,6 +32,7 @@ const COMMANDS: &[(&[&str], i32)] = &[
     (&["list", "-v"], 0),
     (&["list", "--format", "json"], 0),
     (&["plan"], 0),
+    (&["plan", "--memory"], 0),
     (&["record", "sensor.measurements", "--for", "1s", "-o", "flight.mcap", "--overwrite"], 0),
     (&["recover", "flight.mcap"], 0),
     (&["compare", "flight.mcap", "flight.mcap"], 0),

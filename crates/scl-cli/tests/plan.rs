@@ -209,3 +209,132 @@ fn the_format_is_documented() {
     let example = example.replace("CkwKC3Jv...", "");
     assert_eq!(SystemPlan::from_json(&example).unwrap().components[0].gates[0].connections.len(), 1);
 }
+
+/// The topology of `docs/memory.md`.
+fn page_topology() -> (&'static str, String) {
+    let page = include_str!("../../../docs/memory.md");
+    let example = page.split("```yaml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    (page, example.to_owned())
+}
+
+/// Standard output and standard error of `scl plan --memory`.
+fn memory(topology: &str, arguments: &[&str]) -> (String, String) {
+    let output = scl_plan(&[("topology.yaml", topology)], &[&["--memory"], arguments].concat());
+    let [out, error] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+    assert_eq!(output.status.code(), Some(0), "{error}");
+    (out, error)
+}
+
+#[test]
+fn what_the_gates_may_hold_is_printed() {
+    let (page, topology) = page_topology();
+    let (table, advice) = memory(&topology, &[]);
+    expect![[r#"
+        COMPONENT, GATE  KIND     MESSAGES  WAITING  IN FLIGHT  LATCHED    TOTAL  BOUND
+        camera                                40MiB       8MiB     4MiB    52MiB  64MiB
+          frames         pub     10 x 4MiB    40MiB       8MiB     4MiB    52MiB
+        detector                            6.29GiB     133MiB           6.42GiB
+          objects        pub   100 x 64MiB  6.25GiB     128MiB           6.38GiB
+          frames         sub     10 x 4MiB    40MiB       5MiB             45MiB
+        map                                 6.25GiB      65MiB           6.32GiB
+          objects        sub   100 x 64MiB  6.25GiB      65MiB           6.32GiB
+        system rover                                                     12.8GiB
+          = help: declare `max_size` at `map.objects`: with the defaults, 100 messages of 64MiB, 6.25GiB may wait at each end
+          = note: this is an upper bound on messages over sockets, without shared memory (`shm`)
+    "#]].assert_eq(&format!("{table}{advice}"));
+    assert!(page.contains(&format!("```console\n$ scl plan --memory\n{table}{advice}```\n")), "the page differs");
+}
+
+const MOTORS: &str = "\
+kinds:
+  - name: motor
+    memory: 2MiB
+    gates:
+      - setpoint: {sub: Setpoint, queue: 1, max_size: 1KiB}
+      - state: {pub: State}
+components:
+  - {name: left, kind: motor}
+  - {name: right, kind: motor}
+  - name: controller
+    gates:
+      - setpoints: {pub: Setpoint, latched: true}
+      - states: {sub: State, max_size: 4KiB}
+      - path: {req: Goal -> Path, max_size: 1MiB}
+  - name: planner
+    gates:
+      - path: {rep: Goal -> Path, max_size: 1KiB}
+      - debug: {pub: Trace, unconnected: ok}
+connections:
+  - [controller.setpoints, each motor.setpoint]
+  - [each motor.state, controller.states]
+  - [controller.path, planner.path]
+";
+
+#[test]
+fn components_of_a_kind_that_hold_the_same_are_one_row() {
+    let (table, advice) = memory(MOTORS, &[]);
+    expect![[r#"
+        COMPONENT, GATE       KIND    MESSAGES  WAITING  IN FLIGHT  LATCHED       TOTAL  BOUND
+        motor (2 components)                     401KiB     101KiB           2 x 502KiB   2MiB
+          state               pub   100 x 4KiB   400KiB      68KiB               468KiB
+          setpoint            sub     1 x 1KiB     1KiB      33KiB                34KiB
+        controller                               401KiB    4.29MiB     1KiB     4.68MiB
+          states              sub   100 x 4KiB   400KiB    2.01MiB               2.4MiB
+          path                req                          2.28MiB              2.28MiB
+          setpoints           pub     1 x 1KiB     1KiB       3KiB     1KiB        5KiB
+        planner                                            2.26MiB              2.26MiB
+          path                rep                          2.26MiB              2.26MiB
+        system topology                                                         7.91MiB
+          = note: this is an upper bound on messages over sockets, without shared memory (`shm`)
+    "#]]
+    .assert_eq(&format!("{table}{advice}"));
+    // Only one of them has a publisher.
+    let other = MOTORS.replace("each motor.setpoint", "left.setpoint");
+    let names =
+        |text: &str| text.lines().filter(|line| !line.starts_with(' ')).map(|line| line[..10].to_owned()).collect();
+    let names: Vec<String> = names(&memory(&other, &["--component", "motor"]).0);
+    assert_eq!(names, ["COMPONENT,", "left      ", "right     ", "system top"]);
+}
+
+#[test]
+fn what_the_gates_may_hold_is_json_in_bytes() {
+    let (json, advice) = memory(MOTORS, &["--component", "left", "--format", "json"]);
+    expect![[r#"
+        {
+          "components": [
+            {
+              "bound": 2097152,
+              "gates": [
+                {
+                  "in_flight": 33792,
+                  "kind": "sub",
+                  "latched": 0,
+                  "longest": 1024,
+                  "messages": 1,
+                  "name": "setpoint",
+                  "total": 34816,
+                  "waiting": 1024
+                },
+                {
+                  "in_flight": 69632,
+                  "kind": "pub",
+                  "latched": 0,
+                  "longest": 4096,
+                  "messages": 100,
+                  "name": "state",
+                  "total": 479232,
+                  "waiting": 409600
+                }
+              ],
+              "kind": "motor",
+              "name": "left",
+              "total": 514048
+            }
+          ],
+          "system": "topology",
+          "total": 514048
+        }
+    "#]]
+    .assert_eq(&json);
+    assert_eq!(advice, "");
+}

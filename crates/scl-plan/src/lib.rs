@@ -39,6 +39,7 @@ mod error;
 #[cfg(feature = "json")]
 mod json;
 mod kind;
+pub mod memory;
 mod options;
 mod plan;
 mod system;

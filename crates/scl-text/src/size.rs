@@ -49,6 +49,21 @@ pub fn text(bytes: u64) -> String {
     format!("{}{unit}", bytes / factor)
 }
 
+/// A number of bytes in the largest unit that it reaches, with about three digits: `6.38GiB`. It is rounded up, so that
+/// an upper bound remains one.
+pub fn rounded(bytes: u64) -> String {
+    let (unit, factor) = UNITS.into_iter().rev().find(|&(_, factor)| bytes >= factor).unwrap_or(UNITS[0]);
+    let hundredths = (u128::from(bytes) * 100).div_ceil(factor.into());
+    let step = match hundredths {
+        ..1000 => 1,
+        1000..10_000 => 10,
+        _ => 100,
+    };
+    let hundredths = hundredths.div_ceil(step) * step;
+    let number = format!("{}.{:02}", hundredths / 100, hundredths % 100);
+    format!("{}{unit}", number.trim_end_matches('0').trim_end_matches('.'))
+}
+
 /// The sizes that a malformed text may have meant, the most likely first.
 ///
 /// A number without a unit means bytes, and is also suggested in a larger unit if it is a round number; a small number
@@ -148,6 +163,25 @@ mod tests {
         for (bytes, expected) in cases {
             assert_eq!(text(bytes), expected);
             assert_eq!(parse(expected), Ok(bytes));
+        }
+    }
+
+    #[test]
+    fn rounded_sizes_are_never_smaller() {
+        let cases = [
+            (0, "0B"),
+            (1023, "1023B"),
+            (1024, "1KiB"),
+            (1025, "1.01KiB"),
+            (64 << 20, "64MiB"),
+            ((64 << 20) + 1, "64.1MiB"),
+            ((100 << 20) + 1, "101MiB"),
+            (1023 << 20, "1023MiB"),
+            (6400 << 20, "6.25GiB"),
+            (u64::MAX, "17179869184GiB"),
+        ];
+        for (bytes, expected) in cases {
+            assert_eq!(rounded(bytes), expected, "{bytes}");
         }
     }
 

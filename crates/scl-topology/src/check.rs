@@ -26,6 +26,7 @@ mod inference;
 mod instances;
 mod island;
 mod keyword;
+mod memory;
 mod merge;
 mod message_type;
 mod misread;
@@ -146,6 +147,7 @@ pub(crate) const RULES: &[&Rule] = &[
     &needless_mark::RULE,
     &path_length::RULE,
     &shared_socket::RULE,
+    &memory::RULE,
     &control::UNKNOWN_CODE,
     &control::NO_EFFECT,
     &control::FIXED,
@@ -232,6 +234,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     deadlock::check(&draft, |rule| control::allowed_lines(model, rule), problems);
     feedback::check(&draft, problems);
     short_timeout::check(&draft, problems);
+    memory::check(&draft, problems);
     island::check(&draft, problems);
     path_length::check(&draft, &facts.sockets, &system, problems);
     let connection_room = facts.sockets.connection_room(&system);

@@ -19,8 +19,8 @@ pub use page::{Entry, entries, explain, page, without_references};
 
 pub use scl_plan::{GateKind, WhenFull};
 pub use section::{
-    COMPONENT_KEYS, EVERYONE, EXPORTS, FORMAT, INCLUDE, INCLUDE_KEYS, KIND, Key, OWN_PREFIX, SECTIONS,
-    SHARED_GATE_KEYS, section, words,
+    COMPONENT_KEYS, EVERYONE, EXPORTS, FORMAT, INCLUDE, INCLUDE_KEYS, KIND, Key, MEMORY, MEMORY_SHAPE, OWN_PREFIX,
+    SECTIONS, SHARED_GATE_KEYS, memory, section, words,
 };
 pub(crate) use shape::is_whole_number;
 pub use shape::{Item, OutOfRange, Shape, Word};

@@ -57,6 +57,7 @@ pub(crate) static COMPONENT: Table = Table::new(&[
         &["optional"],
         "`optional: true` says that peers do not wait for this component",
     ),
+    habit("mem memorylimit memlimit memorymax maxmemory memorybound ram", &["memory"], ""),
     habit(
         "required mandatory essential",
         &["optional: !"],
@@ -369,7 +370,7 @@ mod tests {
         check("gate", &GATE, &options, |way| options.contains(&key(way).as_str()));
         check("part", &PARTS, &[], |way| options.contains(&key(way).as_str()));
         for (of, table) in &VALUES {
-            let shape = option(of).unwrap().shape;
+            let shape = option(of).map_or(grammar::MEMORY_SHAPE, |option| option.shape);
             check(of, table, &[], |way| shape.fits(way, true));
         }
     }

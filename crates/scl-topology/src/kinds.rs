@@ -132,6 +132,7 @@ pub(crate) fn expand(model: &mut Model, sources: &Sources, problems: &mut Diagno
         component.gates = kind.gates.clone();
         component.gates_unread = kind.gates_unread;
         component.optional = component.optional.or(kind.optional);
+        component.memory = component.memory.take().or_else(|| kind.memory.clone());
         component.doc = component.doc.take().or_else(|| kind.doc.clone());
     }
 }

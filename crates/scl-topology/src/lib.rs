@@ -74,6 +74,7 @@ mod habits;
 pub mod join;
 pub mod keywords;
 mod kinds;
+pub mod memory;
 pub mod model;
 pub mod parse;
 pub mod resolve;

@@ -95,6 +95,8 @@ pub struct ComponentModel {
     pub doc: Option<Spanned<String>>,
     /// `optional:`, of the component or else of its kind.
     pub optional: Option<bool>,
+    /// `memory:`, of the component or else of its kind.
+    pub memory: Option<Spanned<String>>,
     /// `kind:`.
     pub kind: Option<Spanned<String>>,
     /// The number of its kind in [`Model::kinds`], if that is declared: then `gates` are those of the kind.

@@ -133,6 +133,7 @@ pub struct Component {
     pub(crate) rust_name: String,
     pub(crate) doc: Option<String>,
     pub(crate) optional: bool,
+    pub(crate) memory: Option<u64>,
     pub(crate) span: Span,
     pub(crate) kind: Option<KindId>,
     pub(crate) gates: Vec<GateId>,
@@ -154,6 +155,10 @@ impl Component {
     /// Whether peers do not wait for it at start.
     pub fn optional(&self) -> bool {
         self.optional
+    }
+    /// `memory:`, of the component or else of its kind, in bytes.
+    pub fn memory(&self) -> Option<u64> {
+        self.memory
     }
     /// Where its name is written.
     pub fn span(&self) -> Span {

@@ -1,6 +1,7 @@
 //! The facts about the parts of a topology, as pairs of key and value.
 
 use scl_plan::{ConnectionPlan, GatePlan};
+use scl_text::size;
 use scl_topology::grammar::OPTIONS;
 use scl_topology::topology::{Component, Gate};
 
@@ -9,7 +10,11 @@ pub(super) type Fact = (&'static str, String);
 
 /// The facts about a component, without its gates.
 pub(super) fn component_facts(component: &Component) -> Vec<Fact> {
-    vec![("optional", component.optional().to_string()), ("doc", doc(component.doc()))]
+    vec![
+        ("optional", component.optional().to_string()),
+        ("memory", component.memory().map_or_else(|| "no bound".to_owned(), size::text)),
+        ("doc", doc(component.doc())),
+    ]
 }
 
 /// The facts about a gate, without its connections: those in its plan, and those that only the topology file has.

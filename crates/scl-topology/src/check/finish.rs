@@ -1,6 +1,7 @@
 //! Turns a draft without errors into the topology.
 
 use super::draft::{Draft, DraftGate};
+use crate::grammar;
 use crate::rust_name::{component_type, gate_field};
 use crate::topology::{
     Codec, Component, ComponentId, Connection, ConnectionId, Gate, GateId, Kind, KindId, Payload, Topology,
@@ -20,6 +21,7 @@ pub(super) fn finish(draft: &Draft<'_>, system: String, codec: &Codec, connectio
         rust_name: component_type(&component.model.name.value),
         doc: component.model.doc.as_ref().map(|doc| doc.value.clone()),
         optional: component.model.optional.unwrap_or(false),
+        memory: component.model.memory.as_ref().and_then(|memory| grammar::memory(&memory.value).ok()),
         span: component.model.name.span,
         kind: component.model.of.map(|kind| KindId(kind as u32)),
         gates: component.gates.iter().map(|&gate| GateId(gate as u32)).collect(),

@@ -1,6 +1,6 @@
 //! The sections of a topology file and the keys of a component.
 
-use super::shape::{Item, Shape};
+use super::shape::{self, Item, OutOfRange, Shape};
 
 /// A section of the file, or a key of a component.
 #[derive(Debug, PartialEq, Eq)]
@@ -180,8 +180,17 @@ pub const SHARED_GATE_KEYS: [&str; 2] = ["to", "except"];
 /// The key that gives a component the gates of a kind.
 pub const KIND: &str = "kind";
 
+/// The key that bounds what the gates of a component may hold.
+pub const MEMORY: &str = "memory";
+
+/// The largest bound, in bytes: 1024 GiB.
+const LARGEST_MEMORY: u64 = 1 << 40;
+
+/// What the value of [`MEMORY`] looks like.
+pub const MEMORY_SHAPE: Shape = Shape::Size { most: LARGEST_MEMORY };
+
 /// The keys of a component, in the order in which messages list them. A kind has all but the last.
-pub static COMPONENT_KEYS: [Key; 5] = [
+pub static COMPONENT_KEYS: [Key; 6] = [
     Key {
         key: "name",
         shape: Shape::Name,
@@ -224,6 +233,25 @@ pub static COMPONENT_KEYS: [Key; 5] = [
         example: "components:\n  - name: recorder\n    optional: true\n    gates: []\n",
     },
     Key {
+        key: MEMORY,
+        shape: MEMORY_SHAPE,
+        default: "no bound",
+        summary: "The most memory that messages may take in the component's gates; more is an error.",
+        text: "`scl plan --memory` prints what they may take. At a kind, it holds for each of its components that has no \
+               bound of its own. See [memory](#memory).",
+        example: "components:
+  - name: camera
+    memory: 64MiB
+    gates:
+      - frames: {pub: rover.Image}
+  - name: detector
+    gates:
+      - frames: {sub: rover.Image, queue: 10, max_size: 4MiB}
+connections:
+  - [camera.frames, detector.frames]
+",
+    },
+    Key {
         key: KIND,
         shape: Shape::Name,
         default: "none",
@@ -239,6 +267,15 @@ components:
 ",
     },
 ];
+
+/// Reads the value of [`MEMORY`], in bytes.
+///
+/// # Errors
+///
+/// The value is out of its range.
+pub fn memory(text: &str) -> Result<u64, OutOfRange> {
+    shape::size(text, LARGEST_MEMORY).map_err(|range| OutOfRange { reason: None, ..range })
+}
 
 /// The section with this key.
 pub fn section(key: &str) -> Option<&'static Key> {

@@ -3,7 +3,7 @@
 use super::{Table, habit};
 
 /// The values that other tools have, by option.
-pub(super) static VALUES: [(&str, Table); 7] = [
+pub(super) static VALUES: [(&str, Table); 8] = [
     (
         "when_full",
         Table::new(&[
@@ -41,6 +41,7 @@ pub(super) static VALUES: [(&str, Table); 7] = [
     ),
     ("queue", Table::new(&[habit(UNLIMITED, &[], "there is no unlimited queue")])),
     ("max_size", Table::new(&[habit(UNLIMITED, &[], "a size is always limited")])),
+    ("memory", Table::new(&[habit(UNLIMITED, &[], "without `memory`, a component has no bound")])),
     ("timeout", Table::new(&[habit(UNLIMITED, &[], "a call always ends: there is no unlimited timeout")])),
 ];
 

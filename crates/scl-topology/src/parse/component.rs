@@ -179,6 +179,7 @@ impl Reader<'_> {
                 key if fields.get("name").is_none() && shape::unknown_key::is_misnamed(key) => {}
                 "doc" => component.doc = self.text(*field),
                 "optional" => component.optional = self.boolean(*field),
+                grammar::MEMORY => component.memory = self.size(*field, grammar::MEMORY_SHAPE),
                 key if key == grammar::KIND && self.reads == Entry::Component => {
                     component.kind = self.name_in(*field, "kind");
                     has_kind = true;
@@ -269,6 +270,7 @@ pub(super) fn unread_component(name: Spanned<String>) -> ComponentModel {
         name,
         doc: None,
         optional: None,
+        memory: None,
         kind: None,
         of: None,
         gates: Vec::new(),

@@ -4,7 +4,7 @@ use super::field::{Field, end_with_colon, spanned_key};
 use super::meant::meant;
 use super::pitfall::habit::template::placeholder;
 use super::{Reader, pitfall, scalar, shape};
-use crate::grammar::{DeclaredOptions, GateKind, Shape, option};
+use crate::grammar::{DeclaredOptions, GateKind, MEMORY, Shape, memory, option};
 use crate::habits;
 use crate::model::OptionModel;
 use crate::source::{Span, Spanned};
@@ -67,6 +67,11 @@ impl Reader<'_> {
         self.shaped(field, Shape::Boolean).map(|value| value.value == "true")
     }
 
+    /// A number of bytes with its unit, as written.
+    pub(super) fn size(&mut self, field: Field<'_>, shape: Shape) -> Option<Spanned<String>> {
+        self.shaped(field, shape)
+    }
+
     fn shaped(&mut self, field: Field<'_>, expected: Shape) -> Option<Spanned<String>> {
         let problem = match &field.value.kind {
             NodeKind::Unread => return None,
@@ -90,8 +95,10 @@ impl Reader<'_> {
                 // What follows from the value that is meant is not a mistake.
                 let meant = meant(field.key, field.value, expected).values;
                 let [value] = <[String; 1]>::try_from(meant).ok()?;
-                let is_in_range =
-                    option(field.key).is_none_or(|row| row.set(&mut DeclaredOptions::default(), &value).is_ok());
+                let is_in_range = match option(field.key) {
+                    Some(row) => row.set(&mut DeclaredOptions::default(), &value).is_ok(),
+                    None => field.key != MEMORY || memory(&value).is_ok(),
+                };
                 if !is_in_range {
                     return None;
                 }

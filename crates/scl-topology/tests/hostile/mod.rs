@@ -64,6 +64,8 @@ pub(crate) fn filled(size: usize) -> Vec<(&'static str, String)> {
         ("gates of everyone", everyone(size, 4)),
         ("many components of everyone", everyone(size, size / 100)),
         ("wrong gates of everyone", everyone(size, 4).replace("to: l.r", "to: l.s, except: [b, b, c]")),
+        ("bounds that are too low", low_bounds(size)),
+        ("bounds of a kind that are too low", of_a_kind(size, 2).replace("name: k\n", "name: k\n    memory: 1B\n")),
         ("taken gates of everyone", everyone(size, 40).replace("gates: []", "gates: [g000001: pub, g000002: pub]")),
         ("kinds without components", kinds(size)),
         ("unknown kinds", fill("components:\n", "  - {name: a, kind: b}\n")),
@@ -148,6 +150,15 @@ fn everyone(size: usize, components: usize) -> String {
     let left = size.saturating_sub(components.len()) / 40;
     let gates: String = (0..left).map(|at| format!("  - g{at:06}: {{push: T, to: l.r}}\n")).collect();
     format!("components:\n{components}  - {{name: l, gates: [r: pull]}}\neveryone:\n{gates}connections: []\n")
+}
+
+/// Components with a bound that are all connected to one, which has a bound, too.
+fn low_bounds(size: usize) -> String {
+    let count = size / 100;
+    let components = (0..count).map(|at| format!("  - {{name: c{at:06}, memory: 1MiB, gates: [x: {{pub: T}}]}}\n"));
+    let pairs = (0..count).map(|at| format!("  - [c{at:06}.x, b.x]\n"));
+    let (components, pairs): (String, String) = (components.collect(), pairs.collect());
+    format!("components:\n  - {{name: b, memory: 1MiB, gates: [x: {{sub: T}}]}}\n{components}connections:\n{pairs}")
 }
 
 /// Kinds, and connections of kinds with similar names.

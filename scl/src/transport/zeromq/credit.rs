@@ -2,13 +2,13 @@
 
 use super::zmtp::{ProtocolError, SclReady};
 use crate::transport::{Endpoint, Window};
+use scl_plan::memory::limits::{NEWEST_WINDOW_BYTES, NEWEST_WINDOW_MESSAGES, WINDOW_BYTES, WINDOW_MESSAGES};
 use std::collections::VecDeque;
 
 /// What an ordinary receiving end allows in flight.
-pub(super) const WINDOW: Window = Window { messages: 4096, bytes: 1 << 20 };
-/// The same if only the newest message matters: little enough to fit into the socket's buffers, so that a message has
-/// either arrived or been announced as waiting.
-const NEWEST_WINDOW: Window = Window { messages: 64, bytes: 32 << 10 };
+pub(super) const WINDOW: Window = Window { messages: WINDOW_MESSAGES, bytes: WINDOW_BYTES };
+/// The same if only the newest message matters.
+const NEWEST_WINDOW: Window = Window { messages: NEWEST_WINDOW_MESSAGES, bytes: NEWEST_WINDOW_BYTES };
 /// Maximum number of unacknowledged messages to remember, whatever window a peer announces.
 const MOST_MESSAGES: u64 = 1 << 16;
 

@@ -13,12 +13,11 @@ use crate::runtime_dir::SystemDir;
 use crate::transport::link_count::LinkAlive;
 use crate::transport::{Disconnected, Driven, Frame, Link, Loan, Resumed, Sent};
 use bytes::{BufMut, BytesMut};
+use scl_plan::memory::limits::BATCH;
 use std::collections::VecDeque;
 use std::task::Context;
 use std::time::{Duration, Instant};
 
-/// How many bytes of messages are written together at most; a longer message is written by itself.
-const BATCH: usize = 64 << 10;
 /// Minimum interval between direct reads of the socket while messages are refused. A program that never waits in its
 /// runtime would otherwise never see an acknowledgement.
 const RAW_INTERVAL: Duration = Duration::from_micros(100);

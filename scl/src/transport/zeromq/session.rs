@@ -4,6 +4,7 @@ use super::stream::{Stream, is_blocked};
 use super::zmtp::{Command, Decoder, Item, ProtocolError, pong};
 use bytes::{Buf, Bytes};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use scl_plan::memory::limits::{PIECES_OF_A_MESSAGE, UNREAD_BYTES, UNREAD_PIECES as PIECES};
 use std::collections::VecDeque;
 use std::io::{self, IoSlice};
 use std::task::{Context, Poll, ready};
@@ -11,12 +12,6 @@ use std::time::Duration;
 
 /// Messages up to this length are copied behind their header and written by the simpler system call.
 const COPIED: usize = 128;
-/// How many pieces may wait for a peer that does not read: a batch of messages, and answers to its heartbeats.
-const PIECES: usize = 64;
-/// Number of pieces in which a request or a reply waits: its envelope, the header of its last frame, and its body.
-const PIECES_OF_A_MESSAGE: usize = 3;
-/// How many bytes of requests or replies may wait for a peer that does not read.
-const UNREAD_BYTES: usize = 1 << 20;
 
 /// Why a connection is over.
 #[derive(Debug, thiserror::Error)]

@@ -4,6 +4,7 @@ use super::command::{self, Command, Subscription};
 use super::frame::Head;
 use super::{PeerReady, ProtocolError, SocketType, greeting, ready};
 use bytes::{Buf, Bytes, BytesMut};
+use scl_plan::memory::limits::READ as LARGE_CHUNK;
 
 /// Maximum number of frames of a message. SCL's own messages have three at most.
 const FRAMES: usize = 16;
@@ -13,10 +14,8 @@ const COMMAND_LIMIT: usize = 64 << 10;
 
 /// Memory until the handshake is done, and for peers that send only commands.
 const SMALL_CHUNK: usize = 512;
-/// Memory for each read from a peer that sends messages.
+/// Memory for each read from a peer that sends messages; [`LARGE_CHUNK`] while they are long.
 const CHUNK: usize = 64 << 10;
-/// The same while its messages are long, so that fewer of them are cut in two and copied.
-const LARGE_CHUNK: usize = 256 << 10;
 /// Memory reserved at once for an incomplete frame, unless more of it has arrived.
 const STEP: usize = 1 << 20;
 
