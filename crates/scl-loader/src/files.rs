@@ -30,18 +30,19 @@ pub(crate) fn read(
     problems: &mut Diagnostics,
 ) -> Files {
     let (scope, included) = includes::read(request, main, known, sources, problems);
-    let (mut parts, mut of_parts) = (Vec::new(), Diagnostics::new());
+    let (mut parts, mut of_parts, mut is_cut_off) = (Vec::new(), Diagnostics::new(), false);
     find_parts(&scope, &mut HashSet::new(), &mut |part| {
         // Of what a broken part is in, nothing can be said.
-        if parts.iter().any(|part: &Model| part.cut_off) {
+        if is_cut_off {
             return;
         }
         let mut part = part.clone();
         (part.model.system, part.model.codec) = (scope.model.system.clone(), scope.model.codec.clone());
-        parts.push(written_out(part, sources, &mut of_parts));
+        let part = written_out(part, sources, &mut of_parts);
+        is_cut_off = part.cut_off;
+        parts.push(part);
     });
     let mut found = Diagnostics::new();
-    let is_cut_off = parts.iter().any(|part| part.cut_off);
     let model = match is_cut_off {
         true => Model { cut_off: true, ..scope.model },
         false => written_out(scope, sources, &mut found),

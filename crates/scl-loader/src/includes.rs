@@ -5,7 +5,7 @@ use crate::paths::{plain, works_here_only};
 use crate::read::{Unreadable, read_text};
 use crate::request::Request;
 use crate::unreadable::{file_names, is_yaml, similar_file, why};
-use scl_topology::diagnostic::{Diagnostic, Diagnostics};
+use scl_topology::diagnostic::{Diagnostic, Diagnostics, Told};
 use scl_topology::groups::{Group, Scope};
 use scl_topology::join::{
     CIRCLE, ELSEWHERE, MOST_FILES, MOST_LEVELS, NO_EFFECT, TOO_MANY, UNREADABLE, is_without_effect, join,
@@ -47,7 +47,7 @@ pub(crate) fn read(
         sources,
         problems,
         parsed: HashMap::new(),
-        told: HashSet::new(),
+        told: Told::default(),
         included: Vec::new(),
         scopes: HashMap::new(),
     };
@@ -80,7 +80,7 @@ struct Reader<'r> {
     /// What each file declares that was read so far, by what the operating system calls it.
     parsed: HashMap<PathBuf, (FileId, Model)>,
     /// What is reported already: a file that becomes several groups has each problem once.
-    told: HashSet<(&'static str, Span)>,
+    told: Told,
     included: Vec<Included>,
     /// What the groups of a file contain.
     scopes: HashMap<PathBuf, Arc<Scope>>,
@@ -219,10 +219,8 @@ impl Reader<'_> {
     }
 
     fn report(&mut self, problem: Option<Diagnostic>) {
-        let Some(problem) = problem else { return };
-        let at = problem.primary.as_ref().map(|label| label.span);
-        if at.is_none_or(|at| self.told.insert((problem.code(), at))) {
-            self.problems.push(problem);
+        if let Some(problem) = problem {
+            self.told.push(problem, self.problems);
         }
     }
 

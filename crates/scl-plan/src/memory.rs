@@ -145,6 +145,7 @@ fn shortest_limit<'o>(gates: impl Iterator<Item = &'o GateOptions>) -> Option<u6
     gates.map(|gate| gate.max_size).min()
 }
 
-fn sum(numbers: impl IntoIterator<Item = u64>) -> u64 {
+/// The sum of numbers of bytes, or `u64::MAX` if it exceeds 64 bits.
+pub fn sum(numbers: impl IntoIterator<Item = u64>) -> u64 {
     numbers.into_iter().fold(0, u64::saturating_add)
 }

@@ -7,6 +7,7 @@ mod render;
 mod rule;
 #[cfg(test)]
 mod testing;
+mod told;
 
 use crate::source::Span;
 use std::borrow::Cow;
@@ -17,6 +18,7 @@ pub(crate) use limit::{RULE as TOO_MANY, first};
 pub use list_edit::{appended, new_list, separator};
 pub use render::{render, render_headless, render_styled};
 pub use rule::{Rule, Severity};
+pub use told::Told;
 
 /// A place with a short text about it.
 #[derive(Debug, Clone, PartialEq, Eq)]

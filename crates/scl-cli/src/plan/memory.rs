@@ -1,7 +1,7 @@
 //! `scl plan --memory`: the most that SCL holds in memory for each gate, as a table or as JSON.
 
 use crate::format::FormatArgument;
-use scl_plan::memory::GateMemory;
+use scl_plan::memory::{GateMemory, sum};
 use scl_plan::{GateKind, GateOptions};
 use scl_terminal::{Table, print_err};
 use scl_text::list::listed;
@@ -42,7 +42,7 @@ impl<'t> Held<'t> {
     }
 
     fn sum(&self, of: impl Fn(&GateMemory) -> u64) -> u64 {
-        self.gates.iter().fold(0, |sum, held| sum.saturating_add(of(&held.memory)))
+        sum(self.gates.iter().map(|held| of(&held.memory)))
     }
 
     fn total(&self) -> u64 {
@@ -57,7 +57,7 @@ impl<'t> Held<'t> {
 }
 
 fn system_total(held: &[Held<'_>]) -> u64 {
-    held.iter().fold(0, |sum, held| sum.saturating_add(held.total()))
+    sum(held.iter().map(Held::total))
 }
 
 /// All numbers are bytes, except `messages`.

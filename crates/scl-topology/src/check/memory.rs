@@ -11,7 +11,7 @@ use crate::topology::GateKind;
 use crate::work;
 use fitting::{Limit, proposal};
 use scl_plan::GateOptions;
-use scl_plan::memory::GateMemory;
+use scl_plan::memory::{GateMemory, sum};
 use scl_text::size;
 use std::collections::HashSet;
 
@@ -114,7 +114,7 @@ struct Held {
 }
 
 fn total(held: &[Held]) -> u64 {
-    held.iter().fold(0, |sum, held| sum.saturating_add(held.memory.total()))
+    sum(held.iter().map(|held| held.memory.total()))
 }
 
 /// The gates, and those at the other ends of their connections.

@@ -51,7 +51,7 @@ impl<'a> Names<'a> {
 
     /// Whether the scope has a component or kind of this name, or nobody need ask because it has no groups.
     pub(super) fn knows(&self, owner: &str) -> bool {
-        self.groups.is_empty() || self.components.contains_key(owner) || self.kinds.contains_key(owner)
+        self.has_kind(owner) || self.components.contains_key(owner)
     }
 
     /// Whether the scope declares a kind of this name, or nobody need ask because it has no groups.

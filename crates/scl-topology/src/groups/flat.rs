@@ -4,7 +4,7 @@ use super::ends::{Known, Names};
 use super::export::{Export, Exports};
 use super::lift::{Origin, lift};
 use super::{Scope, rules};
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Told};
 use crate::join::add_paths;
 use crate::kinds::{MOST, each_end, each_of, too_many};
 use crate::model::{ComponentModel, ExportModel, GroupModel, Model};
@@ -27,7 +27,7 @@ pub fn flatten(scope: Scope, sources: &Sources, problems: &mut Diagnostics) -> M
         files: HashSet::new(),
         exports: Vec::new(),
         used: HashSet::new(),
-        told: HashSet::new(),
+        told: Told::default(),
         left: MOST,
         searches: Searches::default(),
         sources,
@@ -56,7 +56,7 @@ struct Flat<'a> {
     /// The places of the exports that are connected in one of the groups.
     used: HashSet<Span>,
     /// What is reported already, for another group of the same file.
-    told: HashSet<(&'static str, Span)>,
+    told: Told,
     /// How many groups, gates and connections groups may still stand for.
     left: usize,
     searches: Searches,
@@ -289,10 +289,7 @@ impl Flat<'_> {
 
     /// Reports a problem once, although the file may have become several groups.
     fn report(&mut self, problem: Diagnostic) {
-        let at = problem.primary.as_ref().map(|label| label.span);
-        if at.is_none_or(|at| self.told.insert((problem.code(), at))) {
-            self.problems.push(problem);
-        }
+        self.told.push(problem, self.problems);
     }
 }
 

@@ -179,7 +179,7 @@ impl Reader<'_> {
                 key if fields.get("name").is_none() && shape::unknown_key::is_misnamed(key) => {}
                 "doc" => component.doc = self.text(*field),
                 "optional" => component.optional = self.boolean(*field),
-                grammar::MEMORY => component.memory = self.size(*field, grammar::MEMORY_SHAPE),
+                grammar::MEMORY => component.memory = self.shaped(*field, grammar::MEMORY_SHAPE),
                 key if key == grammar::KIND && self.reads == Entry::Component => {
                     component.kind = self.name_in(*field, "kind");
                     has_kind = true;

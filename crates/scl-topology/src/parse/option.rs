@@ -67,12 +67,8 @@ impl Reader<'_> {
         self.shaped(field, Shape::Boolean).map(|value| value.value == "true")
     }
 
-    /// A number of bytes with its unit, as written.
-    pub(super) fn size(&mut self, field: Field<'_>, shape: Shape) -> Option<Spanned<String>> {
-        self.shaped(field, shape)
-    }
-
-    fn shaped(&mut self, field: Field<'_>, expected: Shape) -> Option<Spanned<String>> {
+    /// A value of this shape, as written.
+    pub(super) fn shaped(&mut self, field: Field<'_>, expected: Shape) -> Option<Spanned<String>> {
         let problem = match &field.value.kind {
             NodeKind::Unread => return None,
             _ if super::name::is_empty(field.value) => {
