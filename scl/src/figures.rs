@@ -66,9 +66,11 @@ impl GateFigures {
     /// Fills in what is known of each connection of a gate whose peers share an endpoint.
     pub(crate) fn share(&mut self) {
         let all = self.connections.len() as u64;
+        let of_each = |count: u64| if all == 1 { count } else { 0 };
+        let (taken, missed) = (of_each(self.received), of_each(self.missed));
         for connection in &mut self.connections {
             connection.connected = self.peers >= all;
-            connection.taken = if all == 1 { self.received } else { 0 };
+            (connection.taken, connection.missed) = (taken, missed);
         }
     }
 

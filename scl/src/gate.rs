@@ -4,6 +4,7 @@ mod call_wakers;
 mod catch_up;
 mod connection;
 mod decoder;
+mod due;
 mod encoding;
 mod exchange;
 mod fanout;

@@ -11,6 +11,8 @@ mod conformance_memory;
 #[cfg(all(feature = "conformance", feature = "zeromq"))]
 mod conformance_zeromq;
 #[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
+mod due;
+#[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
 mod full_queue;
 #[cfg(all(feature = "conformance", feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
 mod guarantees;

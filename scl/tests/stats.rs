@@ -213,7 +213,7 @@ fn a_read_is_never_torn() {
         threads.spawn(|| {
             use std::os::unix::fs::FileExt;
             let file = fs::File::options().write(true).open(&path).unwrap();
-            let (end, gates) = (block.len() - 8, 64);
+            let (end, gates) = (block.len() - 8, 72);
             for number in 1_u64.. {
                 // All counts of a gate are the number of the write.
                 for at in (gates..gates + 96).step_by(8) {

@@ -89,7 +89,7 @@ fn gates_are_shown_with_their_peers() {
           kind req
           type rover.Command -> rover.Status
           codec protobuf
-          timeout 0 s
+          timeout 0s
           max_size 0 MiB
           contract wfqclrav
           declared topology.yaml:25:9

@@ -25,6 +25,8 @@ mod diff;
 #[cfg(feature = "observe")]
 mod doctor;
 #[cfg(feature = "observe")]
+mod due;
+#[cfg(feature = "observe")]
 mod echo;
 mod expand;
 mod explain;

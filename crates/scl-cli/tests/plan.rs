@@ -199,6 +199,8 @@ fn the_format_is_documented() {
         "gates:\n      - ask: {req: A -> B, unconnected: ok}\n      - measurements",
     );
     let yaml = yaml
+        .replace("codec: json}", "codec: json, rate: 100Hz}")
+        .replace("codec: json, queue: 1}", "codec: json, queue: 1, deadline: 1s}")
         .replace("components:\n", "kinds:\n  - {name: lamp, gates: []}\ncomponents:\n  - {name: red, kind: lamp}\n");
     let text = String::from_utf8(scl_plan(&[("topology.yaml", &yaml)], &[]).stdout).unwrap();
     let keys = text.lines().filter_map(|line| line.trim().strip_prefix('"')?.split_once("\":"));

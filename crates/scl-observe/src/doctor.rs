@@ -6,6 +6,7 @@ mod descriptors;
 mod environment;
 mod folder;
 mod limits;
+mod missed;
 mod peers;
 mod processors;
 mod real_time;
@@ -71,12 +72,13 @@ pub fn examine(
     let systems = systems.into_iter().map(|system| (system.components(), system));
     let systems = systems.map(|(components, system)| (system, components)).collect();
     let examined = Examined { variables, systems };
-    let checks: [fn(&Examined<'_>) -> Vec<Finding>; 10] = [
+    let checks: [fn(&Examined<'_>) -> Vec<Finding>; 11] = [
         environment::check,
         folder::check,
         components::check,
         peers::check,
         undecodable::check,
+        missed::check,
         descriptors::check,
         limits::check,
         real_time::check,

@@ -98,6 +98,8 @@ fn options_to_json(plan: &GatePlan) -> Value {
         "when_full": options.when_full.word(),
         "backpressure": options.backpressure,
         "timeout_s": options.timeout.as_secs_f64(),
+        "period_s": options.period.map(|period| period.as_secs_f64()),
+        "deadline_s": options.deadline.map(|deadline| deadline.as_secs_f64()),
     })
 }
 
@@ -118,6 +120,7 @@ fn connection_to_json(figures: &ConnectionFigures) -> Value {
         "in_flight": figures.in_flight,
         "taken": figures.taken,
         "latched": figures.latched,
+        "missed": figures.missed,
         "replaced": figures.replaced,
         "dropped": figures.dropped,
         "lost": figures.lost,
@@ -140,6 +143,7 @@ fn figures_to_json(plan: &GatePlan, figures: &GateFigures) -> Value {
         "lost": figures.lost,
         "rejected": figures.rejected,
         "undecodable": figures.undecodable,
+        "missed": figures.missed,
         "last_activity": figures.last_activity.map(timestamp),
     })
 }

@@ -45,6 +45,11 @@ gate_options! {
     /// What a receiving call does with a message that the codec cannot read. It has an effect for `sub`, `pull` and
     /// `rep`.
     undecodable "undecodable": Undecodable(Undecodable) = Undecodable::Skip,
+    /// The time from one message to the next that the gate promises: more than zero, at most a day. It has an effect
+    /// for `pub` and `push`.
+    period "period_ns": Interval(Option<Duration>) = None,
+    /// How often the gate needs a message of each peer, in the same range. It has an effect for `sub` and `pull`.
+    deadline "deadline_ns": Interval(Option<Duration>) = None,
 }
 
 impl GateOptions {
@@ -94,6 +99,8 @@ pub enum OptionAccess {
     Size(fn(&mut GateOptions) -> &mut u64),
     /// A duration; nanoseconds in JSON.
     Duration(fn(&mut GateOptions) -> &mut Duration),
+    /// A duration that need not be declared; nanoseconds in JSON, which lacks it then.
+    Interval(fn(&mut GateOptions) -> &mut Option<Duration>),
     /// A switch.
     Flag(fn(&mut GateOptions) -> &mut bool),
     /// A queue policy.

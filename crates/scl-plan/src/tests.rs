@@ -191,6 +191,17 @@ fn plans_come_back_from_their_text() {
 }
 
 #[test]
+fn times_between_messages_come_back_from_their_text() {
+    let mut system = rover();
+    let options = &mut system.components[0].gates[0].options;
+    (options.period, options.deadline) = (Some(Duration::from_millis(10)), Some(Duration::from_secs(24 * 60 * 60)));
+    let text = system.to_json();
+    assert_eq!(text.matches("\"period_ns\": 10000000").count(), 1, "{text}");
+    assert_eq!(text.matches("\"deadline_ns\": 86400000000000").count(), 1, "{text}");
+    assert_eq!(SystemPlan::from_json(&text).unwrap(), system);
+}
+
+#[test]
 fn an_option_that_is_missing_has_its_default() {
     let text = rover().to_json();
     let older = text.replace("\"in_flight\": 1,", "").replace("\"undecodable\": \"skip\",", "");
@@ -239,6 +250,8 @@ fn errors_say_what_is_wrong_and_where() {
         ("\"in_flight\": 1", "\"in_flight\": 0"),
         ("\"timeout_ns\": 1500000000", "\"timeout_ns\": 0"),
         ("\"timeout_ns\": 1500000000", "\"timeout_ns\": 18446744073709551615"),
+        ("\"in_flight\": 1", "\"in_flight\": 1, \"period_ns\": 0"),
+        ("\"in_flight\": 1", "\"in_flight\": 1, \"deadline_ns\": 86400000000001"),
         ("\"schema\": \"1a2b\"", "\"schema\": \"1a2c\""),
         ("\"AP8HCg==\"", "\"AP8HCg=\""),
         ("\"name\": \"sub_gate\"", "\"name\": \"pub_gate\""),
@@ -271,6 +284,8 @@ fn errors_say_what_is_wrong_and_where() {
         gate `controller.pub_gate` allows no call to be in progress
         gate `controller.pub_gate` has a timeout of zero or of more than a day
         gate `controller.pub_gate` has a timeout of zero or of more than a day
+        gate `controller.pub_gate` has a period or a deadline of zero or of more than a day
+        gate `controller.pub_gate` has a period or a deadline of zero or of more than a day
         `components[0].schema` refers to `1a2c`, which is not in `schemas`
         `schemas.1a2b` must be bytes in Base64, but it is "AP8HCg="
         gate `controller.pub_gate` is declared twice

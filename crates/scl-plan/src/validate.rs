@@ -7,8 +7,9 @@ use crate::system::SystemPlan;
 use std::collections::{HashMap, HashSet};
 use std::time::Duration;
 
-/// The longest timeout of a call: a day. Far longer ones could not be added to a time.
-const LONGEST_TIMEOUT: Duration = Duration::from_secs(24 * 60 * 60);
+/// The longest timeout of a call, and the longest time between messages: a day. Far longer ones could not be added to a
+/// time.
+const LONGEST: Duration = Duration::from_secs(24 * 60 * 60);
 
 impl SystemPlan {
     /// Checks each component, that names are unique, and that the components of a kind have the same gates.
@@ -89,9 +90,15 @@ fn validate_gate(part: &str, gate: &GatePlan) -> Result<(), PlanError> {
     ensure(gate.options.in_flight > 0, part, "allows no call to be in progress")?;
     ensure(gate.options.max_size > 0, part, "accepts messages of 0 bytes only")?;
     ensure(
-        !gate.options.timeout.is_zero() && gate.options.timeout <= LONGEST_TIMEOUT,
+        !gate.options.timeout.is_zero() && gate.options.timeout <= LONGEST,
         part,
         "has a timeout of zero or of more than a day",
+    )?;
+    let mut intervals = gate.options.period.iter().chain(&gate.options.deadline);
+    ensure(
+        intervals.all(|interval| !interval.is_zero() && *interval <= LONGEST),
+        part,
+        "has a period or a deadline of zero or of more than a day",
     )?;
     let one_replier = kind != GateKind::Req || gate.connections.len() <= 1;
     ensure(one_replier, part, "is a `req` gate with several repliers")?;

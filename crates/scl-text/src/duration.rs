@@ -1,5 +1,6 @@
 //! Durations as people write them: a number, perhaps with a fraction, and a unit, for example `1.5s`.
 
+use crate::number::{decimal, split};
 use std::time::Duration;
 
 /// The units, each with its seconds, the smallest first.
@@ -48,10 +49,7 @@ impl DurationError {
 /// The text is not a number and a unit, or is out of the range of [`Duration`].
 pub fn parse(text: &str) -> Result<Duration, DurationError> {
     let (number, unit) = split(text);
-    let digits = number.strip_prefix(['-', '+']).unwrap_or(number);
-    // `parse` also accepts exponents, `inf` and `nan`.
-    let is_decimal = digits.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
-    let number: f64 = number.parse().ok().filter(|_| is_decimal).ok_or(DurationError::NoNumber)?;
+    let number = decimal(number).ok_or(DurationError::NoNumber)?;
     let seconds = match UNITS.iter().find(|(word, _)| *word == unit) {
         Some((_, seconds)) => number * seconds,
         None if unit.is_empty() => return Err(DurationError::NoUnit),
@@ -89,12 +87,6 @@ pub fn text(duration: Duration) -> String {
         _ => (1, "us"),
     };
     format!("{}{unit}", microseconds / factor)
-}
-
-/// The number, which may be malformed, and the unit, without the spaces between them.
-fn split(text: &str) -> (&str, &str) {
-    let (number, unit) = text.split_at(text.find(|letter: char| letter.is_alphabetic()).unwrap_or(text.len()));
-    (number.trim(), unit)
 }
 
 #[cfg(test)]

@@ -62,6 +62,7 @@ mod suspect;
 mod system_name;
 #[cfg(test)]
 pub(crate) mod testing;
+mod time;
 #[cfg(test)]
 mod together;
 mod twin_gate;
@@ -148,6 +149,9 @@ pub(crate) const RULES: &[&Rule] = &[
     &path_length::RULE,
     &shared_socket::RULE,
     &memory::RULE,
+    &time::TOO_SHORT,
+    &time::NO_PROMISE,
+    &time::TWICE,
     &control::UNKNOWN_CODE,
     &control::NO_EFFECT,
     &control::FIXED,
@@ -235,6 +239,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     feedback::check(&draft, problems);
     short_timeout::check(&draft, problems);
     memory::check(&draft, problems);
+    time::check(&draft, problems);
     island::check(&draft, problems);
     path_length::check(&draft, &facts.sockets, &system, problems);
     let connection_room = facts.sockets.connection_room(&system);

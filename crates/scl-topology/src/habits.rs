@@ -135,10 +135,11 @@ pub(crate) static COMPONENT: Table = Table::new(&[
         "`kind` gives a component the gates of one of the `kinds`",
     ),
     habit(
-        "stacksize stack period rate frequency language",
+        "stacksize stack language",
         &[],
         "a component has only a name, gates and a text; what its program does stands in the program",
     ),
+    habit("period rate frequency", &[], "`rate` and `period` are options of a gate that sends"),
 ]);
 
 /// In the place of an option of a gate: ROS, DDS, ZeroMQ, MQTT, Kafka, gRPC, AsyncAPI.
@@ -172,7 +173,7 @@ pub(crate) static GATE: Table = Table::new(&[
         "a publisher with `latched: true` keeps its last message for subscribers that join later",
     ),
     habit(
-        "deadline requesttimeout calltimeout responsetimeout rpctimeout timeoutms timeouts replytimeout maxwait rcvtimeo wait",
+        "requesttimeout calltimeout responsetimeout rpctimeout timeoutms timeouts replytimeout maxwait rcvtimeo wait",
         &["timeout"],
         "",
     ),
@@ -207,11 +208,9 @@ pub(crate) static GATE: Table = Table::new(&[
         &[],
         "gates need no topics and no addresses: an entry of `connections` joins two gates, `[component.gate, component.gate]`",
     ),
-    habit(
-        "rate frequency period hz interval cycle cycletime ratehz",
-        &[],
-        "how often a gate sends is decided by its program; `doc` can tell it to readers",
-    ),
+    habit("frequency hz ratehz fps publishrate samplerate", &["rate"], ""),
+    habit("interval cycle cycletime every periodms publishperiod", &["period"], ""),
+    habit("maxperiod maxinterval", &["deadline"], ""),
     habit("retries retry maxretries attempts backoff", &[], "there is no option for retries: the program calls again"),
     habit(
         "type msgtype msg message messagetype schema datatype payload interface",
@@ -245,7 +244,10 @@ static PARTS: Table = Table::new(&[
     ),
     habit("size", &["queue", "max_size"], ""),
     habit("bytes", &["max_size"], ""),
-    habit("timeout deadline", &["timeout"], ""),
+    habit("timeout", &["timeout"], ""),
+    habit("deadline", &["deadline"], ""),
+    habit("rate frequency", &["rate"], ""),
+    habit("period interval", &["period"], ""),
     habit("inflight outstanding concurrent concurrency", &["in_flight"], ""),
     habit("full overflow overrun policy drop discard", &["when_full"], ""),
     habit("latched latch retain retained durability", &["latched"], ""),

@@ -58,6 +58,10 @@ fn expand_option(private: &TokenStream, options: &GateOptions, access: OptionAcc
         OptionAccess::Number(get) => changed(options, get)?.to_token_stream(),
         OptionAccess::Size(get) => changed(options, get)?.to_token_stream(),
         OptionAccess::Duration(get) => expand_duration(private, changed(options, get)?),
+        OptionAccess::Interval(get) => {
+            let interval = expand_duration(private, changed(options, get)??);
+            quote!(::core::option::Option::Some(#interval))
+        }
         OptionAccess::Flag(get) => changed(options, get)?.to_token_stream(),
         OptionAccess::Policy(get) => {
             let policy = variant(changed(options, get)?);

@@ -1,5 +1,6 @@
 //! The connections of a sending gate: each encoded message goes over all of them, or over one of them in turn.
 
+use super::due::SharedDue;
 use super::stats::{GateStats, PeerStats};
 use super::tap::{GateTap, ObservedKind};
 use super::watch::Watch;
@@ -25,6 +26,7 @@ pub(crate) struct Fanout {
     /// One per peer, in the order of `spec.connections`.
     connections: Vec<Arc<Mutex<Connection>>>,
     tap: GateTap,
+    due: SharedDue,
     may_wait: bool,
     /// Whether each message goes to one of the peers only.
     shares: bool,
@@ -71,6 +73,7 @@ impl Fanout {
             name,
             connections,
             tap,
+            due: SharedDue::promised(spec.options.period),
             may_wait,
             shares,
             turn: 0,
@@ -241,6 +244,7 @@ impl Fanout {
 
     /// Sends a message after [`Self::poll_room`] was ready.
     pub(super) fn hand_out(&mut self, message: Outbound) {
+        self.due.add();
         let message = match message {
             Outbound::Bytes(bytes) => bytes,
             Outbound::Loan(loan, lender) => return self.hand_out_loan(loan, lender),
@@ -300,13 +304,16 @@ impl Fanout {
     pub(crate) fn figures(&self) -> FigureSource {
         let connections: Vec<Weak<Mutex<Connection>>> = self.connections.iter().map(Arc::downgrade).collect();
         let (open, dropped) = (Arc::downgrade(&self.open), self.tap.dropped_later());
+        let missed_later = self.due.missed_later();
         Box::new(move |figures| {
             // Check this first: connections may outlive their gate, until their peers have taken everything.
             let is_open = open.strong_count() > 0;
             if connections.iter().any(|connection| connection.strong_count() == 0) {
                 return is_open;
             }
-            figures.set(GateFigures::default());
+            // Those of a gate that was dropped stay.
+            let missed = missed_later().unwrap_or(figures.missed);
+            figures.set(GateFigures { missed, ..GateFigures::default() });
             for (index, connection) in connections.iter().enumerate() {
                 let Some(connection) = connection.upgrade() else { continue };
                 let mut connection = lock(&connection);
@@ -326,6 +333,7 @@ impl Fanout {
     pub(crate) fn stats(&self) -> GateStats {
         GateStats::of(|figures| {
             figures.dropped_for_observers = self.tap.dropped();
+            figures.missed = self.due.missed();
             for connection in &self.connections {
                 let own = lock(connection).add_to_figures(figures);
                 figures.waiting += own.in_flight;

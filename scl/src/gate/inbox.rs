@@ -304,6 +304,7 @@ impl Inbox {
             received: self.links.received(),
             rejected: undecodable + self.links.malformed(),
             undecodable,
+            missed: self.links.missed(),
             replaced: self.queue.replaced,
             dropped_oldest: self.queue.dropped_oldest,
             dropped_newest: self.queue.dropped_newest,

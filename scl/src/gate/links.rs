@@ -1,5 +1,6 @@
 //! The links of a receiving gate, polled in turn for messages.
 
+use super::due::Due;
 use super::io_waker::{Drained, IoWaker};
 use crate::error::Missing;
 use crate::runtime_dir::GateFigures;
@@ -33,6 +34,10 @@ struct Link {
     waiting: u64,
     /// Whether a sender waits for a report of each message that leaves the queue.
     is_awaited: bool,
+    /// When the next message is due, of a gate with a deadline.
+    due: Option<Due>,
+    /// Whether nothing is due while no peer is connected.
+    is_optional: bool,
 }
 
 /// A message and the link that it came from.
@@ -45,9 +50,23 @@ pub(super) struct Arrived {
 
 impl Links {
     /// Creates the links. `io` is woken when it is worth polling them again.
-    pub(super) fn new(ends: Vec<Box<dyn Receiver>>, io: Arc<IoWaker>, changes: Changes) -> Self {
-        let to_link = |end| Link { end, peers: 0, is_latched: false, received: 0, waiting: 0, is_awaited: false };
-        let (links, waker) = (ends.into_iter().map(to_link).collect(), Waker::from(Arc::clone(&io)));
+    pub(super) fn new(spec: &GateSpec, ends: Vec<Box<dyn Receiver>>, io: Arc<IoWaker>, changes: Changes) -> Self {
+        let listens = !spec.endpoint.is_empty();
+        let to_link = |(number, end): (usize, Box<dyn Receiver>)| Link {
+            end,
+            peers: 0,
+            is_latched: false,
+            received: 0,
+            waiting: 0,
+            is_awaited: false,
+            due: spec.options.deadline.map(Due::needed),
+            is_optional: match listens {
+                true => spec.connections.iter().all(|connection| !connection.required),
+                false => spec.connections.get(number).is_some_and(|connection| !connection.required),
+            },
+        };
+        let links = ends.into_iter().enumerate().map(to_link).collect();
+        let waker = Waker::from(Arc::clone(&io));
         Self { links, next: 0, drained: Drained::new(io), waker, changes }
     }
 
@@ -85,6 +104,9 @@ impl Links {
             if let Poll::Ready(frame) = polled {
                 self.next = (number + 1) % count;
                 link.received += 1;
+                if let Some(due) = &mut link.due {
+                    due.add(Instant::now());
+                }
                 let latched = if link.is_latched { link.end.take_latched() } else { None };
                 return Poll::Ready(Arrived { link: number, frame, latched });
             }
@@ -191,6 +213,11 @@ impl Links {
         self.links.iter().map(|link| link.end.malformed()).sum()
     }
 
+    /// How many messages did not come within the gate's deadline.
+    pub(super) fn missed(&self) -> u64 {
+        self.links.iter().map(Link::missed).sum()
+    }
+
     /// Number of connected peers.
     pub(super) fn peers(&self) -> usize {
         self.links.iter().map(|link| link.end.peers()).sum()
@@ -207,6 +234,7 @@ impl Links {
     pub(super) fn add_to_figures(&self, figures: &mut GateFigures) {
         for (connection, link) in figures.connections.iter_mut().zip(&self.links) {
             (connection.connected, connection.taken) = (link.end.peers() > 0, link.received);
+            connection.missed = link.missed();
         }
     }
 }
@@ -222,7 +250,22 @@ impl Link {
         let peers = self.end.peers();
         if std::mem::replace(&mut self.peers, peers) != peers {
             self.is_latched = self.end.is_latched();
+            self.note_due();
             changes.report();
         }
+    }
+
+    /// Begins to expect messages when the first peer connects, and stops when the last one of those leaves that may be
+    /// missing.
+    fn note_due(&mut self) {
+        match &mut self.due {
+            Some(due) if self.peers > 0 => due.begin(Instant::now()),
+            Some(due) if self.is_optional => due.end(Instant::now()),
+            _ => {}
+        }
+    }
+
+    fn missed(&self) -> u64 {
+        self.due.as_ref().map_or(0, |due| due.missed(Instant::now()))
     }
 }

@@ -27,6 +27,9 @@ pub struct GateStats {
     pub rejected: u64,
     /// Rejected messages that the codec could not read; see the option `undecodable`.
     pub undecodable: u64,
+    /// Messages that did not come when they were due: those that a sending gate did not send in the `rate` or `period`
+    /// that it promises, those that a receiving gate did not get within its `deadline`, each sender counted.
+    pub missed: u64,
     /// Bytes of the messages sent or received.
     pub bytes: u64,
     /// Messages that wait in this program for a peer or for a receiving call.
@@ -85,6 +88,7 @@ impl GateStats {
             lost: figures.lost,
             rejected: figures.rejected,
             undecodable: figures.undecodable,
+            missed: figures.missed,
             bytes: figures.bytes,
             waiting: figures.waiting as usize,
             peers: figures.peers as usize,

@@ -60,6 +60,8 @@ pub struct GateFigures {
     pub rejected: u64,
     /// Rejected messages that the codec could not read.
     pub undecodable: u64,
+    /// Messages that were not sent in the promised period, or not received within the deadline.
+    pub missed: u64,
     /// Bytes of the messages sent or received.
     pub bytes: u64,
     /// Messages that wait in the program's queues.
@@ -99,6 +101,9 @@ pub struct ConnectionFigures {
     pub in_flight: u64,
     /// How often the last message of a gate with `latched: true` was sent once more, to a subscriber that joined.
     pub latched: u64,
+    /// Messages that a gate that receives did not get from this peer within its deadline, or 0 if that is not known
+    /// because several peers share an endpoint.
+    pub missed: u64,
 }
 
 impl ConnectionFigures {

@@ -6,6 +6,7 @@ use scl::runtime_dir::GateFigures;
 use scl_observe::{Component, Peer, connected_peers, message_count, peers};
 use scl_plan::{GateKind, GatePlan};
 use scl_terminal::{Table, age_text, bytes_text, three_digits};
+use scl_text::duration;
 use std::time::SystemTime;
 
 impl Reading {
@@ -80,7 +81,8 @@ impl Reading {
             None => facts.row(["figures", &self.figures_text()]),
         }
         let peers = peers(plan, figures);
-        let peers = if peers.is_empty() { "  peers    none\n".to_owned() } else { peer_table(&peers) };
+        let has_deadline = plan.options.deadline.is_some();
+        let peers = if peers.is_empty() { "  peers    none\n".to_owned() } else { peer_table(&peers, has_deadline) };
         format!("{}.{}\n{}\n{peers}", component.name, plan.name, facts.text())
     }
 
@@ -100,6 +102,7 @@ impl Reading {
             ("lost", figures.lost),
             ("rejected", figures.rejected),
             ("undecodable", figures.undecodable),
+            ("missed", figures.missed),
             ("tap drops", figures.tap_dropped),
         ] {
             if count > 0 {
@@ -145,15 +148,19 @@ fn options(plan: &GatePlan) -> Vec<(&'static str, String)> {
         rows.push(("backpressure", "true".to_owned()));
     }
     if kind == GateKind::Req {
-        rows.push(("timeout", age_text(options.timeout)));
+        rows.push(("timeout", duration::text(options.timeout)));
+    }
+    for (label, interval) in [("period", options.period), ("deadline", options.deadline)] {
+        rows.extend(interval.map(|interval| (label, duration::text(interval))));
     }
     rows.push(("max_size", bytes_text(options.max_size as f64)));
     rows
 }
 
-fn peer_table(peers: &[Peer<'_>]) -> String {
-    let counts = ["QUEUE", "WAITING", "TAKEN", "REPLACED", "DROPPED", "LOST"];
-    let mut table = Table::with_headings(&["PEER", "CONNECTED"], &counts).indented(2);
+fn peer_table(peers: &[Peer<'_>], has_deadline: bool) -> String {
+    let counts = ["QUEUE", "WAITING", "TAKEN", "REPLACED", "DROPPED", "LOST", "MISSED"];
+    let shown = if has_deadline { counts.len() } else { counts.len() - 1 };
+    let mut table = Table::with_headings(&["PEER", "CONNECTED"], &counts[..shown]).indented(2);
     for peer in peers {
         let connected = match peer.connected {
             Some(true) => "yes",
@@ -161,11 +168,11 @@ fn peer_table(peers: &[Peer<'_>]) -> String {
             Some(false) => "no (optional)",
             None => "?",
         };
-        let counts = peer.figures.map(|it| [it.waiting, it.taken, it.replaced, it.dropped, it.lost]);
+        let counts = peer.figures.map(|it| [it.waiting, it.taken, it.replaced, it.dropped, it.lost, it.missed]);
         let figures =
-            counts.map_or_else(|| ["?"; 5].map(str::to_owned), |counts| counts.map(|count| count.to_string()));
+            counts.map_or_else(|| ["?"; 6].map(str::to_owned), |counts| counts.map(|count| count.to_string()));
         let start = [peer.name(), connected.to_owned(), peer.plan.queue.to_string()];
-        table.row(start.into_iter().chain(figures));
+        table.row(start.into_iter().chain(figures.into_iter().take(shown - 1)));
     }
     table.text()
 }

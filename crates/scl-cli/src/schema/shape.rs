@@ -1,6 +1,6 @@
 //! The schema of a single value.
 
-use scl_text::{duration, size};
+use scl_text::{duration, rate, size};
 use scl_topology::grammar::{Codec, Shape};
 use serde_json::{Value, json};
 
@@ -17,10 +17,8 @@ pub(super) fn shape_schema(shape: Shape) -> Value {
         Shape::Name => json!({ "type": "string", "pattern": "\\S" }),
         Shape::Codec => codec_schema(),
         Shape::Number { least, most } => json!({ "type": "integer", "minimum": least, "maximum": most }),
-        Shape::Duration { .. } => {
-            let units = duration::UNITS.map(|(unit, _)| unit).join("|");
-            json!({ "type": "string", "pattern": format!("^\\s*\\+?([0-9]+\\.?[0-9]*|\\.[0-9]+)\\s*({units})$") })
-        }
+        Shape::Duration { .. } => decimal_schema(&duration::UNITS.map(|(unit, _)| unit)),
+        Shape::Rate { .. } => decimal_schema(&rate::UNITS.map(|(unit, _)| unit)),
         Shape::Size { .. } => {
             let units = size::UNITS.map(|(unit, _)| unit).join("|");
             json!({ "type": "string", "pattern": format!("^\\s*\\+?[0-9]+\\s*({units})\\s*$") })
@@ -33,6 +31,12 @@ pub(super) fn shape_schema(shape: Shape) -> Value {
         }
         Shape::List(_) => json!({ "type": "array" }),
     }
+}
+
+/// A number, perhaps with a fraction, and one of these units.
+fn decimal_schema(units: &[&str]) -> Value {
+    let units = units.join("|");
+    json!({ "type": "string", "pattern": format!("^\\s*\\+?([0-9]+\\.?[0-9]*|\\.[0-9]+)\\s*({units})$") })
 }
 
 /// A codec of the framework, or a Rust path to one of the user's own.

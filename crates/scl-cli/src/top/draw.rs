@@ -109,7 +109,10 @@ fn draw_details(frame: &mut Frame<'_>, area: Rect, gate: &GateRow, view: &View) 
         .figures
         .as_ref()
         .map_or("rejected -".to_owned(), |it| format!("rejected {}  undecodable {}", it.rejected, it.undecodable));
-    let about = format!("{}  {}  {}  {bytes}  {counts}", gate.name(), gate.payload, gate.codec);
+    // Only gates that declare a time miss messages.
+    let missed = gate.figures.as_ref().map(|it| it.missed).filter(|missed| *missed > 0);
+    let missed = missed.map_or(String::new(), |missed| format!("  missed {missed}"));
+    let about = format!("{}  {}  {}  {bytes}  {counts}{missed}", gate.name(), gate.payload, gate.codec);
     let about = Line::styled(escape(&about).into_owned(), Modifier::BOLD);
     let connections = gate.connections.iter().enumerate().map(|(index, connection)| {
         let (word, colour) = match connection.connected {
@@ -125,9 +128,11 @@ fn draw_details(frame: &mut Frame<'_>, area: Rect, gate: &GateRow, view: &View) 
                 ("replaced", it.replaced),
                 ("dropped", it.dropped),
                 ("lost", it.lost),
+                ("missed", it.missed),
             ];
-            // Only a connection with `queue: 1` replaces messages.
-            let shown = counts.into_iter().filter(|(word, count)| *word != "replaced" || *count > 0);
+            // Only a connection with `queue: 1` replaces messages, and only one with a deadline misses some.
+            let is_rare = |word: &str| matches!(word, "replaced" | "missed");
+            let shown = counts.into_iter().filter(|(word, count)| !is_rare(word) || *count > 0);
             shown.map(|(word, count)| format!("  {word} {count}")).collect()
         });
         let peer = format!("  {}  ", escape(&connection.peer));

@@ -4,6 +4,7 @@ use crate::comment;
 use crate::system::{Component, Gate, System};
 use crate::writer::Writer;
 use scl_plan::{GateOptions, OptionAccess, Payload};
+use std::time::Duration;
 
 /// Writes a docstring.
 pub(super) fn write(text: &str, out: &mut Writer) {
@@ -88,11 +89,16 @@ fn options(gate: &Gate) -> Vec<String> {
     codec.into_iter().chain(changed).collect()
 }
 
+fn in_words(duration: Duration) -> String {
+    format!("{duration:?}").replace('µ', "u")
+}
+
 fn value_of(access: &OptionAccess, options: &mut GateOptions) -> String {
     match access {
         OptionAccess::Number(number) => number(options).to_string(),
         OptionAccess::Size(size) => format!("{}B", size(options)),
-        OptionAccess::Duration(duration) => format!("{:?}", duration(options)).replace('µ', "u"),
+        OptionAccess::Duration(duration) => in_words(*duration(options)),
+        OptionAccess::Interval(interval) => interval(options).map_or("none".to_owned(), in_words),
         OptionAccess::Flag(flag) => flag(options).to_string(),
         OptionAccess::Policy(policy) => policy(options).word().to_owned(),
         OptionAccess::Undecodable(choice) => choice(options).word().to_owned(),

@@ -125,6 +125,9 @@ fn read_option(at: &At<'_>, access: OptionAccess, options: &mut GateOptions) -> 
         OptionAccess::Number(number) => *number(options) = at.number(u32::MAX)?,
         OptionAccess::Size(size) => *size(options) = at.number(u64::MAX)?,
         OptionAccess::Duration(duration) => *duration(options) = Duration::from_nanos(at.number(u64::MAX)?),
+        OptionAccess::Interval(interval) => {
+            *interval(options) = Some(Duration::from_nanos(at.number(u64::MAX)?));
+        }
         OptionAccess::Flag(flag) => *flag(options) = at.flag()?,
         OptionAccess::Policy(policy) => *policy(options) = at.word(&WhenFull::WORDS, WhenFull::of)?,
         OptionAccess::Undecodable(choice) => *choice(options) = at.word(&Undecodable::WORDS, Undecodable::of)?,

@@ -8,6 +8,7 @@ use crate::system::{KindPlan, SystemPlan};
 use crate::version::VERSION;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::collections::BTreeMap;
+use std::time::Duration;
 
 impl SystemPlan {
     /// The plans as JSON, indented, with a line break at the end.
@@ -49,6 +50,11 @@ impl Serialize for Schema {
     }
 }
 
+/// `validate` rejects durations that do not fit: more than 584 years.
+fn nanoseconds(duration: Duration) -> u64 {
+    u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX)
+}
+
 impl Serialize for GateOptions {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut options = self.clone();
@@ -58,10 +64,12 @@ impl Serialize for GateOptions {
                 OptionAccess::Number(number) => map.serialize_entry(field.json, number(&mut options)),
                 OptionAccess::Size(size) => map.serialize_entry(field.json, size(&mut options)),
                 OptionAccess::Duration(duration) => {
-                    // `validate` rejects durations that do not fit (more than 584 years).
-                    let nanoseconds = u64::try_from(duration(&mut options).as_nanos()).unwrap_or(u64::MAX);
-                    map.serialize_entry(field.json, &nanoseconds)
+                    map.serialize_entry(field.json, &nanoseconds(*duration(&mut options)))
                 }
+                OptionAccess::Interval(interval) => match *interval(&mut options) {
+                    Some(interval) => map.serialize_entry(field.json, &nanoseconds(interval)),
+                    None => Ok(()),
+                },
                 OptionAccess::Flag(flag) => map.serialize_entry(field.json, flag(&mut options)),
                 OptionAccess::Policy(policy) => map.serialize_entry(field.json, policy(&mut options)),
                 OptionAccess::Undecodable(choice) => map.serialize_entry(field.json, choice(&mut options)),

@@ -2,6 +2,7 @@
 
 use scl_text::duration::{self, DurationError};
 use scl_text::list::{either, listed};
+use scl_text::rate::{self, RateError};
 use scl_text::size::{self, SizeError};
 use std::time::Duration;
 
@@ -26,6 +27,11 @@ pub enum Shape {
     Duration {
         /// The longest.
         most: Duration,
+    },
+    /// A number and a unit of [`rate`]: at most 1000 kHz.
+    Rate {
+        /// The longest time from one to the next.
+        longest: Duration,
     },
     /// A whole number and a unit of [`size`]: at least 1 byte.
     Size {
@@ -91,6 +97,7 @@ impl Shape {
         match self {
             Shape::Number { most, .. } => Some(most.to_string()),
             Shape::Duration { most } => Some(longest(most)),
+            Shape::Rate { .. } => Some(HIGHEST_RATE.to_owned()),
             Shape::Size { most } => Some(size::text(most)),
             _ => None,
         }
@@ -104,6 +111,7 @@ impl Shape {
             Shape::Duration { .. } => {
                 format!("a number and a unit: {}", either(&duration::UNITS.map(|(unit, _)| unit)))
             }
+            Shape::Rate { .. } => format!("a number and a unit: {}", either(&rate::UNITS.map(|(unit, _)| unit))),
             Shape::Size { .. } => format!("a whole number and a unit: {}", either(&size::UNITS.map(|(unit, _)| unit))),
             Shape::Boolean => "`true` or `false`".to_owned(),
             Shape::Word(words) => either(&words.iter().map(|word| word.word).collect::<Vec<_>>()),
@@ -121,6 +129,10 @@ impl Shape {
             Shape::Number { least, most } => format!("{least} to {most}"),
             Shape::Duration { most } => {
                 format!("1us to {} (units: {})", longest(most), listed(duration::UNITS.map(|(unit, _)| unit)))
+            }
+            Shape::Rate { longest: most } => {
+                let units = listed(rate::UNITS.map(|(unit, _)| unit));
+                format!("once in {} to {HIGHEST_RATE} (units: {units})", longest(most))
             }
             Shape::Size { most } => {
                 format!("1B to {} (units: {})", size::text(most), listed(size::UNITS.map(|(unit, _)| unit)))
@@ -145,6 +157,7 @@ impl Shape {
             Shape::Number { .. } => is_plain && is_whole_number(text),
             Shape::Boolean => is_plain && matches!(text, "true" | "false"),
             Shape::Duration { .. } => duration::parse(text).map_or_else(DurationError::is_out_of_range, |_| true),
+            Shape::Rate { .. } => rate::parse(text) != Err(RateError::Malformed),
             Shape::Size { .. } => size::parse(text) != Err(SizeError::Malformed),
             Shape::Word(words) => words.iter().any(|known| known.word == text),
             Shape::Text | Shape::Name | Shape::Codec => true,
@@ -182,6 +195,19 @@ pub(super) fn duration(text: &str, most: Duration) -> Result<Duration, OutOfRang
         Ok(duration) if duration > most => Err(above(format!("at most {}", longest(most)))),
         Err(DurationError::TooLarge) => Err(above(format!("at most {}", longest(most)))),
         Ok(_) | Err(_) => Err(below("more than 0".to_owned())),
+    }
+}
+
+/// One message in the [`SHORTEST`] time.
+const HIGHEST_RATE: &str = "1000kHz";
+
+/// Reads a rate and checks its range. Returns the time from one to the next.
+pub(super) fn rate(text: &str, most: Duration) -> Result<Duration, OutOfRange> {
+    match rate::parse(text) {
+        Ok(period) if (SHORTEST..=most).contains(&period) => Ok(period),
+        Ok(period) if period < SHORTEST => Err(above(format!("at most {HIGHEST_RATE}"))),
+        Err(RateError::Malformed | RateError::NotPositive) => Err(below("more than 0".to_owned())),
+        Ok(_) | Err(RateError::TooLow) => Err(below(format!("at least once in {}", longest(most)))),
     }
 }
 

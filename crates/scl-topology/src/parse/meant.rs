@@ -7,7 +7,7 @@ use crate::habits;
 use crate::suggest::similar;
 use crate::yaml::{Node, NodeKind};
 use product::product;
-use scl_text::{duration, size};
+use scl_text::{duration, rate, size};
 use std::time::Duration;
 
 /// The values that may be meant, and whether the only one certainly is.
@@ -59,6 +59,7 @@ fn of_text(key: &str, text: &str, shape: Shape) -> Meant {
     let (values, is_certain) = match shape {
         Shape::Number { .. } => numbers(text),
         Shape::Duration { .. } => durations(text),
+        Shape::Rate { .. } => (rate::meant(text).into_iter().collect(), true),
         Shape::Size { .. } => sizes(text),
         Shape::Boolean => match habits::boolean(text) {
             Some(word) => (vec![word.to_owned()], true),

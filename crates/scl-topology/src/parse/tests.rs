@@ -83,17 +83,17 @@ fn every_key() {
         expect![[r#"
             Some("rover") ["rover.proto"] Some("protobuf")
             sensor optional Some("Reads the inertial unit.")
-              measurements: pub Some("rover.Measurement") doc=One reading per period.
+              measurements: pub Some("rover.Measurement") rate=100Hz doc=One reading per period.
               log: pub Some("rover.Event")
             actuator None
               setpoint: sub Some("rover.Setpoint") queue=1
               log: pub Some("rover.Event")
             controller None
-              sensor: sub Some("rover.Measurement") queue=1
+              sensor: sub Some("rover.Measurement") queue=1 deadline=20ms
               actuator: pub None
               events: pub Some("rover.Event") backpressure=true codec=my_crate::Flat
               commands: rep Some("rover.Command -> rover.Status") unconnected=ok
-              work: push Some("rover.Job") share=true
+              work: push Some("rover.Job") share=true period=1s
               log: pub Some("rover.Event")
             user_interface None
               events: sub Some("rover.Event") queue=1000 when_full=wait max_size=8MiB

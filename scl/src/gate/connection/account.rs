@@ -63,6 +63,7 @@ impl Connection {
             replaced,
             in_flight: not_received,
             latched: self.account.latched,
+            missed: 0,
         };
         all.activity.add_to(gate);
         gate.sent += all.sent;

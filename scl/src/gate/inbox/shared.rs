@@ -32,7 +32,7 @@ impl SharedInbox {
     ) -> Self {
         let io = Arc::new(IoWaker::default());
         state.register_calls(Arc::downgrade(&io) as _);
-        let links = Links::new(links, Arc::clone(&io), state.changes());
+        let links = Links::new(spec, links, Arc::clone(&io), state.changes());
         let inbox = Arc::new(Mutex::new(Inbox::new(spec, links, tap)));
         state.register_receiving(Arc::downgrade(&inbox) as _);
         let task_io = Arc::clone(&io);

@@ -5,7 +5,9 @@ use bytes::{Buf, BufMut};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 const MAGIC: &[u8; 8] = b"SCLSTATS";
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
+/// The version before the length of each record was in the header.
+const FIXED: u32 = 2;
 
 /// Offsets of *begin* and of the body.
 pub(super) const BEGIN: usize = 16;
@@ -13,9 +15,12 @@ pub(super) const BODY: usize = 24;
 /// Length of a counter.
 pub(super) const COUNTER: usize = 8;
 
-const HEADER: usize = 64;
-const GATE: usize = 120;
-const CONNECTION: usize = 64;
+const HEADER: usize = 72;
+const GATE: usize = 128;
+const CONNECTION: usize = 72;
+/// The lengths in version 2: what a record has at least.
+const FIXED_GATE: usize = 120;
+const FIXED_CONNECTION: usize = 64;
 
 /// Writes the whole block into `block`, which is emptied first; both counters are `counter`.
 pub(super) fn encode(stats: &ComponentStats, counter: u64, block: &mut Vec<u8>) {
@@ -33,6 +38,8 @@ pub(super) fn encode(stats: &ComponentStats, counter: u64, block: &mut Vec<u8>) 
     block.put_u32_le(stats.pid);
     block.put_u32_le(stats.ready.into());
     block.put_u32_le(count(stats.gates.len()));
+    block.put_u32_le(count(GATE));
+    block.put_u32_le(count(CONNECTION));
     block.put_u32_le(0);
     for gate in &stats.gates {
         put_gate(gate, block);
@@ -62,6 +69,7 @@ fn put_gate(gate: &GateFigures, block: &mut Vec<u8>) {
     }
     block.put_u32_le(count(gate.connections.len()));
     block.put_u32_le(0);
+    block.put_u64_le(gate.missed);
     for one in &gate.connections {
         for number in [
             u64::from(one.connected),
@@ -72,17 +80,19 @@ fn put_gate(gate: &GateFigures, block: &mut Vec<u8>) {
             one.replaced,
             one.in_flight,
             one.latched,
+            one.missed,
         ] {
             block.put_u64_le(number);
         }
     }
 }
 
-/// Reads a block. Returns `None` if it has another version, or its parts do not fit together.
+/// Reads a block, also of a release with more or fewer figures. Returns `None` if its version is unknown, or its parts
+/// do not fit together.
 pub(super) fn decode(block: &[u8]) -> Option<ComponentStats> {
     let mut rest = block.strip_prefix(MAGIC)?;
     let (version, length) = (rest.try_get_u32_le().ok()?, rest.try_get_u32_le().ok()?);
-    if version != VERSION || usize::try_from(length) != Ok(block.len()) {
+    if ![FIXED, VERSION].contains(&version) || usize::try_from(length) != Ok(block.len()) {
         return None;
     }
     let _begin = rest.try_get_u64_le().ok()?;
@@ -92,14 +102,32 @@ pub(super) fn decode(block: &[u8]) -> Option<ComponentStats> {
     let pid = rest.try_get_u32_le().ok()?;
     let ready = rest.try_get_u32_le().ok()? & 1 != 0;
     let gates = rest.try_get_u32_le().ok()?;
+    let lengths = match version {
+        FIXED => Lengths { gate: FIXED_GATE, connection: FIXED_CONNECTION },
+        _ => Lengths::read(&mut rest)?,
+    };
     let _reserved = rest.try_get_u32_le().ok()?;
     // Collecting stops at the first missing gate, so a wrong count does not cause a large allocation.
-    let gates = (0..gates).map(|_| take_gate(&mut rest)).collect::<Option<Vec<_>>>()?;
+    let gates = (0..gates).map(|_| take_gate(&mut rest, &lengths)).collect::<Option<Vec<_>>>()?;
     (rest.len() == COUNTER).then_some(ComponentStats { written, period, pid, started, ready, gates })
 }
 
-fn take_gate(rest: &mut &[u8]) -> Option<GateFigures> {
-    let mut number = || rest.try_get_u64_le().ok();
+/// The bytes of each record. What follows the known fields is of a later release; what is missing is 0.
+struct Lengths {
+    gate: usize,
+    connection: usize,
+}
+
+impl Lengths {
+    fn read(rest: &mut &[u8]) -> Option<Self> {
+        let mut length = |least| usize::try_from(rest.try_get_u32_le().ok()?).ok().filter(|length| *length >= least);
+        Some(Self { gate: length(FIXED_GATE)?, connection: length(FIXED_CONNECTION)? })
+    }
+}
+
+fn take_gate(rest: &mut &[u8], lengths: &Lengths) -> Option<GateFigures> {
+    let mut record = rest.split_off(..lengths.gate)?;
+    let mut number = || record.try_get_u64_le().ok();
     let mut gate = GateFigures {
         sent: number()?,
         received: number()?,
@@ -119,15 +147,17 @@ fn take_gate(rest: &mut &[u8]) -> Option<GateFigures> {
         0 => None,
         at => Some(time(at)?),
     };
-    gate.replaced = rest.try_get_u64_le().ok()?;
-    let connections = rest.try_get_u32_le().ok()?;
-    let _reserved = rest.try_get_u32_le().ok()?;
-    gate.connections = (0..connections).map(|_| take_connection(rest)).collect::<Option<_>>()?;
+    gate.replaced = number()?;
+    let connections = record.try_get_u32_le().ok()?;
+    let _reserved = record.try_get_u32_le().ok()?;
+    gate.missed = record.try_get_u64_le().unwrap_or(0);
+    gate.connections = (0..connections).map(|_| take_connection(rest, lengths)).collect::<Option<_>>()?;
     Some(gate)
 }
 
-fn take_connection(rest: &mut &[u8]) -> Option<ConnectionFigures> {
-    let mut number = || rest.try_get_u64_le().ok();
+fn take_connection(rest: &mut &[u8], lengths: &Lengths) -> Option<ConnectionFigures> {
+    let mut record = rest.split_off(..lengths.connection)?;
+    let mut number = || record.try_get_u64_le().ok();
     Some(ConnectionFigures {
         connected: number()? != 0,
         waiting: number()?,
@@ -137,6 +167,7 @@ fn take_connection(rest: &mut &[u8]) -> Option<ConnectionFigures> {
         replaced: number()?,
         in_flight: number()?,
         latched: number()?,
+        missed: number().unwrap_or(0),
     })
 }
 
@@ -168,6 +199,7 @@ mod tests {
             replaced: 16,
             in_flight: 17,
             latched: 19,
+            missed: 20,
         };
         let gate = GateFigures {
             sent: 1,
@@ -184,6 +216,7 @@ mod tests {
             peers: 12,
             last_activity: Some(at(3)),
             replaced: 18,
+            missed: 21,
             connections: vec![connection, ConnectionFigures::default()],
         };
         ComponentStats {
@@ -203,15 +236,19 @@ mod tests {
         let number = |at: usize| u64::from_le_bytes(block[at..at + 8].try_into().unwrap());
         let short = |at: usize| u32::from_le_bytes(block[at..at + 4].try_into().unwrap());
         assert_eq!(&block[..8], b"SCLSTATS");
-        assert_eq!((short(8), short(12) as usize), (2, block.len()));
+        assert_eq!((short(8), short(12) as usize), (3, block.len()));
         assert_eq!((number(16), number(block.len() - 8)), (0x99, 0x99));
         assert_eq!((number(24), number(32), number(40)), (1_000_000_000, 500_000_000, 2_000));
-        assert_eq!((short(48), short(52), short(56), short(60)), (77, 1, 2, 0));
-        assert_eq!((0..12).map(|index| number(64 + 8 * index)).collect::<Vec<_>>(), (1..13).collect::<Vec<_>>());
-        assert_eq!((number(64 + 96), number(64 + 104)), (3_000_000_000, 18));
-        assert_eq!((short(64 + 112), short(64 + 116)), (2, 0));
-        assert_eq!((0..8).map(|index| number(184 + 8 * index)).collect::<Vec<_>>(), [1, 12, 13, 14, 15, 16, 17, 19]);
-        assert_eq!(block.len(), 64 + 120 + 2 * 64 + 120 + 8);
+        assert_eq!((short(48), short(52), short(56)), (77, 1, 2));
+        assert_eq!((short(60), short(64), short(68)), (128, 72, 0));
+        assert_eq!((0..12).map(|index| number(72 + 8 * index)).collect::<Vec<_>>(), (1..13).collect::<Vec<_>>());
+        assert_eq!((number(72 + 96), number(72 + 104), number(72 + 120)), (3_000_000_000, 18, 21));
+        assert_eq!((short(72 + 112), short(72 + 116)), (2, 0));
+        assert_eq!(
+            (0..9).map(|index| number(200 + 8 * index)).collect::<Vec<_>>(),
+            [1, 12, 13, 14, 15, 16, 17, 19, 20]
+        );
+        assert_eq!(block.len(), 72 + 128 + 2 * 72 + 128 + 8);
     }
 
     #[test]
@@ -222,11 +259,31 @@ mod tests {
         for length in 0..block.len() {
             assert_eq!(decode(&block[..length]), None, "{length} bytes");
         }
-        for (at, wrong) in [(0, b'X'), (8, 1), (12, 0), (56, 1), (56, 3), (59, 0xff), (64 + 112, 1), (64 + 115, 0xff)] {
+        let wrong = [(0, b'X'), (8, 1), (8, 4), (12, 0), (56, 1), (56, 3), (59, 0xff), (72 + 112, 1), (72 + 115, 0xff)];
+        let lengths = [(60, 112), (60, 136), (63, 0xff), (64, 56), (64, 80), (67, 0xff)];
+        for (at, wrong) in wrong.into_iter().chain(lengths) {
             let mut block = block.clone();
             block[at] = wrong;
             assert_eq!(decode(&block), None, "{wrong} at {at}");
         }
+    }
+
+    #[test]
+    fn figures_that_a_later_release_adds_are_skipped() {
+        let (mut block, mut longer) = (Vec::new(), Vec::new());
+        encode(&stats(), 7, &mut block);
+        let mut rest = &block[..];
+        // The header, the first gate, its connections, the second gate and the counter.
+        for (length, added) in [(72, 0), (128, 16), (72, 8), (72, 8), (128, 16), (8, 0)] {
+            longer.extend_from_slice(rest.split_off(..length).unwrap());
+            longer.resize(longer.len() + added, 0xff);
+        }
+        assert_eq!(rest, b"");
+        let length = u32::try_from(longer.len()).unwrap();
+        for (at, number) in [(12, length), (60, 128 + 16), (64, 72 + 8)] {
+            longer[at..at + 4].copy_from_slice(&number.to_le_bytes());
+        }
+        assert_eq!(decode(&longer), Some(stats()));
     }
 
     #[test]

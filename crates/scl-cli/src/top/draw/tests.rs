@@ -196,6 +196,18 @@ fn a_chosen_gate_shows_its_connections() {
 }
 
 #[test]
+fn a_chosen_gate_shows_what_it_missed() {
+    let mut snapshot = snapshot();
+    let figures = snapshot.gates[0].figures.as_mut().unwrap();
+    (figures.missed, figures.connections[0].missed) = (12, 3);
+    let mut view = View::new(snapshot, Order::Name, false);
+    press(&mut view, KeyCode::Enter);
+    let shown = text(&drawn(&view, 100, 24));
+    assert!(shown.contains("undecodable 0  missed 12\n"), "{shown}");
+    assert!(shown.contains("lost 0  missed 3\n"), "{shown}");
+}
+
+#[test]
 fn no_size_is_too_small() {
     let mut view = view(true);
     press(&mut view, KeyCode::Enter);

@@ -100,7 +100,7 @@ pub(in crate::parse) fn not_text(place: &str, node: &Node) -> Diagnostic {
 
 fn label(value: &Node, expected: Shape) -> String {
     let is_size = matches!(expected, Shape::Size { .. });
-    let is_duration = matches!(expected, Shape::Duration { .. });
+    let has_unit = matches!(expected, Shape::Duration { .. } | Shape::Rate { .. });
     match &value.kind {
         // Quotes are not the mistake here: a quoted size with a unit is valid.
         NodeKind::Scalar { text, .. } if is_size && text.parse::<i64>().is_ok() => {
@@ -110,7 +110,7 @@ fn label(value: &Node, expected: Shape) -> String {
         NodeKind::Scalar { text, .. } if !value.is_plain() && expected.fits(text, true) => {
             "this is text, because of the quotes".to_owned()
         }
-        NodeKind::Scalar { text, .. } if text.parse::<i64>().is_ok() || is_duration && text.parse::<f64>().is_ok() => {
+        NodeKind::Scalar { text, .. } if text.parse::<i64>().is_ok() || has_unit && text.parse::<f64>().is_ok() => {
             "this is a number without a unit".to_owned()
         }
         NodeKind::Scalar { text, .. } if text.parse::<f64>().is_ok() => "this is not a whole number".to_owned(),

@@ -325,7 +325,7 @@ mod tests {
               |                                                    ^^^
               |
               = help: a key with a similar name exists: `queue`, for `sub` and `pull` gates
-              = note: keys of a `pub` gate: `pub`, `doc`, `codec`, `backpressure`, `latched`, `unconnected`
+              = note: keys of a `pub` gate: `pub`, `doc`, `codec`, `backpressure`, `latched`, `rate`, `period`, `unconnected`
         "#]]
         .assert_eq(&problems.join("\n"));
     }
@@ -335,14 +335,14 @@ mod tests {
         check(
             &OF_GATE,
             expect![[r#"
-            error: [SCL0212] unknown key `que` in gate `sensor.measurements`
-             --> topology.yaml:4:42
-              |
-            4 |       - measurements: {pub: Measurement, que: 4}
-              |                                          ^^^
-              |
-              = help: a key with a similar name exists: `queue`, for `sub` and `pull` gates
-              = note: keys of a `pub` gate: `pub`, `doc`, `codec`, `backpressure`, `latched`, `unconnected`"#]],
+                error: [SCL0212] unknown key `que` in gate `sensor.measurements`
+                 --> topology.yaml:4:42
+                  |
+                4 |       - measurements: {pub: Measurement, que: 4}
+                  |                                          ^^^
+                  |
+                  = help: a key with a similar name exists: `queue`, for `sub` and `pull` gates
+                  = note: keys of a `pub` gate: `pub`, `doc`, `codec`, `backpressure`, `latched`, `rate`, `period`, `unconnected`"#]],
         );
     }
 }
