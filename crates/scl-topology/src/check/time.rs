@@ -5,6 +5,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
 use crate::source::Span;
 use scl_text::duration::text;
 use scl_text::list::listed;
+use std::collections::{BTreeMap, HashSet};
 use std::time::Duration;
 
 /// SCL1801.
@@ -70,20 +71,20 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     for gate in 0..draft.gates.len() {
         problems.extend(twice(draft, gate));
     }
+    // The components of a kind share their gates, and what is wrong with them.
+    let mut seen = HashSet::new();
     // By receiver: the senders that promise nothing.
-    let mut silent: Vec<(usize, Vec<usize>)> = Vec::new();
+    let mut silent: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (sink, senders) in draft.links_by_gate().into_iter().enumerate() {
         let Some(deadline) = draft.gates[sink].options.deadline else { continue };
-        let mut without = Vec::new();
         for (_, source) in senders {
+            let (sink, source) = (draft.shared(sink), draft.shared(source));
             match promise(draft, source) {
+                _ if !seen.insert((sink, source)) => {}
                 Some(period) if period > deadline => problems.push(too_short(draft, source, sink, period, deadline)),
                 Some(_) => {}
-                None => without.push(source),
+                None => silent.entry(sink).or_default().push(source),
             }
-        }
-        if !without.is_empty() {
-            silent.push((sink, without));
         }
     }
     // A promise that seems to be missing may be one that could not be read.
@@ -109,7 +110,7 @@ fn twice(draft: &Draft<'_>, gate: usize) -> Option<Diagnostic> {
 }
 
 fn too_short(draft: &Draft<'_>, source: usize, sink: usize, period: Duration, deadline: Duration) -> Diagnostic {
-    let (sender, receiver) = (draft.path(source), draft.path(sink));
+    let (sender, receiver) = (draft.shared_path(source), draft.shared_path(sink));
     let [needed, promised] = [deadline, period].map(text);
     let key = if draft.gates[source].option("rate").is_some() { "rate" } else { "period" };
     let headline = format!("`{receiver}` needs a message every {needed}, and `{sender}` promises one every {promised}");
@@ -118,15 +119,12 @@ fn too_short(draft: &Draft<'_>, source: usize, sink: usize, period: Duration, de
         .at(headline, place(draft, sink, "deadline"), format!("at least one in {needed}"))
         .label(place(draft, source, key), format!("one in {promised}"))
         .suggest(
-            format!(
-                "write `deadline: {longer}` at `{}`, which leaves room for a late message",
-                draft.shared_path(sink)
-            ),
+            format!("write `deadline: {longer}` at `{receiver}`, which leaves room for a late message"),
             [draft.with_option(sink, "deadline", &longer)],
         );
     match key {
         "period" => found.suggest(
-            format!("or have the sender send more often: write `period: {faster}` at `{}`", draft.shared_path(source)),
+            format!("or have the sender send more often: write `period: {faster}` at `{sender}`"),
             [draft.with_option(source, "period", &faster)],
         ),
         _ => found.help("or have the sender send more often"),
@@ -135,7 +133,7 @@ fn too_short(draft: &Draft<'_>, source: usize, sink: usize, period: Duration, de
 
 fn no_promise(draft: &Draft<'_>, sink: usize, senders: &[usize]) -> Diagnostic {
     let deadline = draft.gates[sink].options.deadline.map(text).unwrap_or_default();
-    let headline = format!("nobody promises a message every {deadline} to `{}`", draft.path(sink));
+    let headline = format!("nobody promises a message every {deadline} to `{}`", draft.shared_path(sink));
     let label = |source: &usize| match draft.gates[*source].options.share {
         true => "shares its messages among pullers".to_owned(),
         false => "does not say how often it sends".to_owned(),
@@ -145,7 +143,7 @@ fn no_promise(draft: &Draft<'_>, sink: usize, senders: &[usize]) -> Diagnostic {
         .labels(senders.iter().take(MOST_NAMED).map(|source| (draft.gates[*source].declaration(), label(source))));
     let found = match senders {
         [_] => found,
-        _ => found.note(format!("senders: {}", listed(senders.iter().map(|source| draft.path(*source))))),
+        _ => found.note(format!("senders: {}", listed(senders.iter().map(|source| draft.shared_path(*source))))),
     };
     let may_promise = senders.iter().any(|source| !draft.gates[*source].options.share);
     found.help(match may_promise {
@@ -225,6 +223,31 @@ mod tests {
               = help: remove `period` or `rate`
         "#]],
         );
+    }
+
+    #[test]
+    fn the_components_of_a_kind_are_told_once() {
+        let yaml = "\
+kinds:
+  - name: motor
+    gates: [{state: {pub: T, rate: 1Hz}}, {noise: {pub: T}}]
+  - name: eye
+    gates: [{ticks: {sub: T, deadline: 6ms}}]
+components:
+  - {name: left_motor, kind: motor}
+  - {name: right_motor, kind: motor}
+  - {name: left_eye, kind: eye}
+  - {name: right_eye, kind: eye}
+  - {name: hub, gates: [{states: {sub: T, deadline: 5ms}}, {ticks: {pub: T, period: 1s}}, {noises: {sub: T, deadline: 7ms}}]}
+connections:
+  - [each motor.state, hub.states]
+  - [hub.ticks, each eye.ticks]
+  - [each motor.noise, hub.noises]
+";
+        let told = |yaml: &str| [&TOO_SHORT, &NO_PROMISE].map(|rule| advice_with(rule, yaml, &["T"])).concat();
+        expect!["`each eye.ticks` needs a message every 6ms, and `hub.ticks` promises one every 1s [write `deadline: 2s` at `each eye.ticks`, which leaves room for a late message | or have the sender send more often: write `period: 3ms` at `hub.ticks`]; `hub.states` needs a message every 5ms, and `each motor.state` promises one every 1s [write `deadline: 2s` at `hub.states`, which leaves room for a late message | or have the sender send more often]"].assert_eq(&told(yaml));
+        let silent = yaml.replace("period: 1s", "period: 1ms").replace("rate: 1Hz", "rate: 1kHz");
+        expect!["nobody promises a message every 7ms to `hub.noises` [write `rate` or `period` at the sender, for example `rate: 100Hz`]"].assert_eq(&told(&silent));
     }
 
     #[test]
