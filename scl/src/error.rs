@@ -183,6 +183,20 @@ pub enum RecvError {
         /// Its codec, as in the topology file.
         codec: &'static str,
     },
+    /// The gate has no `deadline`, so no message of its peers is ever missed.
+    #[error("gate `{gate}` has no `deadline`; declare one in the topology to be told of messages that do not come")]
+    NoDeadline {
+        /// The gate.
+        gate: GateName,
+    },
+    /// The operating system refused a timer, so the call cannot know when a message is missing.
+    #[error("gate `{gate}` cannot wait for its `deadline`: the operating system refused a timer")]
+    Timer {
+        /// The gate.
+        gate: GateName,
+        /// The operating system's error.
+        source: std::io::Error,
+    },
     /// The call could not be made, or had to stop waiting.
     #[error("gate `{gate}` did not receive")]
     Blocking {

@@ -16,6 +16,7 @@ mod io_waker;
 mod latch;
 mod links;
 mod loaned;
+mod missed;
 mod outgoing;
 mod publisher;
 mod puller;

@@ -87,6 +87,53 @@ fn nothing_is_due_while_an_optional_sender_does_not_run() {
     });
 }
 
+#[test]
+fn a_program_waits_for_messages_that_do_not_come() {
+    on_each_transport_async(|options| async move {
+        let (mut source, mut sink, _) = open(options).await;
+        exchange(&mut source, &mut sink, 0).await;
+        let (mut told, mut jobs_told) = (0, 0);
+        for _ in 0..3 {
+            // The future waits while the gate receives.
+            let (missed, jobs_missed) = (sink.often.deadline_missed(), sink.jobs.deadline_missed());
+            source.often.send(&1).await.unwrap();
+            assert_eq!(sink.often.recv().await.unwrap(), 1);
+            for (missed, told) in [(missed.await, &mut told), (jobs_missed.await, &mut jobs_told)] {
+                assert!(*missed.as_ref().unwrap() > 0);
+                *told += missed.unwrap();
+            }
+            assert!(told <= sink.often.stats().missed && jobs_told <= sink.jobs.stats().missed, "none is told twice");
+        }
+        // A future that is dropped has told nothing.
+        let before = sink.often.stats().missed;
+        until(|| sink.often.stats().missed > before).await;
+        drop(sink.often.deadline_missed());
+        told += sink.often.take_missed().unwrap();
+        assert!(told > before, "each is told");
+        assert!(sink.jobs.take_missed().unwrap() > 0);
+        assert_eq!(sink.seldom.take_missed().unwrap(), 0);
+    });
+}
+
+#[test]
+fn waiting_for_a_missed_message_ends_with_the_gate() {
+    on_each_transport_async(|options| async move {
+        let mut sink = Sink::open_with(options).await.unwrap();
+        assert!(matches!(sink.whenever.take_missed(), Err(scl::RecvError::NoDeadline { .. })));
+        let error = sink.whenever.deadline_missed().await.unwrap_err().to_string();
+        assert_eq!(
+            error,
+            "gate `sink.whenever` has no `deadline`; declare one in the topology to be told of messages that do not come"
+        );
+        // No sender has connected, so nothing is due.
+        let waits = tokio::spawn(sink.ticks.deadline_missed());
+        tokio::task::yield_now().await;
+        drop(sink);
+        let error = scl::Error::from(tokio::time::timeout(LONG, waits).await.unwrap().unwrap().unwrap_err());
+        assert_eq!(format!("{error:?}"), "gate `sink.ticks` did not receive\n  caused by: the component was closed");
+    });
+}
+
 /// Both components, and a time before they were connected.
 async fn open(options: scl::OpenOptions) -> (Source, Sink, Instant) {
     let started = Instant::now();

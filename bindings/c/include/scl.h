@@ -390,6 +390,16 @@ scl_status scl_latest(scl_gate *gate,
                       scl_message **message);
 
 /**
+ * Stores in `*missed` how many messages a `sub` or `pull` gate has missed since the last call, because its `deadline`
+ * passed without one. It does not wait. Each is told once, those of all senders together.
+ *
+ * Errors: SCL_FAILED if the gate declares no `deadline`, SCL_KIND, SCL_STOPPED, SCL_CLOSED, SCL_BUSY, SCL_HANDLE,
+ * SCL_ARGUMENT. `*missed` is 0 then.
+ */
+scl_status scl_take_missed(scl_gate *gate,
+                           uint64_t *missed);
+
+/**
  * Returns the bytes of a message, and stores their number in `*len` unless `len` is NULL. The bytes are those that
  * were received, without a copy; they are valid until scl_message_free. An empty message gives a pointer that is not
  * NULL.

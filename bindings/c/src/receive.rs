@@ -81,6 +81,27 @@ pub unsafe extern "C" fn scl_latest(gate: *mut scl_gate, message: *mut *mut scl_
     border::status(|| unsafe { border::give(message, "message", newest) })
 }
 
+/// Stores in `*missed` how many messages a `sub` or `pull` gate has missed since the last call, because its `deadline`
+/// passed without one. It does not wait. Each is told once, those of all senders together.
+///
+/// Errors: SCL_FAILED if the gate declares no `deadline`, SCL_KIND, SCL_STOPPED, SCL_CLOSED, SCL_BUSY, SCL_HANDLE,
+/// SCL_ARGUMENT. `*missed` is 0 then.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_take_missed(gate: *mut scl_gate, missed: *mut u64) -> scl_status {
+    border::status(|| {
+        // SAFETY: guaranteed by the caller; NULL is refused.
+        let missed = unsafe { border::result(missed, "missed") }?;
+        *missed = 0;
+        let mut open = gate::lock(gate)?;
+        *missed = match &mut open.gate {
+            Gate::Sub(gate) => gate.take_missed()?,
+            Gate::Pull(gate) => gate.take_missed()?,
+            _ => return Err(open.wrong_kind("scl_take_missed")),
+        };
+        Ok(())
+    })
+}
+
 fn receive(open: &mut OpenGate, timeout_ns: i64) -> Result<Bytes, Failure> {
     if let Some(kept) = open.kept.take() {
         return Ok(kept);

@@ -5,6 +5,7 @@ use crate::failure::{Failure, no_panic};
 use crate::limit::Limit;
 use crate::native::Native;
 use crate::pending_call::PendingCall;
+use crate::pending_miss::PendingMiss;
 use crate::process::detach;
 use crate::readiness::Readiness;
 use crate::request::Request;
@@ -263,6 +264,27 @@ impl Gate {
             _ => self.has_no("latest"),
         })?;
         Ok(newest.map(|message| PyBytes::new(py, &message)))
+    }
+
+    /// Returns how many messages the gate has missed since the last time, and does not wait.
+    fn take_missed(&self) -> PyResult<u64> {
+        Ok(self.at_once(|gate| match gate {
+            AnyGate::Sub(gate) => Ok(gate.take_missed()?),
+            AnyGate::Pull(gate) => Ok(gate.take_missed()?),
+            _ => self.has_no("take_missed"),
+        })?)
+    }
+
+    /// Starts to wait until the gate has missed messages.
+    fn wait_missed(&self) -> PyResult<PendingMiss> {
+        self.shared.check()?;
+        // Do not claim the gate: it may receive meanwhile.
+        let pending = self.visit(|gate| match gate {
+            AnyGate::Sub(gate) => Ok(PendingMiss::new(Arc::clone(&self.shared), gate.deadline_missed())),
+            AnyGate::Pull(gate) => Ok(PendingMiss::new(Arc::clone(&self.shared), gate.deadline_missed())),
+            _ => self.has_no("deadline_missed"),
+        })??;
+        Ok(pending)
     }
 
     /// Returns a message or a request, or `None` if none has arrived; `readiness` then reports when to try again.

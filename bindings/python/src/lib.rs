@@ -12,6 +12,7 @@ mod limit;
 mod logging;
 mod native;
 mod pending_call;
+mod pending_miss;
 mod plain;
 mod plan;
 mod process;
@@ -36,6 +37,8 @@ mod _native {
     use super::logging::{forked, log_end, log_hold, log_level, log_release, log_start, log_take, log_wait};
     #[pymodule_export]
     use super::pending_call::PendingCall;
+    #[pymodule_export]
+    use super::pending_miss::PendingMiss;
     #[pymodule_export]
     use super::plain::is_plain;
     #[pymodule_export]

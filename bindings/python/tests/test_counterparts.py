@@ -66,6 +66,54 @@ def test_messages_go_both_ways(open_pair: Any) -> None:
         assert controller.readings.type is peer.readings.type
 
 
+@pytest.mark.parametrize("open_pair", _pairs(), ids=["generated", "dynamic"])
+def test_missed_messages_are_told(open_pair: Any) -> None:
+    controller, peer = open_pair()
+    with controller, peer:
+        told = 0
+        for _ in range(3):
+            # Nothing is sent, so the deadline passes.
+            while (missed := controller.readings.take_missed()) == 0:
+                pass
+            told += missed
+        assert told <= controller.readings.stats()["missed"]
+        with pytest.raises(scl.Error, match="`controller.jobs` has no `deadline`; declare one in the topology"):
+            controller.jobs.take_missed()
+        with pytest.raises(scl.WrongDirection, match="has no `take_missed`"):
+            controller.setpoints.take_missed()
+
+
+@pytest.mark.parametrize("open_pair", _pairs(), ids=["generated", "dynamic"])
+def test_a_task_waits_for_messages_that_do_not_come(open_pair: Any) -> None:
+    async def main() -> None:
+        controller, peer = open_pair()
+        async with asyncio.timeout(LONG):
+            with controller, peer:
+                # Another task receives meanwhile.
+                missed = asyncio.ensure_future(controller.readings.deadline_missed())
+                received = asyncio.ensure_future(controller.readings.recv_async())
+                assert await missed > 0
+                peer.readings.send(peer.readings.type(speed=0.25))
+                assert (await received).speed == 0.25
+                # A wait that is cancelled has told nothing.
+                with pytest.raises(TimeoutError):
+                    await asyncio.wait_for(controller.readings.deadline_missed(), 0)
+                assert await controller.readings.deadline_missed() > 0
+                with pytest.raises(scl.Error, match="`controller.jobs` has no `deadline`"):
+                    await controller.jobs.deadline_missed()
+                rest = asyncio.ensure_future(_all_missed(controller))
+                await controller.readings.deadline_missed()
+            with pytest.raises(scl.Closed):
+                await rest
+
+    asyncio.run(main())
+
+
+async def _all_missed(controller: Any) -> None:
+    while True:
+        await controller.readings.deadline_missed()
+
+
 def test_generated_classes() -> None:
     class Own(testable.Controller):
         """A program's own subclass."""

@@ -59,6 +59,18 @@ impl Due {
         let missing = late.as_nanos().saturating_sub(1) / self.interval.as_nanos();
         self.missed.saturating_add(u64::try_from(missing).unwrap_or(u64::MAX))
     }
+
+    /// When one more message will be missing, unless one comes before; `None` while nothing is due.
+    pub(super) fn next(&self, now: Instant) -> Option<Instant> {
+        let last = self.last?;
+        let missing = self.missed(now) - self.missed;
+        let intervals = u32::try_from(missing.saturating_add(1)).unwrap_or(u32::MAX);
+        let late = self.grace.saturating_add(self.interval.saturating_mul(intervals));
+        // A message that comes exactly in time is not late.
+        let next = last.checked_add(late)?.checked_add(Duration::from_nanos(1))?;
+        debug_assert!(next > now || intervals == u32::MAX, "what is missing already is counted");
+        Some(next)
+    }
 }
 
 /// The series of a sending gate, which its figures share; `None` if it promises nothing.
@@ -120,6 +132,28 @@ mod tests {
         assert_eq!(missed(needed(), &[0, 10, 20], 30), 0);
         assert_eq!(missed(needed(), &[0, 11], 21), 1);
         assert_eq!(missed(needed(), &[0], 35), 3);
+    }
+
+    #[test]
+    fn the_next_one_is_missing_as_soon_as_it_is_late() {
+        let start = Instant::now();
+        let nanosecond = Duration::from_nanos(1);
+        for mut due in [Due::needed(10 * MS), Due::promised(10 * MS)] {
+            assert_eq!(due.next(start), None);
+            due.begin(start);
+            let mut now = start;
+            for count in 1..4 {
+                now = due.next(now).unwrap();
+                assert_eq!((due.missed(now - nanosecond), due.missed(now)), (count - 1, count));
+            }
+            due.add(now);
+            assert_eq!(due.next(now), Some(now + due.interval + due.grace + nanosecond));
+            due.end(now);
+            assert_eq!(due.next(now), None);
+        }
+        let mut rare = Due::needed(Duration::MAX);
+        rare.begin(start);
+        assert_eq!(rare.next(start), None, "no time is as late");
     }
 
     #[test]

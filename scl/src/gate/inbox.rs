@@ -16,6 +16,7 @@ use crate::runtime_dir::GateFigures;
 use crate::spec::{GateSpec, WhenFull};
 use crate::state::ReceivingEnd;
 use std::collections::VecDeque;
+use std::num::NonZero;
 use std::sync::{Arc, Weak};
 use std::task::{Poll, ready};
 use std::time::{Duration, Instant};
@@ -42,10 +43,20 @@ pub(super) struct Inbox {
     listens: bool,
     /// Messages that the codec could not read.
     pub(super) undecodable: UndecodableCount,
+    /// Missed messages of which the program was told.
+    told_missed: u64,
     activity: Activity,
     in_wait: Arc<FiguresInWait>,
     tap: GateTap,
     ready: ReadySignals,
+}
+
+/// The missed messages of which the program was not told yet.
+pub(super) enum Untold {
+    /// Their number.
+    Missed(NonZero<u64>),
+    /// There are none before this time; `None` while nothing is due.
+    NoneBefore(Option<Instant>),
 }
 
 impl Inbox {
@@ -61,6 +72,7 @@ impl Inbox {
             newest_only: spec.newest_only(),
             listens: !spec.endpoint.is_empty(),
             undecodable: UndecodableCount::of_links(spec.connections.len()),
+            told_missed: 0,
             in_wait: Arc::new(FiguresInWait::new(spec.connections.len())),
             activity: Activity::default(),
             tap,
@@ -293,18 +305,32 @@ impl Inbox {
         Some(arrived)
     }
 
+    /// Tells the program of messages that did not come within the gate's deadline, each once.
+    pub(super) fn tell_missed(&mut self) -> Untold {
+        let now = Instant::now();
+        let missed = self.links.missed(now);
+        debug_assert!(missed >= self.told_missed, "counts only rise");
+        match NonZero::new(missed.saturating_sub(self.told_missed)) {
+            Some(untold) => {
+                self.told_missed = missed;
+                Untold::Missed(untold)
+            }
+            None => Untold::NoneBefore(self.links.next_missed(now)),
+        }
+    }
+
     fn fetch(&mut self) {
         self.links.fetch(if self.newest_only { CATCH_UP } else { Duration::ZERO });
     }
 
     /// Brings the figures of the gate up to date.
     pub(super) fn read_figures(&self, figures: &mut GateFigures) {
-        let (undecodable, tap_dropped) = (self.undecodable.total(), self.tap.dropped());
+        let (undecodable, tap_dropped, now) = (self.undecodable.total(), self.tap.dropped(), Instant::now());
         figures.set(GateFigures {
             received: self.links.received(),
             rejected: undecodable + self.links.malformed(),
             undecodable,
-            missed: self.links.missed(),
+            missed: self.links.missed(now),
             replaced: self.queue.replaced,
             dropped_oldest: self.queue.dropped_oldest,
             dropped_newest: self.queue.dropped_newest,
@@ -318,7 +344,7 @@ impl Inbox {
         if self.listens {
             return figures.share();
         }
-        self.links.add_to_figures(figures);
+        self.links.add_to_figures(figures, now);
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::catch_up::Caller;
 use super::decoder::Decoder;
-use super::inbox::SharedInbox;
+use super::inbox::{SharedInbox, Untold};
 use super::links::Arrived;
+use super::missed;
 use super::stats::GateStats;
 use super::tap::GateTap;
 use super::undecodable::{AT_ONCE, SkipLimit, report, skips, unless_skipped};
@@ -301,6 +302,28 @@ impl<T> Incoming<T> {
         });
         watch
             .reporting(move |set| reporting.upgrade().into_iter().for_each(|inbox| lock(&inbox).report_to(set.clone())))
+    }
+
+    /// Waits until messages did not come within the gate's deadline, and returns how many. It borrows nothing of the
+    /// gate, and does not keep it open.
+    pub(crate) fn deadline_missed(&self) -> impl Future<Output = Result<u64, RecvError>> + Send + use<T> {
+        let waits = self.may_miss().map(|()| missed::wait(self.name, &self.state, self.inbox.downgrade()));
+        async { waits?.await }
+    }
+
+    /// Returns how many messages did not come within the gate's deadline, of which the program was not told yet.
+    pub(crate) fn take_missed(&mut self) -> Result<u64, RecvError> {
+        self.may_miss()?;
+        self.take_turn()?;
+        match self.inbox.lock().tell_missed() {
+            Untold::Missed(untold) => Ok(untold.get()),
+            Untold::NoneBefore(_) => Ok(0),
+        }
+    }
+
+    /// Fails if no message is ever missed.
+    fn may_miss(&self) -> Result<(), RecvError> {
+        if self.spec.options.deadline.is_some() { Ok(()) } else { Err(RecvError::NoDeadline { gate: self.name }) }
     }
 
     pub(crate) fn figures(&self) -> FigureSource {

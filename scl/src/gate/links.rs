@@ -214,8 +214,13 @@ impl Links {
     }
 
     /// How many messages did not come within the gate's deadline.
-    pub(super) fn missed(&self) -> u64 {
-        self.links.iter().map(Link::missed).sum()
+    pub(super) fn missed(&self, now: Instant) -> u64 {
+        self.links.iter().map(|link| link.missed(now)).sum()
+    }
+
+    /// When one more message will be missing, unless one comes before; `None` while nothing is due.
+    pub(super) fn next_missed(&self, now: Instant) -> Option<Instant> {
+        self.links.iter().filter_map(|link| link.due.as_ref()?.next(now)).min()
     }
 
     /// Number of connected peers.
@@ -231,10 +236,10 @@ impl Links {
     }
 
     /// Brings the figures of each connection up to date, of a gate with one link per peer.
-    pub(super) fn add_to_figures(&self, figures: &mut GateFigures) {
+    pub(super) fn add_to_figures(&self, figures: &mut GateFigures, now: Instant) {
         for (connection, link) in figures.connections.iter_mut().zip(&self.links) {
             (connection.connected, connection.taken) = (link.end.peers() > 0, link.received);
-            connection.missed = link.missed();
+            connection.missed = link.missed(now);
         }
     }
 }
@@ -265,7 +270,14 @@ impl Link {
         }
     }
 
-    fn missed(&self) -> u64 {
-        self.due.as_ref().map_or(0, |due| due.missed(Instant::now()))
+    fn missed(&self, now: Instant) -> u64 {
+        self.due.as_ref().map_or(0, |due| due.missed(now))
+    }
+}
+
+impl Drop for Links {
+    fn drop(&mut self) {
+        // Somebody may wait for messages that do not come.
+        self.changes.report();
     }
 }

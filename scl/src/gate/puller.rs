@@ -76,6 +76,36 @@ impl<T> Pull<T> {
         self.incoming.latest()
     }
 
+    /// Waits until the gate has missed a message: its `deadline` has passed without one. Returns how many it has missed
+    /// since the last time, of all senders together, see [`GateStats::missed`]. Each is told once, here or by
+    /// [`take_missed`](Self::take_missed).
+    ///
+    /// See [`Sub::deadline_missed`](super::Sub::deadline_missed) for an example.
+    ///
+    /// The future does not borrow the gate, which can receive meanwhile, and does not keep the component open. Make it
+    /// before that of `recv`, which borrows the gate.
+    /// While it waits it has a timer of the operating system, so a loop at some hundred rounds per second keeps it from
+    /// round to round (`std::pin::pin!`) and makes another one only when it was ready.
+    ///
+    /// # Errors
+    /// [`RecvError::NoDeadline`] if the gate declares no `deadline`, [`RecvError::Timer`] if the process has no file
+    /// descriptor left, and [`RecvError::Blocking`] once the gate or its component is closed.
+    ///
+    /// # Cancel safety
+    /// Cancel safe: what was missed is told by the next call if this is dropped before it is ready.
+    pub fn deadline_missed(&self) -> impl Future<Output = Result<u64, RecvError>> + Send + use<T> {
+        self.incoming.deadline_missed()
+    }
+
+    /// Returns how many messages the gate has missed since the last time, and does not wait: for a program without
+    /// async. Each is told once, here or by [`deadline_missed`](Self::deadline_missed).
+    ///
+    /// # Errors
+    /// [`RecvError::NoDeadline`] if the gate declares no `deadline`, and [`RecvError::Blocking`] after a stop request.
+    pub fn take_missed(&mut self) -> Result<u64, RecvError> {
+        self.incoming.take_missed()
+    }
+
     /// Returns true if at least one pusher is connected.
     pub fn is_connected(&self) -> bool {
         self.incoming.is_connected()

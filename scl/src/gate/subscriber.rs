@@ -153,6 +153,48 @@ impl<T, S> Sub<T, S> {
         self.incoming.latest()
     }
 
+    /// Waits until the gate has missed a message: its `deadline` has passed without one. Returns how many it has missed
+    /// since the last time, of all senders together, see [`GateStats::missed`]. Each is told once, here or by
+    /// [`take_missed`](Self::take_missed).
+    ///
+    /// ```no_run
+    /// scl::topology!("doc/rover.yaml");
+    ///
+    /// #[scl::main]
+    /// async fn main(mut controller: Controller) -> scl::Result<()> {
+    ///     loop {
+    ///         tokio::select! {
+    ///             missed = controller.sensor.deadline_missed() => println!("stop: {} missed", missed?),
+    ///             measurement = controller.sensor.recv() => println!("{} m/s", measurement?.speed),
+    ///         }
+    ///     }
+    /// }
+    /// ```
+    ///
+    /// The future does not borrow the gate, which can receive meanwhile, and does not keep the component open. Make it
+    /// before that of `recv`, which borrows the gate.
+    /// While it waits it has a timer of the operating system, so a loop at some hundred rounds per second keeps it from
+    /// round to round (`std::pin::pin!`) and makes another one only when it was ready.
+    ///
+    /// # Errors
+    /// [`RecvError::NoDeadline`] if the gate declares no `deadline`, [`RecvError::Timer`] if the process has no file
+    /// descriptor left, and [`RecvError::Blocking`] once the gate or its component is closed.
+    ///
+    /// # Cancel safety
+    /// Cancel safe: what was missed is told by the next call if this is dropped before it is ready.
+    pub fn deadline_missed(&self) -> impl Future<Output = Result<u64, RecvError>> + Send + use<T, S> {
+        self.incoming.deadline_missed()
+    }
+
+    /// Returns how many messages the gate has missed since the last time, and does not wait: for a program without
+    /// async. Each is told once, here or by [`deadline_missed`](Self::deadline_missed).
+    ///
+    /// # Errors
+    /// [`RecvError::NoDeadline`] if the gate declares no `deadline`, and [`RecvError::Blocking`] after a stop request.
+    pub fn take_missed(&mut self) -> Result<u64, RecvError> {
+        self.incoming.take_missed()
+    }
+
     /// Returns how long ago the message that the last call returned was sent, if its publisher has `latched: true` and
     /// sent it before this gate was connected to it. Returns `None` for every message that arrived while connected, and
     /// before the first one.

@@ -73,7 +73,7 @@ impl<'e> ErrorKind<'e> {
             }
             RecvError {
                 RecvError::Decode { .. } => Self::Decode,
-                RecvError::NoViews { .. } => Self::Other,
+                RecvError::NoViews { .. } | RecvError::NoDeadline { .. } | RecvError::Timer { .. } => Self::Other,
                 RecvError::Blocking { source, .. } => Self::Blocking(*source),
             }
             RecvTimeoutError {

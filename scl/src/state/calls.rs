@@ -7,6 +7,7 @@ use crate::sync::{AbortOnDrop, lock};
 use std::sync::Weak;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
+use tokio::runtime::EnterGuard;
 
 /// How long the component's runtime may stand still while a call waits for its own socket.
 pub(super) const DIRECT_WAIT: Duration = Duration::from_millis(2);
@@ -154,6 +155,11 @@ impl ComponentState {
     /// Keeps the component's own runtime, if there is one, driven while no call drives it.
     pub(crate) fn drive_always(&self) -> Option<Driven> {
         self.runtime.as_ref().map(|runtime| runtime.drive_always())
+    }
+
+    /// Enters the runtime of the ends, to make a timer of it.
+    pub(crate) fn enter(&self) -> EnterGuard<'_> {
+        self.handle.enter()
     }
 
     /// Runs a task on the runtime of the ends, until it is done or dropped.

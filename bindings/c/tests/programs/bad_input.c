@@ -82,7 +82,7 @@ static void nulls(scl_component *component) {
     void *memory;
     char text[8];
     size_t len = 1;
-    uint64_t ready;
+    uint64_t ready, missed = 1;
 
     ASSERT(scl_gate_by_name(NULL, "out") == NULL && strstr(scl_error(), "the component is NULL"));
     ASSERT(scl_gate_by_name(component, NULL) == NULL && strstr(scl_error(), "`name` is NULL"));
@@ -97,6 +97,10 @@ static void nulls(scl_component *component) {
     EXPECT(scl_recv(values, 0, NULL), SCL_ARGUMENT, "`message` is NULL");
     EXPECT(scl_recv(NULL, 0, &message), SCL_ARGUMENT, "the gate is NULL");
     EXPECT(scl_latest(values, NULL), SCL_ARGUMENT, "`message` is NULL");
+    EXPECT(scl_take_missed(NULL, &missed), SCL_ARGUMENT, "the gate is NULL");
+    EXPECT(scl_take_missed(values, NULL), SCL_ARGUMENT, "`missed` is NULL");
+    ASSERT(missed == 0);
+    EXPECT(scl_take_missed(values, &missed), SCL_FAILED, "gate `program.values` has no `deadline`");
     EXPECT(scl_recv_into(values, NULL, 1, &len, 0), SCL_ARGUMENT, "`buffer` is NULL, but `capacity` is 1");
     ASSERT(len == 0);
     EXPECT(scl_recv_into(values, text, SIZE_MAX, &len, 0), SCL_ARGUMENT, "which no object can have");
@@ -141,6 +145,7 @@ static void kinds(scl_component *component) {
     EXPECT(scl_recv(out, 0, &message), SCL_KIND, "use `scl_send`");
     EXPECT(scl_recv_into(question, text, sizeof text, &len, 0), SCL_KIND, "use `scl_call`");
     EXPECT(scl_latest(answer, &message), SCL_KIND, "use `scl_take_request`");
+    EXPECT(scl_take_missed(out, &ready), SCL_KIND, "`scl_take_missed` is not for `pub` gates such as `program.out`");
     EXPECT(scl_call(out, "x", 1, 0, &message), SCL_KIND, "`scl_call` is not for `pub` gates");
     EXPECT(scl_take_request(values, 0, &request), SCL_KIND, "`scl_take_request` is not for `sub` gates");
     scl_gate *pair[] = {values, out};

@@ -21,6 +21,23 @@ static void pass(scl_component *from, scl_component *to, const char *gate, const
     ASSERT(len == strlen(text) && memcmp(buffer, text, len) == 0);
 }
 
+/* Nothing is sent, so the deadline passes. Each missed message is told once. */
+static void missed_messages_are_told(void) {
+    scl_gate *work = scl_gate_by_name(component, "work");
+    uint64_t told = 0, missed = 0;
+    for (int count = 0; count < 3; count++) {
+        do {
+            OK(scl_take_missed(work, &missed));
+        } while (missed == 0);
+        told += missed;
+    }
+    char stats[1024];
+    size_t len;
+    OK(scl_stats(work, stats, sizeof stats, &len));
+    const char *counted = strstr(stats, "\"missed\":");
+    ASSERT(counted != NULL && strtoull(counted + 9, NULL, 10) >= told);
+}
+
 static void *answer(void *gate) {
     scl_request *request;
     OK(scl_take_request(gate, 60 * SECOND, &request));
@@ -107,6 +124,9 @@ int main(int count, char **arguments) {
         every_gate_works();
         closing_one_leaves_the_other();
     }
+    open_both();
+    missed_messages_are_told();
+    closing_one_leaves_the_other();
     wrong_arguments_are_explained();
     struct sigaction action;
     sigaction(SIGTERM, NULL, &action);

@@ -8,12 +8,13 @@ static void in_child(const char *plan, scl_component *component, scl_gate *out, 
     scl_message *message;
     scl_request *request;
     scl_component *again;
-    uint64_t ready;
+    uint64_t ready, missed;
     char text[8];
     size_t len;
     EXPECT(scl_send(out, "x", 1, 0), SCL_FORKED, "belongs to the parent process");
     EXPECT(scl_recv(values, FOREVER, &message), SCL_FORKED, "belongs to the parent process");
     EXPECT(scl_latest(values, &message), SCL_FORKED, "belongs to the parent process");
+    EXPECT(scl_take_missed(values, &missed), SCL_FORKED, "belongs to the parent process");
     EXPECT(scl_take_request(answer, FOREVER, &request), SCL_FORKED, "belongs to the parent process");
     EXPECT(scl_wait(component, &values, 1, FOREVER, &ready), SCL_FORKED, "belongs to the parent process");
     EXPECT(scl_stats(out, text, sizeof text, &len), SCL_FORKED, "belongs to the parent process");

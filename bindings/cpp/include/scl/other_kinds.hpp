@@ -23,6 +23,12 @@ template <class... Arguments> struct HasNoNewest {
     static constexpr int value = 0;
 };
 
+template <class... Arguments> struct MissesNothing {
+    static_assert(never<Arguments...>, "scl: this gate misses no messages; only `sub` and `pull` gates have a `deadline`. "
+                                       "The topology file says which kind a gate is");
+    static constexpr int value = 0;
+};
+
 template <class... Arguments> struct CallsNothing {
     static_assert(never<Arguments...>, "scl: this gate does not send requests; only `req` gates do. "
                                        "The topology file says which kind a gate is");
@@ -45,6 +51,7 @@ class OtherKinds {
     template <class... Arguments> const int* begin(Arguments&&...) { return &ReceivesNothing<Arguments...>::value; }
     template <class... Arguments> const int* end(Arguments&&...) { return nullptr; }
     template <class... Arguments> int latest(Arguments&&...) { return HasNoNewest<Arguments...>::value; }
+    template <class... Arguments> int take_missed(Arguments&&...) { return MissesNothing<Arguments...>::value; }
     template <class... Arguments> int call(Arguments&&...) { return CallsNothing<Arguments...>::value; }
     template <class... Arguments> int reply(Arguments&&...) { return RepliesToNothing<Arguments...>::value; }
 };

@@ -34,6 +34,20 @@ template <class T, class Format> class ReceivingGate : public Receiver<Receiving
         return message;
     }
 
+    /// How many messages the gate has missed since the last call: its `deadline` passed without one. It does not wait.
+    /// Each is told once. Throws `Error` (`Errc::failed`) if the gate declares no `deadline`.
+    std::uint64_t take_missed() {
+        std::uint64_t missed = 0;
+        this->require(this->told(scl_take_missed(this->handle(), &missed)));
+        return missed;
+    }
+
+    std::uint64_t take_missed(std::error_code& error) {
+        std::uint64_t missed = 0;
+        attempt(error, [&] { return this->told(scl_take_missed(this->handle(), &missed)); });
+        return missed;
+    }
+
   protected:
     explicit ReceivingGate(Gate&& gate) noexcept : Base(std::move(gate)) {}
 

@@ -85,6 +85,25 @@ static void the_newest_reading_counts() {
     }
 }
 
+static void missed_messages_are_told() {
+    auto [controller, peer] = Controller::test();
+    std::uint64_t told = 0;
+    for (int count = 0; count < 3; ++count) {
+        // Nothing is sent, so the deadline passes.
+        std::uint64_t missed = 0;
+        while ((missed = controller.readings.take_missed()) == 0) {
+        }
+        told += missed;
+    }
+    const std::string stats = controller.readings.stats(), key = "\"missed\":";
+    CHECK(std::stoull(stats.substr(stats.find(key) + key.size())) >= told);
+    CHECK(error_of([&] { controller.jobs.take_missed(); }).find("`controller.jobs` has no `deadline`") != std::string::npos);
+    std::error_code error;
+    CHECK(controller.jobs.take_missed(error) == 0 && error == scl::Errc::failed);
+    (void)controller.readings.take_missed(error);
+    CHECK(!error);
+}
+
 static void requests_are_answered() {
     auto [controller, peer] = Controller::test();
     for (int speed = 1; speed < 3; ++speed) {
@@ -150,6 +169,7 @@ static void a_test_leaves_the_terminate_handler_alone() {
 int main() {
     messages_go_both_ways();
     the_newest_reading_counts();
+    missed_messages_are_told();
     requests_are_answered();
     closing_ends_calls_that_wait();
     what_nobody_reads_is_no_problem();

@@ -31,7 +31,10 @@ _NOTHING: Any = object()
 # How many seconds a call that does not wait may be held up by undecodable messages.
 _LONGEST_SKIP = 0.01
 
-_CALLS = ("send", "send_async", "recv", "recv_async", "try_recv", "latest", "call", "call_async")
+_CALLS = (
+    *("send", "send_async", "recv", "recv_async", "try_recv", "latest"),
+    *("take_missed", "deadline_missed", "call", "call_async"),
+)
 
 
 class Gate:
@@ -255,6 +258,14 @@ class Receiver(_Receiving[T]):
             except DecodeError as error:
                 self._skip(error, frame)
         return self._unambiguous("latest", newest, default)
+
+    def take_missed(self) -> int:
+        """Returns how many messages the gate has missed since the last time: its `deadline` passed without one."""
+        return self._native.take_missed()
+
+    async def deadline_missed(self) -> int:
+        """`take_missed` for asyncio, which waits for one. Cancel safe. Another task may receive meanwhile."""
+        return await self._loops.until(self._native.wait_missed().poll, None, lambda: 0)
 
     def _unambiguous(self, call: str, received: Any, default: Any) -> Any:
         """Returns what was received, or the default."""

@@ -35,8 +35,8 @@ _PLAN = r"""
 "name": "readings","kind": "sub","payload": {"message": "testable.Reading"},"codec": "protobuf",
 "declared_at": "testable.yaml:10:9","endpoint": null,"tap": null,"contract": "5omc3dh4",
 "max_size": 67108864,"queue": 1,"when_full": "drop_oldest","backpressure": false,"latched": false,
-"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": [{
-"peer_component": "world","peer_gate": "readings",
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","deadline_ns": 50000000,
+"connections": [{"peer_component": "world","peer_gate": "readings",
 "endpoint": "world.readings--controller.readings.5omc3dh4","contract": "5omc3dh4","required": true,
 "queue": 1,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "setpoints","kind": "pub",
 "payload": {"message": "testable.Setpoint"},"codec": "protobuf","declared_at": "testable.yaml:11:9",
@@ -91,16 +91,17 @@ _PLAN = r"""
 "declared_at": "testable.yaml:23:9","endpoint": null,"tap": "world.readings.tap",
 "contract": "5omc3dh4","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
 "backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
-"undecodable": "skip","connections": [{"peer_component": "controller","peer_gate": "readings",
-"endpoint": "world.readings--controller.readings.5omc3dh4","contract": "5omc3dh4","required": true,
-"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]},{"name": "setpoints","kind": "sub",
-"payload": {"message": "testable.Setpoint"},"codec": "protobuf","declared_at": "testable.yaml:24:9",
-"endpoint": null,"tap": null,"contract": "ebq6fekb","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
-"in_flight": 1,"undecodable": "skip","connections": [{"peer_component": "controller",
-"peer_gate": "setpoints","endpoint": "controller.setpoints--world.setpoints.ebq6fekb",
-"contract": "ebq6fekb","required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864
-}]},{"name": "commands","kind": "req","payload": {"request": "testable.Command",
+"undecodable": "skip","period_ns": 10000000,"connections": [{"peer_component": "controller",
+"peer_gate": "readings","endpoint": "world.readings--controller.readings.5omc3dh4",
+"contract": "5omc3dh4","required": true,"queue": 1,"when_full": "drop_oldest","max_size": 67108864}]
+},{"name": "setpoints","kind": "sub","payload": {"message": "testable.Setpoint"},
+"codec": "protobuf","declared_at": "testable.yaml:24:9","endpoint": null,"tap": null,
+"contract": "ebq6fekb","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": [{"peer_component": "controller","peer_gate": "setpoints",
+"endpoint": "controller.setpoints--world.setpoints.ebq6fekb","contract": "ebq6fekb",
+"required": true,"queue": 100,"when_full": "drop_oldest","max_size": 67108864}]},{
+"name": "commands","kind": "req","payload": {"request": "testable.Command",
 "reply": "testable.Status"},"codec": "protobuf","declared_at": "testable.yaml:25:9",
 "endpoint": null,"tap": null,"contract": "krvphptc","max_size": 67108864,"queue": 100,
 "when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
@@ -250,7 +251,7 @@ class Controller(
 
     `sub`: subscribes to `testable.Reading` from `world.readings`.
 
-    Options: `queue: 1`.
+    Options: `queue: 1`, `deadline: 50ms`.
 
     Declared at `testable.yaml:10:9`.
     """
@@ -407,6 +408,8 @@ class World(
 
     readings: _scl.Pub[Reading]
     """`pub`: publishes `testable.Reading` to `controller.readings`.
+
+    Options: `period: 10ms`.
 
     Declared at `testable.yaml:23:9`.
     """
