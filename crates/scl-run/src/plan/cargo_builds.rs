@@ -20,7 +20,11 @@ pub(super) fn add(builds: &mut Vec<Build>, program: Program, component: &str, ca
         builds.len() - 1
     });
     builds[build].components.push(name);
-    builds[build].cargo_choices.get_or_insert_default().push(choice);
+    let choices = builds[build].cargo_choices.get_or_insert_default();
+    // The components of a kind have the same program.
+    if !choices.contains(&choice) {
+        choices.push(choice);
+    }
     MadeByCargo { build, target: cargo.target.clone() }
 }
 
