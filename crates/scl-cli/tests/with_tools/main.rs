@@ -4,6 +4,8 @@
 
 #[cfg(feature = "bench")]
 mod bench;
+#[cfg(all(feature = "run", feature = "generate", feature = "record"))]
+mod drive;
 mod editor;
 #[cfg(all(feature = "run", feature = "generate"))]
 mod languages;
