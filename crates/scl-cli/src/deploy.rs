@@ -21,7 +21,8 @@ enum Manager {
     Systemd(SystemdArguments),
 }
 
-/// Write systemd unit files: a service for each component and for the gateway, and a target for all of them.
+/// Write systemd unit files: a service for each component and for the gateway, and a target for all of them. The
+/// components of a kind share a template, `rover-motor@.service`.
 ///
 /// To be run on the machine where the services will run: the files contain the absolute paths of the programs here.
 /// Builds are not run.

@@ -7,11 +7,16 @@ use std::process::{Command, Output};
 
 const TOPOLOGY: &str = "\
 system: rover
+kinds:
+  - name: wheel
+    gates: [turns: {pub: , unconnected: ok}]
 components:
   - name: sensor
     gates: [fix: pub]
   - name: display
     gates: [fix: sub]
+  - {name: left_wheel, kind: wheel}
+  - {name: right_wheel, kind: wheel}
 connections: [[sensor.fix, display.fix]]
 ";
 
@@ -26,8 +31,9 @@ components:
     cpu: [0]
     priority: fifo:80
   display: {command: 'cat > \"$HOME/log\"', restart: always, essential: false, working_directory: with space}
+  wheel: {command: ./sensor}
 hosts:
-  board: {address: 127.0.0.1, components: [sensor, display]}
+  board: {address: 127.0.0.1, components: [sensor, display, left_wheel, right_wheel]}
   ground: {address: 127.0.0.2, components: []}
 gateway: {port: 7447}
 ";
@@ -61,8 +67,7 @@ fn text(bytes: &[u8]) -> String {
 fn systemd_accepts_the_units_without_a_word() {
     let system = system(&LAUNCH.replace("  ground: {address: 127.0.0.2, components: []}\n", ""));
     let output = deploy(&system, &["--host", "board", "--user", "root"]);
-    let expected =
-        ["gateway.service", "sensor.service", "display.service"].map(|name| format!("systemd/rover-{name}\n"));
+    let expected = ["gateway", "sensor", "display", "wheel@"].map(|name| format!("systemd/rover-{name}.service\n"));
     let expected = [expected.concat(), "systemd/rover.target\n".to_owned()].concat();
     assert_eq!((text(&output.stdout), text(&output.stderr)), (expected.clone(), String::new()));
     let units = expected.lines().map(|name| system.path(name));
@@ -89,7 +94,8 @@ fn components_are_stopped_before_the_gateway() {
 fn without_a_host_there_is_no_gateway() {
     let system = system(&LAUNCH.replace("  ground: {address: 127.0.0.2, components: []}\n", ""));
     let output = deploy(&system, &["--output", "units"]);
-    assert_eq!(text(&output.stdout), "units/rover-sensor.service\nunits/rover-display.service\nunits/rover.target\n");
+    let expected = ["rover-sensor.service", "rover-display.service", "rover-wheel@.service", "rover.target"];
+    assert_eq!(text(&output.stdout), expected.map(|name| format!("units/{name}\n")).concat());
     let sensor = std::fs::read_to_string(system.path("units/rover-sensor.service")).unwrap();
     assert!(!sensor.contains("gateway") && !sensor.contains("User="), "{sensor}");
 }
@@ -100,9 +106,9 @@ fn mistakes_are_reported_and_nothing_is_written() {
     let output = deploy(&system, &["--host", "bord"]);
     expect![[r#"
         error: [SCL1202] host `ground` has no list of `components`
-          --> ./launch.yaml:13:44
+          --> ./launch.yaml:14:44
            |
-        13 |   ground: {address: 127.0.0.2, components: []}
+        14 |   ground: {address: 127.0.0.2, components: []}
            |                                            ^^
            |
            = help: it lists the components that run there

@@ -42,6 +42,8 @@ pub(crate) struct RunPlan {
     pub(crate) named_after: Option<PathBuf>,
     pub(crate) builds: Vec<Build>,
     pub(crate) components: Vec<Component>,
+    /// The kinds of the system, each with its components.
+    pub(crate) kinds: Vec<(String, Vec<String>)>,
     /// The program that connects this host to the others, with `--host`.
     pub(crate) gateway: Option<Component>,
 }
@@ -184,11 +186,13 @@ fn plan_from_launch_file(
     let named_after = named_after.zip(known.as_ref()).and_then(|(file, names)| named_after_file(&file, names));
     let plan = |component| plan_component(folder, &launch, component, topology_name, options.grace, &mut builds);
     let components = chosen.iter().map(plan).collect();
+    let kinds = known.as_ref().map_or_else(Vec::new, |names| names.kinds.clone());
     Ok(RunPlan {
         system: own_name.or_else(system_of_environment).or_else(|| known.map(|names| names.system)),
         named_after,
         builds,
         components,
+        kinds,
         gateway,
     })
 }

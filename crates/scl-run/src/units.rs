@@ -3,6 +3,7 @@
 //! Settings without a counterpart in systemd are left out: `essential`, because services do not stop each other, the
 //! growth of `restart_delay`, and `input: terminal`.
 
+mod templates;
 mod text;
 
 use super::Options;
@@ -30,9 +31,9 @@ pub struct UnitOptions {
 }
 
 /// A unit file.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Unit {
-    /// `rover-sensor.service`, or `rover.target` for all.
+    /// `rover-sensor.service`, `rover-motor@.service` for the components of a kind, or `rover.target` for all.
     pub name: String,
     /// The content of the file.
     pub text: String,
@@ -48,12 +49,7 @@ pub fn systemd_units(options: &UnitOptions, component_names: ComponentNames<'_>)
     let system = plan.system.clone().ok_or_else(|| vec![without_name()])?;
     let units =
         Units { system: &system, user: options.user.as_deref(), host: options.run.host.as_deref(), plan: &plan };
-    let services = plan.gateway.iter().map(|gateway| units.gateway(gateway));
-    let services = services.chain(plan.components.iter().map(|component| units.component(component)));
-    let services: Result<Vec<Unit>, Problem> = services.collect();
-    let mut services = services.map_err(|problem| vec![problem])?;
-    services.push(units.target(&services));
-    Ok(services)
+    units.all().map_err(|problem| vec![problem])
 }
 
 struct Units<'u> {
@@ -63,11 +59,40 @@ struct Units<'u> {
     plan: &'u RunPlan,
 }
 
+/// What a service is called: a component, or each component of a kind, by a template.
+#[derive(Clone, Copy)]
+enum Called<'c> {
+    Component(&'c str),
+    AnyOf(&'c str),
+}
+
+impl Called<'_> {
+    /// The name of the component in the unit file. systemd puts it in place of `%i`.
+    fn component(self) -> String {
+        match self {
+            Called::Component(name) => name.to_owned(),
+            Called::AnyOf(_) => "%i".to_owned(),
+        }
+    }
+}
+
 impl Units<'_> {
-    fn component(&self, component: &Component) -> Result<Unit, Problem> {
+    fn all(&self) -> Result<Vec<Unit>, Problem> {
+        let gateway = self.plan.gateway.iter().map(|gateway| self.gateway(gateway));
+        let mut units = gateway.collect::<Result<Vec<Unit>, Problem>>()?;
+        let mut started: Vec<String> = units.iter().map(|unit| unit.name.clone()).collect();
+        for service in self.services()? {
+            units.extend(service.file);
+            started.push(service.started);
+        }
+        units.push(self.target(&started));
+        Ok(units)
+    }
+
+    fn component(&self, component: &Component, called: Called<'_>) -> Result<Unit, Problem> {
         let policy = &component.policy;
         // Start after the gateway: systemd stops in reverse order, so a stopping component can still send.
-        let gateway = self.plan.gateway.as_ref().map(|gateway| self.service_name(gateway));
+        let gateway = self.plan.gateway.as_ref().map(|gateway| self.service_name(Called::Component(&gateway.name)));
         let order = gateway.map_or_else(String::new, |name| format!("Wants={name}\nAfter={name}\n"));
         let limit = match policy.restart {
             Restart::Never => String::new(),
@@ -78,9 +103,9 @@ impl Units<'_> {
                 policy.limit.count.saturating_add(1)
             ),
         };
-        let unit = format!("Description=Component {} of {}\n{order}{limit}", component.name, self.system);
+        let unit = format!("Description=Component {} of {}\n{order}{limit}", called.component(), self.system);
         let service = [readiness(policy), restarts(policy), placement(&component.program)].concat();
-        self.service(component, &unit, &service)
+        self.service(component, called, &unit, &service)
     }
 
     fn gateway(&self, gateway: &Component) -> Result<Unit, Problem> {
@@ -90,15 +115,22 @@ impl Units<'_> {
             "Description=Gateway of {} on host {host}\nWants=network-online.target\nAfter=network-online.target\nStartLimitIntervalSec=0\n",
             self.system
         );
-        self.service(gateway, &unit, "Type=notify\nRestart=always\nRestartSec=1s\n")
+        let called = Called::Component(&gateway.name);
+        self.service(gateway, called, &unit, "Type=notify\nRestart=always\nRestartSec=1s\n")
     }
 
-    fn service(&self, component: &Component, unit: &str, service: &str) -> Result<Unit, Problem> {
+    fn service(&self, component: &Component, called: Called<'_>, unit: &str, service: &str) -> Result<Unit, Problem> {
         let Component { program, policy, .. } = component;
         let system = self.system;
         let variables =
             [("SCL_RUNTIME_DIR".to_owned(), format!("/run/{system}")), ("SCL_SYSTEM".to_owned(), system.to_owned())];
-        let variables: String = variables.iter().chain(&program.environment).map(environment).collect();
+        let line = |variable| match called {
+            Called::AnyOf(_) if templates::names(variable, &component.name) => {
+                templates::line(variable, &component.name)
+            }
+            _ => environment(variable),
+        };
+        let variables: String = variables.iter().chain(&program.environment).map(line).collect();
         let user = self.user.map_or_else(String::new, |user| format!("User={user}\n"));
         let text = format!(
             "# Written by `scl deploy systemd`.\n\
@@ -110,11 +142,11 @@ impl Units<'_> {
             command(program)?,
             duration(policy.stop_within.max(SHORTEST)),
         );
-        Ok(Unit { name: self.service_name(component), text })
+        Ok(Unit { name: self.service_name(called), text })
     }
 
-    fn target(&self, services: &[Unit]) -> Unit {
-        let wants: String = services.iter().map(|unit| format!("Wants={}\n", unit.name)).collect();
+    fn target(&self, services: &[String]) -> Unit {
+        let wants: String = services.iter().map(|name| format!("Wants={name}\n")).collect();
         let place = self.host.map_or_else(String::new, |host| format!(" on host {host}"));
         let text = format!(
             "# Written by `scl deploy systemd`.\n[Unit]\nDescription=System {}{place}\n{wants}\n[Install]\nWantedBy=multi-user.target\n",
@@ -123,8 +155,11 @@ impl Units<'_> {
         Unit { name: format!("{}.target", self.system), text }
     }
 
-    fn service_name(&self, component: &Component) -> String {
-        format!("{}-{}.service", self.system, component.name)
+    fn service_name(&self, called: Called<'_>) -> String {
+        match called {
+            Called::Component(name) => format!("{}-{name}.service", self.system),
+            Called::AnyOf(kind) => format!("{}-{kind}@.service", self.system),
+        }
     }
 }
 

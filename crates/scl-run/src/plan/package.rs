@@ -44,6 +44,7 @@ pub(super) fn plan_from_package(folder: &Path, names: SystemNames, options: &Opt
         named_after: named_after_file(&folder.join(TOPOLOGY_FILE), &names),
         builds: vec![Build { components: Vec::new(), program: program(build), cargo_choices: Some(Vec::new()) }],
         components: names.components.iter().filter(|name| selection.includes(name)).map(plan).collect(),
+        kinds: names.kinds,
         gateway: None,
     })
 }

@@ -24,17 +24,23 @@ defaults: {stop_within: 3s}
 
 /// All unit files of the launch file, one after the other; the folder of the test is shown as `FOLDER`.
 fn units(launch: &str, user: Option<&str>) -> String {
+    units_of(launch, user, &[])
+}
+
+/// As [`units`], of a system with kinds.
+fn units_of(launch: &str, user: Option<&str>, kinds: &[(&str, &[&str])]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().canonicalize().unwrap();
     std::fs::create_dir(path.join("logs")).unwrap();
     std::fs::write(path.join("launch.yaml"), launch).unwrap();
     std::fs::write(path.join("topology.yaml"), "").unwrap();
+    let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<String>>();
     let names = SystemNames {
         system: "rover".to_owned(),
         is_named: true,
-        components: vec!["sensor".to_owned(), "logger".to_owned()],
+        components: [owned(&["sensor", "logger"]), kinds.iter().flat_map(|(_, names)| owned(names)).collect()].concat(),
+        kinds: kinds.iter().map(|(kind, components)| ((*kind).to_owned(), owned(components))).collect(),
         gates: Vec::new(),
-        ..SystemNames::default()
     };
     let run = Options { folder: path.clone(), grace: Duration::from_secs(5), ..Options::default() };
     let options = UnitOptions { run, user: user.map(str::to_owned) };
@@ -112,6 +118,110 @@ fn services_do_what_the_launch_file_says() {
         WantedBy=multi-user.target
     "#]]
     .assert_eq(&units(LAUNCH, Some("rover")));
+}
+
+#[test]
+fn components_of_a_kind_have_a_template() {
+    let launch = "\
+components:
+  sensor: /bin/cat
+  motor: {command: /bin/cat %i, environment: {SPEED: 5%}}
+  back: {command: /bin/cat, restart: always}
+";
+    let launch = launch.replace("sensor: /bin/cat", "sensor: {command: /bin/cat}");
+    let kinds: &[(&str, &[&str])] = &[("motor", &["left", "back", "arm.right"])];
+    expect![[r#"
+        == rover-sensor.service
+        # Written by `scl deploy systemd`.
+        [Unit]
+        Description=Component sensor of rover
+        PartOf=rover.target
+
+        [Service]
+        Type=exec
+        Restart=no
+        NotifyAccess=all
+        RuntimeDirectory=rover
+        RuntimeDirectoryMode=0700
+        RuntimeDirectoryPreserve=yes
+        WorkingDirectory=FOLDER
+        Environment=SCL_RUNTIME_DIR=/run/rover
+        Environment=SCL_SYSTEM=rover
+        Environment=SCL_COMPONENT=rover.sensor
+        ExecStart=/bin/cat
+        TimeoutStopSec=5s
+        == rover-motor@.service
+        # Written by `scl deploy systemd`.
+        [Unit]
+        Description=Component %i of rover
+        PartOf=rover.target
+
+        [Service]
+        Type=exec
+        Restart=no
+        NotifyAccess=all
+        RuntimeDirectory=rover
+        RuntimeDirectoryMode=0700
+        RuntimeDirectoryPreserve=yes
+        WorkingDirectory=FOLDER
+        Environment=SCL_RUNTIME_DIR=/run/rover
+        Environment=SCL_SYSTEM=rover
+        Environment=SCL_COMPONENT=rover.%i
+        Environment="SPEED=5%%"
+        ExecStart=/bin/cat "%%i"
+        TimeoutStopSec=5s
+        == rover-back.service
+        # Written by `scl deploy systemd`.
+        [Unit]
+        Description=Component back of rover
+        StartLimitIntervalSec=60s
+        StartLimitBurst=6
+        PartOf=rover.target
+
+        [Service]
+        Type=exec
+        Restart=always
+        RestartSec=100ms
+        NotifyAccess=all
+        RuntimeDirectory=rover
+        RuntimeDirectoryMode=0700
+        RuntimeDirectoryPreserve=yes
+        WorkingDirectory=FOLDER
+        Environment=SCL_RUNTIME_DIR=/run/rover
+        Environment=SCL_SYSTEM=rover
+        Environment=SCL_COMPONENT=rover.back
+        Environment="SPEED=5%%"
+        ExecStart=/bin/cat
+        TimeoutStopSec=5s
+        == rover.target
+        # Written by `scl deploy systemd`.
+        [Unit]
+        Description=System rover
+        Wants=rover-sensor.service
+        Wants=rover-motor@left.service
+        Wants=rover-back.service
+        Wants=rover-motor@arm.right.service
+
+        [Install]
+        WantedBy=multi-user.target
+    "#]]
+    .assert_eq(&units_of(&launch, None, kinds));
+}
+
+#[test]
+fn a_program_that_is_not_told_its_component_has_a_file_of_its_own() {
+    let launch = "\
+components:
+  left: {command: /bin/cat}
+  right: {command: /bin/cat, opens: [sensor]}
+  back: {command: /bin/cat, opens: any}
+  front: {replay: launch.yaml}
+";
+    let kinds: &[(&str, &[&str])] = &[("motor", &["left", "right", "back", "front"])];
+    let units = units_of(launch, None, kinds);
+    let names: Vec<&str> = units.lines().filter_map(|line| line.strip_prefix("== ")).collect();
+    let expected = ["motor@", "right", "back", "front"].map(|name| format!("rover-{name}.service"));
+    assert_eq!(names, [&expected[..], &["rover.target".to_owned()]].concat());
 }
 
 #[test]
