@@ -16,9 +16,9 @@ pub(crate) const SEVERAL_PUBLISHERS: Rule = Rule {
     severity: Severity::Lint,
     title: "subscriber with several publishers",
     explanation: "Several publishers send to one subscribing gate, and their messages arrive mixed, in the order of \
-                  arrival. That is allowed; the lint is for systems in which each gate has one source. If the \
-                  publishers are implementations of one component, declare that component once and start one of the \
-                  programs.",
+                  arrival. That is allowed; the lint is for systems in which each gate has one source. The components \
+                  of a kind count as one. If the publishers are implementations of one component, declare that \
+                  component once and start one of the programs.",
     example: " components:
    - name: gps
      gates:
@@ -120,6 +120,7 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
         let Some(kind) = draft.gates[gate].kind else { continue };
         match kind {
             _ if links.len() < 2 => {}
+            GateKind::Sub if are_of_a_kind(draft, &links) => {}
             GateKind::Sub => problems.push(several_publishers(draft, gate, &links)),
             GateKind::Req => problems.push(several_repliers(draft, gate, &links)),
             GateKind::Push if !may_share(draft, gate) => problems.push(several_pullers(draft, gate, &links)),
@@ -130,6 +131,11 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
             problems.push(many_peers(draft, gate, kind, count, threshold));
         }
     }
+}
+
+/// Whether all peers are one gate of the components of a kind, which `each` connects on purpose.
+fn are_of_a_kind(draft: &Draft<'_>, links: &[(usize, usize)]) -> bool {
+    links.windows(2).all(|pair| draft.shared(pair[0].1) == draft.shared(pair[1].1))
 }
 
 /// Whether pullers share the work of a gate, as far as its options could be read.
@@ -237,7 +243,7 @@ fn many_peers(draft: &Draft<'_>, gate: usize, kind: GateKind, count: u32, thresh
 #[cfg(test)]
 mod tests {
     use super::{SEVERAL_PUBLISHERS, SEVERAL_PULLERS, SEVERAL_REPLIERS};
-    use crate::check::testing::{problems, rule_example};
+    use crate::check::testing::{advice_with, problems, rule_example};
     use expect_test::expect;
 
     #[test]
@@ -258,6 +264,23 @@ mod tests {
                    = note: messages of all its publishers arrive at this gate, in the order of arrival
             "#]],
         );
+    }
+
+    #[test]
+    fn components_of_a_kind_are_one_source() {
+        let yaml = "\
+kinds:
+  - {name: motor, gates: [{state: pub}, {error: pub}]}
+components:
+  - {name: left, kind: motor}
+  - {name: right, kind: motor}
+  - {name: hub, gates: [{states: sub}, {all: sub}]}
+connections:
+  - [each motor.state, hub.states]
+  - [each motor.error, hub.all]
+  - [left.state, hub.all]
+";
+        expect!["gate `hub.all` subscribes to several publishers [declare a second gate: `- right_all: sub` | if `left` and `right` are two implementations of one component, declare one component and start either program]"].assert_eq(&advice_with(&SEVERAL_PUBLISHERS, yaml, &[]));
     }
 
     #[test]
