@@ -14,6 +14,7 @@ use std::process::ExitCode;
 Examples:
   scl new rover                      a sensor, a controller and a display
   scl new rover --template minimal   two programs, one connection
+  scl new rover --template drive     four wheels that run one program, a log for everyone
   scl new rover --git https://host/scl.git
                                      with the SCL in this repository, for others to build
   scl new rover --path ../scl        with the SCL in this folder
@@ -45,6 +46,8 @@ enum Template {
     Minimal,
     /// A sensor, a controller and a display, with commands, a launch file and tests
     Control,
+    /// Four wheels of one kind, a chassis and a logger: what larger systems are made of
+    Drive,
 }
 
 /// The body of `scl new`.
@@ -58,6 +61,7 @@ pub(crate) fn new(arguments: &NewArguments) -> Result<ExitCode, Problem> {
     let template = match arguments.template {
         Template::Minimal => scl_new::Template::Minimal,
         Template::Control => scl_new::Template::Control,
+        Template::Drive => scl_new::Template::Drive,
     };
     let project = Project { name: name.clone(), template, scl };
     let created = create(Path::new("."), &project)?;

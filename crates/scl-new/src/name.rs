@@ -9,7 +9,7 @@ use scl_topology::rust_name::{is_keyword, is_unescapable};
 const OF_CARGO: [&str; 5] = ["alloc", "core", "proc_macro", "std", "test"];
 
 /// Crates that the programs name. A module of this name would hide them.
-const OF_DEPENDENCIES: [&str; 2] = ["scl", "tokio"];
+const OF_DEPENDENCIES: [&str; 3] = ["scl", "tokio", "tracing"];
 
 /// Types that the programs name. A module of this name would hide them.
 const OF_TYPES: [&str; 16] = [

@@ -10,6 +10,8 @@ pub enum Template {
     Minimal,
     /// A sensor, a controller and a display, with commands, a launch file and tests.
     Control,
+    /// Four wheels of one kind, a chassis and a logger, with deadlines, a launch file and tests.
+    Drive,
 }
 
 /// The name that stands in the templates.
@@ -63,11 +65,29 @@ const CONTROL: &[(&str, &str)] = files!("control":
     ".gitignore" = ".gitignore",
 );
 
+const DRIVE: &[(&str, &str)] = files!("drive":
+    "Cargo.toml" = "Cargo.toml.template",
+    "topology.yaml" = "topology.yaml",
+    "rover.proto" = "rover.proto",
+    "src/lib.rs" = "src/lib.rs",
+    "src/wheel.rs" = "src/wheel.rs",
+    "src/chassis.rs" = "src/chassis.rs",
+    "src/bin/wheel.rs" = "src/bin/wheel.rs",
+    "src/bin/chassis.rs" = "src/bin/chassis.rs",
+    "src/bin/logger.rs" = "src/bin/logger.rs",
+    "tests/wheel.rs" = "tests/wheel.rs",
+    "tests/chassis.rs" = "tests/chassis.rs",
+    "launch.yaml" = "launch.yaml",
+    ".github/workflows/ci.yml" = ".github/workflows/ci.yml",
+    "README.md" = "README.md",
+    ".gitignore" = ".gitignore",
+);
+
 impl Template {
     /// All templates.
-    pub const ALL: [Template; 2] = [Template::Minimal, Template::Control];
+    pub const ALL: [Template; 3] = [Template::Minimal, Template::Control, Template::Drive];
 
-    /// The names of its programs, which are those of its components.
+    /// The names of its programs, which are those of its components, or of their kinds.
     pub(crate) fn programs(self) -> Vec<&'static str> {
         let program = |(path, _): &(&'static str, _)| path.strip_prefix("src/bin/")?.strip_suffix(".rs");
         self.sources().iter().filter_map(program).collect()
@@ -78,6 +98,7 @@ impl Template {
         match self {
             Template::Minimal => MINIMAL,
             Template::Control => CONTROL,
+            Template::Drive => DRIVE,
         }
     }
 

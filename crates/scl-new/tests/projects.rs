@@ -71,6 +71,14 @@ fn the_template_and_the_quick_start_agree() {
     assert_eq!(main_of_sensor(template), main_of_sensor(quickstart));
 }
 
+/// The template `drive` is the example of the same name.
+#[test]
+fn the_template_and_the_example_of_larger_systems_agree() {
+    let example =
+        read("examples/drive/topology.yaml").replace("drive.", "rover.").replace("system: drive", "system: rover");
+    assert_eq!(read("crates/scl-new/templates/drive/topology.yaml"), example);
+}
+
 #[test]
 fn versions_in_the_templates_are_those_of_the_workspace() {
     let workspace = read("Cargo.toml");
@@ -78,7 +86,7 @@ fn versions_in_the_templates_are_those_of_the_workspace() {
         let line = workspace.lines().find(|line| line.starts_with(&format!("{key} = "))).unwrap();
         line.split('"').nth(1).unwrap().to_owned()
     };
-    for template in ["minimal", "control"] {
+    for template in ["minimal", "control", "drive"] {
         let manifest = read(&format!("crates/scl-new/templates/{template}/Cargo.toml.template"));
         assert!(manifest.contains(&format!("package = \"scl-gates\", version = \"{}\"", version("version"))));
         assert!(manifest.contains(&format!("\nrust-version = \"{}\"\n", version("rust-version"))));
