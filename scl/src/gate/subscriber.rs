@@ -173,8 +173,10 @@ impl<T, S> Sub<T, S> {
     ///
     /// The future does not borrow the gate, which can receive meanwhile, and does not keep the component open. Make it
     /// before that of `recv`, which borrows the gate.
-    /// While it waits it has a timer of the operating system, so a loop at some hundred rounds per second keeps it from
-    /// round to round (`std::pin::pin!`) and makes another one only when it was ready.
+    ///
+    /// While it waits it has a timer of the operating system, so a loop with hundreds of rounds a second keeps it from
+    /// round to round (`std::pin::pin!`) and makes another one only when it was ready. Real time counts, also in a test
+    /// that pauses tokio's clock.
     ///
     /// # Errors
     /// [`RecvError::NoDeadline`] if the gate declares no `deadline`, [`RecvError::Timer`] if the process has no file
