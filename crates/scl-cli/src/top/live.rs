@@ -4,7 +4,7 @@ use super::Order;
 use super::draw::draw;
 use super::screen::Screen;
 use super::view::{Action, View};
-use ratatui::crossterm::event::{self, Event};
+use crossterm::event::{self, Event};
 use rustix::process::{Signal, getpid, kill_process};
 use scl_observe::{ComponentRow, GateRow, Snapshot, StopSignals, Watch, block_on};
 use scl_terminal::{Problem, output_is_terminal};

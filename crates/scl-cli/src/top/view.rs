@@ -2,7 +2,7 @@
 
 use super::Order;
 use super::rows::sort;
-use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
+use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use scl_observe::{GateRow, Snapshot};
 
 /// What the display shows.

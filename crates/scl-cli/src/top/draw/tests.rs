@@ -2,11 +2,11 @@
 
 use super::*;
 use crate::top::view::Action;
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use expect_test::{Expect, expect};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
-use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use scl::plan::GateKind;
 use scl::runtime_dir::{ConnectionFigures, GateFigures};
 use scl_observe::{ComponentRow, ConnectionRow, Snapshot};
