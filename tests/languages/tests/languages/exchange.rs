@@ -40,6 +40,8 @@ fn a_receiver_may_start_late() {
     for left in SCL {
         for right in ALL {
             let system = System::new();
+            // A program is built when it is first needed, and the request below waits only so long.
+            Program::build(right);
             let mut left = Program::start(&system, left, "left");
             for format in FORMATS {
                 left.ask(&format!("send pub_{format} 0 50"), "sent");

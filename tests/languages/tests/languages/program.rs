@@ -40,6 +40,18 @@ pub(super) struct Program {
 }
 
 impl Program {
+    /// Compiles or generates the program now, where its start must not take that long.
+    pub(super) fn build(language: Language) {
+        match language {
+            Rust => {}
+            C => drop(LazyLock::force(&C_PROGRAM)),
+            Cpp => drop(LazyLock::force(&CPP_PROGRAM)),
+            Python => drop((python_with_scl(), LazyLock::force(&GENERATED))),
+            Libzmq => drop(LazyLock::force(&LIBZMQ_PROGRAM)),
+            Pyzmq => drop((python_with_packages(), LazyLock::force(&GENERATED))),
+        }
+    }
+
     /// Starts `left` or `right` and waits until its gates are open.
     #[track_caller]
     pub(super) fn start(system: &System, language: Language, component: &'static str) -> Self {
