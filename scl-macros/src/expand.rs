@@ -13,6 +13,7 @@ mod kind;
 mod kinds;
 mod known;
 mod names;
+mod parameters;
 mod problems;
 mod rustc_notes;
 mod schemas;

@@ -1,5 +1,6 @@
 //! Components: the functions that generated code and `#[scl::main]` call.
 
+mod enums;
 mod expected;
 mod kind;
 mod main;
@@ -7,6 +8,7 @@ mod methods;
 mod needs;
 mod opener;
 mod outcome;
+pub(crate) mod parameters;
 mod realtime;
 mod transports;
 

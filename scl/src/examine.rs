@@ -12,11 +12,12 @@ use crate::{log, stop};
 use std::sync::Arc;
 
 /// The environment variables that components read.
-pub const VARIABLES: [&str; 8] = [
+pub const VARIABLES: [&str; 9] = [
     "SCL_CPU",
     "SCL_LOG",
     "SCL_RUNTIME_DIR",
     "SCL_SCHED",
+    "SCL_SET",
     "SCL_STATS",
     "SCL_STOP_WITHIN",
     "SCL_SYSTEM",

@@ -60,6 +60,7 @@ fn intern_below(limit: usize, known: &mut Interned, plan: &Plan) -> Result<&'sta
         system: keep(&plan.system),
         name: keep(&plan.component),
         declared_at: keep(&plan.declared_at),
+        parameters: plan.parameters.clone().leak(),
         gates: plan.gates.iter().map(gate_spec).collect::<Vec<_>>().leak(),
         schema,
     }));
@@ -107,7 +108,7 @@ mod tests {
     fn plan(component: &str, schema: Option<&[u8]>) -> Plan {
         let schema = schema.map(|bytes| scl_plan::Schema { hash: "1a2b".to_owned(), descriptors: bytes.into() });
         let (component, system) = (component.to_owned(), "rover".to_owned());
-        Plan { system, component, declared_at: String::new(), schema, gates: Vec::new() }
+        Plan { system, component, declared_at: String::new(), schema, parameters: Vec::new(), gates: Vec::new() }
     }
 
     #[test]

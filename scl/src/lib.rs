@@ -115,6 +115,7 @@ pub mod registry;
 pub mod runtime_dir;
 mod senders;
 mod service;
+mod set_variable;
 pub mod spec;
 mod state;
 mod stderr_log;

@@ -3,6 +3,7 @@
 use crate::environment::{self, Variables};
 use crate::error::OpenError;
 use crate::registry::Registry;
+use crate::set_variable;
 use crate::transport::Transport;
 use crate::transport_choice::TransportChoice;
 use crate::transport_kind::TransportKind;
@@ -18,6 +19,7 @@ use std::sync::Arc;
 /// | [`system`](Self::system) | `SCL_SYSTEM` | `system` in the topology file |
 /// | [`transport_kind`](Self::transport_kind), [`transports`](Self::transports) | `SCL_TRANSPORT=ipc`, `tcp` or `shm`, or `ipc,camera.frames=shm` | `ipc` |
 /// | [`transport_of`](Self::transport_of) | added to `SCL_TRANSPORT` | |
+/// | [`set`](Self::set) | added to `SCL_SET` | the defaults in the topology file |
 /// | [`transport`](Self::transport), [`registry`](Self::registry) | | ZeroMQ, in the runtime folder |
 ///
 /// ```
@@ -33,7 +35,11 @@ pub struct OpenOptions {
     transport_of: Vec<(String, TransportKind)>,
     pub(crate) transport: Option<Arc<dyn Transport>>,
     pub(crate) registry: Option<Arc<dyn Registry>>,
+    /// Values of parameters, by `component.parameter`.
+    pub(crate) set: Vec<(String, String)>,
     pub(crate) is_test: bool,
+    /// Whether the component is opened in place of its program.
+    pub(crate) stands_in: bool,
 }
 
 impl OpenOptions {
@@ -78,6 +84,15 @@ impl OpenOptions {
         self
     }
 
+    /// Sets the value of a parameter, named as `component.parameter`, as a text like in the topology file: `10ms`. It
+    /// counts more than one in `SCL_SET`. Those of other components have no effect.
+    ///
+    /// Opening fails if the component has no such parameter, or if it cannot have this value.
+    pub fn set(mut self, parameter: impl Into<String>, value: impl Into<String>) -> Self {
+        self.set.push((parameter.into(), value.into()));
+        self
+    }
+
     /// Uses a transport of your own, or `scl::transport::memory::Memory` for gates within this process.
     ///
     /// The component then uses no runtime folder: it reads and writes no files, the options of the runtime folder have
@@ -98,13 +113,20 @@ impl OpenOptions {
         self
     }
 
-    /// Returns the options of `test()`: on this transport, a component is alone with its counterpart, which takes the
-    /// place of all peers of a gate, at the endpoint of its first connection. The other connections are left out, and
-    /// messages that are not received cause no warning.
+    /// Returns the options of a tool that takes the place of a component's program: nothing reads its parameters, so
+    /// they need no values.
+    #[doc(hidden)]
+    pub fn stands_in(self) -> Self {
+        Self { stands_in: true, ..self }
+    }
+
+    /// Returns the options for a unit test: on this transport, a component is alone with its counterpart, which takes
+    /// the place of all peers of a gate, at the endpoint of its first connection. The other connections are left out,
+    /// and messages that are not received cause no warning.
     #[cfg(feature = "memory")]
     #[doc(hidden)]
-    pub fn of_test(transport: crate::transport::memory::Memory) -> Self {
-        Self { is_test: true, ..Self::new().transport(transport) }
+    pub fn for_test(self, transport: crate::transport::memory::Memory) -> Self {
+        Self { is_test: true, set: self.set, ..Self::new().transport(transport) }
     }
 
     /// Looks up an environment variable; the chosen runtime folder replaces `SCL_RUNTIME_DIR`.
@@ -121,6 +143,7 @@ impl OpenOptions {
     /// [`OpenError::Environment`] if one of them would be refused.
     pub(crate) fn check(variables: Variables<'_>) -> Result<(), OpenError> {
         Self::new().system_name(variables, "")?;
+        set_variable::read(variables)?;
         Self::new().transport_choice(variables).map(drop)
     }
 
@@ -161,6 +184,7 @@ impl std::fmt::Debug for OpenOptions {
             .field("system", &self.system)
             .field("transport_kind", &self.transport_kind)
             .field("transport_of", &self.transport_of)
+            .field("set", &self.set)
             .field("transport", &self.transport.as_ref().map(|_| "chosen"))
             .finish()
     }

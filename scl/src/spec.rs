@@ -2,7 +2,7 @@
 
 mod plan;
 
-pub use scl_plan::{GateKind, GateOptions, Undecodable, WhenFull};
+pub use scl_plan::{GateKind, GateOptions, ParameterPlan, Undecodable, WhenFull};
 
 /// A component: its name and its gates.
 #[derive(Debug)]
@@ -13,6 +13,8 @@ pub struct ComponentSpec {
     pub name: &'static str,
     /// Where it is declared: `topology.yaml:4:11`.
     pub declared_at: &'static str,
+    /// Its parameters, in file order.
+    pub parameters: &'static [ParameterPlan],
     /// Its gates, in file order.
     pub gates: &'static [GateSpec],
     /// The messages it uses, if the topology names `schemas`.

@@ -66,6 +66,7 @@ use crate::spec::{ComponentSpec, GateKind};
 use crate::state::{ComponentHandle, Flush, OwnedRuntime};
 use crate::stop;
 use bytes::Bytes;
+use scl_plan::ParameterValue;
 use std::io;
 use std::sync::Arc;
 use std::time::Duration;
@@ -82,6 +83,8 @@ pub struct Component {
     gates: Vec<Option<Gate>>,
     /// The watches of all gates, including those that were taken.
     watches: Vec<Watch>,
+    /// In the order of `spec.parameters`.
+    parameters: Vec<ParameterValue>,
     /// The last field: fields are dropped in order, and the gates go first.
     handle: ComponentHandle,
 }
@@ -145,12 +148,20 @@ impl Component {
         let gates = kinds.map(|(index, kind)| Gate::open(&mut opener, index, kind));
         let gates: Vec<Gate> = gates.collect::<Result<_, _>>()?;
         let watches = gates.iter().map(|gate| gate.any().watch()).collect();
-        Ok(Self { spec, gates: gates.into_iter().map(Some).collect(), watches, handle: opener.handle() })
+        let (parameters, handle) = (opener.parameters().to_vec(), opener.handle());
+        Ok(Self { spec, gates: gates.into_iter().map(Some).collect(), watches, parameters, handle })
     }
 
     /// Returns what the plan says about the component and its gates.
     pub fn spec(&self) -> &ComponentSpec {
         self.spec
+    }
+
+    /// Returns the value that a parameter had when the component was opened; `None` if there is no parameter of this
+    /// name.
+    pub fn parameter(&self, name: &str) -> Option<&ParameterValue> {
+        let index = self.spec.parameters.iter().position(|parameter| parameter.name == name)?;
+        self.parameters.get(index)
     }
 
     /// Takes a gate of whatever kind out of the component.

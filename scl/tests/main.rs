@@ -35,6 +35,7 @@ mod model;
 #[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
 mod negative_zero;
 #[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
+mod parameters;
 mod registry;
 mod runtime_dir_files;
 mod runtime_dir_folder;

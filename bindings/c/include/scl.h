@@ -146,12 +146,12 @@ typedef int32_t scl_status;
 #define SCL_HANDLE -21
 
 /**
- * The system has no component, or the component no gate, with this name.
+ * The system has no component, or the component no gate or parameter, with this name.
  */
 #define SCL_NAME -22
 
 /**
- * The gate is of another kind: for example, `scl_send` with a gate that receives.
+ * The gate is of another kind: for example, `scl_send` with a gate that receives. Or the parameter is of another type.
  */
 #define SCL_KIND -23
 
@@ -171,7 +171,7 @@ typedef int32_t scl_status;
 #define SCL_FOLDER -26
 
 /**
- * An environment variable has a value that is not understood.
+ * An environment variable has a value that is not understood, or a parameter has no value or a wrong one.
  */
 #define SCL_ENVIRONMENT -27
 
@@ -232,9 +232,11 @@ const char *scl_error(void);
  * the kind that the environment variable SCL_COMPONENT names, which `scl run` sets. `options_json` is NULL for the
  * defaults, or an object with any of these keys:
  *
- *     {"runtime_dir": "/run/rover", "system": "rover-2", "transport": "ipc", "signals": true}
+ *     {"runtime_dir": "/run/rover", "system": "rover-2", "transport": "ipc", "signals": true,
+ *      "set": {"controller.period": "10ms"}}
  *
- * The first three replace the environment variables SCL_RUNTIME_DIR, SCL_SYSTEM and SCL_TRANSPORT. The transport is
+ * The first three replace the environment variables SCL_RUNTIME_DIR, SCL_SYSTEM and SCL_TRANSPORT. `set` has values of
+ * parameters, as texts like in the topology file; they count more than those of SCL_SET. The transport is
  * `ipc`, `tcp` or `shm`, or a list with others for single connections, like `ipc,camera.frames=shm`; `shm` needs a
  * library that was built with the feature `shm`. The first component also starts the log (SCL_LOG) and applies the
  * real-time settings (SCL_SCHED, SCL_CPU) to the calling thread. Unless `signals` is false, SIGTERM and SIGINT no
@@ -243,7 +245,7 @@ const char *scl_error(void);
  * On success, `*opened` is the new component, to be closed with scl_close; otherwise it is NULL.
  *
  * Errors: SCL_PLAN, SCL_NAME (the plan has no such component or kind), SCL_TAKEN, SCL_FOLDER, SCL_ENVIRONMENT (also if
- * SCL_COMPONENT names none of the kind), SCL_SYSTEM, SCL_ARGUMENT.
+ * SCL_COMPONENT names none of the kind, or a parameter has no value or a wrong one), SCL_SYSTEM, SCL_ARGUMENT.
  */
 scl_status scl_open(const char *plan_json,
                     size_t plan_len,
@@ -259,13 +261,27 @@ scl_status scl_open(const char *plan_json,
  * The first three arguments are those of scl_open; of a kind, its first component is opened. On success, `*opened` and
  * `*peer` are the new components, each to be closed with scl_close; otherwise they are NULL.
  *
- * Errors: SCL_PLAN, SCL_NAME (the plan has no such component or kind), SCL_SYSTEM, SCL_ARGUMENT.
+ * Errors: SCL_PLAN, SCL_NAME (the plan has no such component or kind), SCL_ENVIRONMENT (a parameter has no value),
+ * SCL_SYSTEM, SCL_ARGUMENT.
  */
 scl_status scl_open_test(const char *plan_json,
                          size_t plan_len,
                          const char *component,
                          scl_component **opened,
                          scl_component **peer);
+
+/**
+ * scl_open_test with options, of which only `set` has an effect: `{"set": {"controller.period": "10ms"}}`. They may be
+ * NULL.
+ *
+ * Errors: also SCL_ENVIRONMENT if a parameter has a wrong value.
+ */
+scl_status scl_open_test_with(const char *plan_json,
+                              size_t plan_len,
+                              const char *component,
+                              const char *options_json,
+                              scl_component **opened,
+                              scl_component **peer);
 
 /**
  * Waits until all required peers are connected. A timeout of 0 only looks, a negative one waits without limit.
@@ -303,6 +319,91 @@ const char *scl_component_name(scl_component *component);
  */
 scl_gate *scl_gate_by_name(scl_component *component,
                            const char *name);
+
+/**
+ * Stores how many values a parameter has: 1, or the items of a list.
+ *
+ * Parameters keep the values that they had when the component was opened: those of the option `set`, else those of the
+ * environment variable SCL_SET, else their defaults.
+ *
+ * Errors: SCL_NAME (the component has no such parameter), SCL_HANDLE, SCL_ARGUMENT.
+ */
+scl_status scl_parameter_count(scl_component *component,
+                               const char *name,
+                               size_t *count);
+
+/**
+ * Stores the value of a parameter of the type `bool`, or of an item of a list of them. `index` is 0 unless it is a
+ * list.
+ *
+ * Errors: SCL_NAME (the component has no such parameter), SCL_KIND (it has another type), SCL_ARGUMENT (also if the
+ * list has no such item), SCL_HANDLE.
+ */
+scl_status scl_parameter_bool(scl_component *component,
+                              const char *name,
+                              size_t index,
+                              bool *value);
+
+/**
+ * scl_parameter_bool for whole numbers of any type: `i8` to `i64`, and `u8` to `u64`.
+ *
+ * Errors: also SCL_KIND if the value does not fit.
+ */
+scl_status scl_parameter_i64(scl_component *component,
+                             const char *name,
+                             size_t index,
+                             int64_t *value);
+
+/**
+ * scl_parameter_bool for whole numbers that are not negative, of any type: `i8` to `i64`, and `u8` to `u64`.
+ *
+ * Errors: also SCL_KIND if the value is negative.
+ */
+scl_status scl_parameter_u64(scl_component *component,
+                             const char *name,
+                             size_t index,
+                             uint64_t *value);
+
+/**
+ * scl_parameter_bool for the types `f32` and `f64`.
+ */
+scl_status scl_parameter_f64(scl_component *component,
+                             const char *name,
+                             size_t index,
+                             double *value);
+
+/**
+ * scl_parameter_bool for the type `duration`, in nanoseconds; at most UINT64_MAX, which are 584 years.
+ */
+scl_status scl_parameter_duration_ns(scl_component *component,
+                                     const char *name,
+                                     size_t index,
+                                     uint64_t *value);
+
+/**
+ * scl_parameter_bool for the type `text` and for parameters that are one of several words. The text belongs to the
+ * component and is valid until scl_close.
+ */
+scl_status scl_parameter_text(scl_component *component,
+                              const char *name,
+                              size_t index,
+                              const char **value);
+
+/**
+ * Stores the address of all values of a parameter in `*items`, and their number in `*count`. `item_type` is the type
+ * of the parameter or of its items, as in the topology file: `i8` to `u64` are the numbers of `stdint.h`, `f32` is a
+ * `float`, `f64` a `double`, `bool` a `bool`, `text` a `const char *`, `duration` nanoseconds in a `uint64_t`. A word
+ * of a choice is a `text`. For generated code.
+ *
+ * The values belong to the component and are valid until scl_close.
+ *
+ * Errors: SCL_NAME (the component has no such parameter), SCL_KIND (it has another type), SCL_HANDLE, SCL_ARGUMENT.
+ */
+scl_status scl_parameter_items(scl_component *component,
+                               const char *name,
+                               const char *item_type,
+                               const void **items,
+                               size_t *count);
 
 /**
  * Returns true if all required peers are connected or, for `rep` and `pull` gates, at least one peer. False for an

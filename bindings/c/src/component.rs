@@ -6,6 +6,7 @@ use crate::gate::{self, GATES, scl_gate};
 use crate::options::Options;
 use crate::registry::Registry;
 use crate::status::*;
+use crate::values::Parameters;
 use scl::host;
 use scl::plan::SystemPlan;
 use scl::untyped::{Closer, Component, GateError, Readiness, started_as};
@@ -30,6 +31,7 @@ pub(crate) struct Opened {
     closer: Closer,
     /// Names and handles of its gates.
     gates: Vec<(&'static str, usize)>,
+    pub(crate) parameters: Parameters,
     /// Opened by the first `scl_fd`.
     readiness: OnceLock<Readiness>,
 }
@@ -44,9 +46,11 @@ static COMPONENTS: Registry<Arc<Opened>> = Registry::new(3, "component");
 /// the kind that the environment variable SCL_COMPONENT names, which `scl run` sets. `options_json` is NULL for the
 /// defaults, or an object with any of these keys:
 ///
-///     {"runtime_dir": "/run/rover", "system": "rover-2", "transport": "ipc", "signals": true}
+///     {"runtime_dir": "/run/rover", "system": "rover-2", "transport": "ipc", "signals": true,
+///      "set": {"controller.period": "10ms"}}
 ///
-/// The first three replace the environment variables SCL_RUNTIME_DIR, SCL_SYSTEM and SCL_TRANSPORT. The transport is
+/// The first three replace the environment variables SCL_RUNTIME_DIR, SCL_SYSTEM and SCL_TRANSPORT. `set` has values of
+/// parameters, as texts like in the topology file; they count more than those of SCL_SET. The transport is
 /// `ipc`, `tcp` or `shm`, or a list with others for single connections, like `ipc,camera.frames=shm`; `shm` needs a
 /// library that was built with the feature `shm`. The first component also starts the log (SCL_LOG) and applies the
 /// real-time settings (SCL_SCHED, SCL_CPU) to the calling thread. Unless `signals` is false, SIGTERM and SIGINT no
@@ -55,7 +59,7 @@ static COMPONENTS: Registry<Arc<Opened>> = Registry::new(3, "component");
 /// On success, `*opened` is the new component, to be closed with scl_close; otherwise it is NULL.
 ///
 /// Errors: SCL_PLAN, SCL_NAME (the plan has no such component or kind), SCL_TAKEN, SCL_FOLDER, SCL_ENVIRONMENT (also if
-/// SCL_COMPONENT names none of the kind), SCL_SYSTEM, SCL_ARGUMENT.
+/// SCL_COMPONENT names none of the kind, or a parameter has no value or a wrong one), SCL_SYSTEM, SCL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_open(
     plan_json: *const c_char,
@@ -69,12 +73,8 @@ pub unsafe extern "C" fn scl_open(
         let (plan, name) = unsafe {
             (border::bytes(plan_json.cast::<c_void>(), plan_len, "plan_json")?, border::text(component, "component")?)
         };
-        let options = match options_json.is_null() {
-            true => Options::default(),
-            // SAFETY: guaranteed by the caller.
-            false => Options::read(unsafe { border::text(options_json, "options_json") }?)?,
-        };
-        Ok(open(plan, name, &options)? as *mut scl_component)
+        // SAFETY: guaranteed by the caller.
+        Ok(open(plan, name, &unsafe { options(options_json) }?)? as *mut scl_component)
     };
     // SAFETY: guaranteed by the caller; NULL is refused.
     border::status(|| unsafe { border::give(opened, "opened", open) })
@@ -87,12 +87,30 @@ pub unsafe extern "C" fn scl_open(
 /// The first three arguments are those of scl_open; of a kind, its first component is opened. On success, `*opened` and
 /// `*peer` are the new components, each to be closed with scl_close; otherwise they are NULL.
 ///
-/// Errors: SCL_PLAN, SCL_NAME (the plan has no such component or kind), SCL_SYSTEM, SCL_ARGUMENT.
+/// Errors: SCL_PLAN, SCL_NAME (the plan has no such component or kind), SCL_ENVIRONMENT (a parameter has no value),
+/// SCL_SYSTEM, SCL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_open_test(
     plan_json: *const c_char,
     plan_len: usize,
     component: *const c_char,
+    opened: *mut *mut scl_component,
+    peer: *mut *mut scl_component,
+) -> scl_status {
+    // SAFETY: guaranteed by the caller.
+    unsafe { scl_open_test_with(plan_json, plan_len, component, std::ptr::null(), opened, peer) }
+}
+
+/// scl_open_test with options, of which only `set` has an effect: `{"set": {"controller.period": "10ms"}}`. They may be
+/// NULL.
+///
+/// Errors: also SCL_ENVIRONMENT if a parameter has a wrong value.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_open_test_with(
+    plan_json: *const c_char,
+    plan_len: usize,
+    component: *const c_char,
+    options_json: *const c_char,
     opened: *mut *mut scl_component,
     peer: *mut *mut scl_component,
 ) -> scl_status {
@@ -107,7 +125,8 @@ pub unsafe extern "C" fn scl_open_test(
         let (plan, name) = unsafe {
             (border::bytes(plan_json.cast::<c_void>(), plan_len, "plan_json")?, border::text(component, "component")?)
         };
-        let handles = open_test(plan, name)?;
+        // SAFETY: guaranteed by the caller.
+        let handles = open_test(plan, name, &unsafe { options(options_json) }?)?;
         [*opened, *peer] = handles.map(|handle| handle as *mut scl_component);
         Ok(())
     })
@@ -165,6 +184,16 @@ pub unsafe extern "C" fn scl_gate_by_name(component: *mut scl_component, name: *
     gate.unwrap_or(std::ptr::null_mut())
 }
 
+/// # Safety
+/// `json` is NULL or a text.
+unsafe fn options(json: *const c_char) -> Result<Options, Failure> {
+    match json.is_null() {
+        true => Ok(Options::default()),
+        // SAFETY: guaranteed by the caller.
+        false => Options::read(unsafe { border::text(json, "options_json") }?),
+    }
+}
+
 fn open(plan: &[u8], name: &str, options: &Options) -> Result<usize, Failure> {
     let plan = read(plan)?;
     let plan = started_as(&plan, name)?;
@@ -172,11 +201,11 @@ fn open(plan: &[u8], name: &str, options: &Options) -> Result<usize, Failure> {
     insert(Component::open_blocking_with(plan, options.for_opening())?)
 }
 
-fn open_test(plan: &[u8], name: &str) -> Result<[usize; 2], Failure> {
+fn open_test(plan: &[u8], name: &str, options: &Options) -> Result<[usize; 2], Failure> {
     let plan = read(plan)?;
     let plan = plan.component_or_first(name).map_err(|error| Failure::of(SCL_NAME, &error))?;
     host::start_log()?;
-    let (component, peer) = Component::test_blocking(plan)?;
+    let (component, peer) = Component::test_blocking_with(plan, options.for_opening())?;
     let component = insert(component)?;
     match insert(peer) {
         Ok(peer) => Ok([component, peer]),
@@ -207,10 +236,12 @@ fn insert(mut component: Component) -> Result<usize, Failure> {
             }
         }
     }
+    let parameters = Parameters::of(&component);
     let (closer, component) = (component.closer(), RwLock::new(Some(component)));
     // No name contains a NUL: sockets are named after it.
     let c_name = CString::new(name).unwrap_or_default();
-    COMPONENTS.insert(Arc::new(Opened { name, c_name, component, closer, gates, readiness: OnceLock::new() }))
+    let readiness = OnceLock::new();
+    COMPONENTS.insert(Arc::new(Opened { name, c_name, component, closer, gates, parameters, readiness }))
 }
 
 /// Does what `#[scl::main]` does for a Rust program before its first component is opened.

@@ -89,9 +89,13 @@ fn opening(error: &OpenError) -> scl_status {
         OpenError::Plan { .. } | OpenError::TooManyPlans { .. } => SCL_PLAN,
         OpenError::Environment { .. }
         | OpenError::NoSuchGate { .. }
+        | OpenError::NoSuchParameter { .. }
+        | OpenError::NoValue { .. }
+        | OpenError::Set { .. }
         | OpenError::TransportOff { .. }
         | OpenError::Unexpected { .. }
-        | OpenError::WhichComponent { .. } => SCL_ENVIRONMENT,
+        | OpenError::WhichComponent { .. }
+        | OpenError::WrongValue { .. } => SCL_ENVIRONMENT,
         OpenError::UnknownComponent(_) => SCL_NAME,
         OpenError::Gate { .. } | OpenError::Timer { .. } | OpenError::Runtime { .. } => SCL_SYSTEM,
         _ => SCL_FAILED,

@@ -14,6 +14,8 @@ mod error;
 
 mod component;
 
+mod parameter;
+
 mod gate;
 
 mod send;
@@ -42,3 +44,4 @@ mod patience;
 mod registry;
 mod texts;
 mod thread;
+mod values;

@@ -4,6 +4,7 @@ use crate::error::Failure;
 use scl::{OpenOptions, TransportChoice};
 use serde::Deserialize;
 use serde::de::{Deserializer, Error};
+use std::collections::BTreeMap;
 
 /// The options in `options_json`. Those that are missing come from the environment, as in Rust.
 #[derive(Debug, Default, Deserialize)]
@@ -14,6 +15,8 @@ pub(crate) struct Options {
     #[serde(deserialize_with = "transports")]
     transport: Option<TransportChoice>,
     signals: Option<bool>,
+    /// Values of parameters, by `component.parameter`.
+    set: BTreeMap<String, String>,
 }
 
 impl Options {
@@ -41,10 +44,10 @@ impl Options {
         if let Some(system) = &self.system {
             options = options.system(system);
         }
-        match &self.transport {
-            Some(choice) => options.transports(choice.clone()),
-            None => options,
+        if let Some(choice) = &self.transport {
+            options = options.transports(choice.clone());
         }
+        self.set.iter().fold(options, |options, (parameter, value)| options.set(parameter, value))
     }
 }
 
@@ -61,16 +64,26 @@ mod tests {
     #[test]
     fn options_are_read_or_refused() {
         let shown = |json| Options::read(json).map(|options| format!("{:?}", options.for_opening()));
-        let read =
-            shown(r#"{"runtime_dir": "/run/x", "system": "rover-2", "transport": "tcp,a.b=shm", "signals": false}"#);
+        let read = shown(
+            r#"{"runtime_dir": "/run/x", "system": "rover-2", "transport": "tcp,a.b=shm", "signals": false,
+                "set": {"a.gain": "2"}}"#,
+        );
         let expected = r#"runtime_dir: Some("/run/x"), system: Some("rover-2"), transport_kind: Some(Tcp), "#;
-        let transports = r#"transport_of: [("a.b", Shm)], transport: None"#;
+        let transports = r#"transport_of: [("a.b", Shm)], set: [("a.gain", "2")], transport: None"#;
         assert_eq!(read.unwrap(), format!("OpenOptions {{ {expected}{transports} }}"));
         for json in ["", " ", "{}"] {
             assert!(Options::read(json).unwrap().signals());
         }
-        for json in ["[1]", "{", r#"{"sistem": "x"}"#, r#"{"transport": "udp"}"#, r#"{"signals": 1}"#, "null", "{} {}"]
-        {
+        for json in [
+            "[1]",
+            "{",
+            r#"{"sistem": "x"}"#,
+            r#"{"transport": "udp"}"#,
+            r#"{"signals": 1}"#,
+            "null",
+            "{} {}",
+            r#"{"set": {"a.gain": 2}}"#,
+        ] {
             assert_eq!(shown(json).unwrap_err().status, SCL_ARGUMENT, "{json}");
         }
     }

@@ -39,9 +39,9 @@ pub const SCL_ENCODE: scl_status = -13;
 pub const SCL_ARGUMENT: scl_status = -20;
 /// The handle was closed or freed, or never was one.
 pub const SCL_HANDLE: scl_status = -21;
-/// The system has no component, or the component no gate, with this name.
+/// The system has no component, or the component no gate or parameter, with this name.
 pub const SCL_NAME: scl_status = -22;
-/// The gate is of another kind: for example, `scl_send` with a gate that receives.
+/// The gate is of another kind: for example, `scl_send` with a gate that receives. Or the parameter is of another type.
 pub const SCL_KIND: scl_status = -23;
 /// The plan is not valid, or was written for another version of SCL.
 pub const SCL_PLAN: scl_status = -24;
@@ -49,7 +49,7 @@ pub const SCL_PLAN: scl_status = -24;
 pub const SCL_TAKEN: scl_status = -25;
 /// The runtime folder cannot be used.
 pub const SCL_FOLDER: scl_status = -26;
-/// An environment variable has a value that is not understood.
+/// An environment variable has a value that is not understood, or a parameter has no value or a wrong one.
 pub const SCL_ENVIRONMENT: scl_status = -27;
 /// The component was closed by another thread during the call.
 pub const SCL_CLOSED: scl_status = -28;

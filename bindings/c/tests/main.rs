@@ -8,6 +8,7 @@ mod counterpart;
 mod event_loop;
 mod exits;
 mod header;
+mod parameters;
 #[allow(dead_code, reason = "the tests with tools use the rest")]
 mod programs;
 mod stopping;

@@ -9,6 +9,7 @@
 #include <scl/component.hpp>
 #include <scl/error.hpp>
 #include <scl/options.hpp>
+#include <scl/parameter.hpp>
 #include <scl/receiving.hpp>
 #include <scl/rep.hpp>
 #include <scl/req.hpp>

@@ -4,6 +4,7 @@ use crate::failure::{Failure, no_panic};
 use crate::gate::Gate;
 use crate::limit::Limit;
 use crate::native::Native;
+use crate::parameter;
 use crate::plan::Plan;
 use crate::process::detach;
 use crate::readiness::Readiness;
@@ -13,8 +14,11 @@ use crate::waiting::{LOOK, wait};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use scl::host::{self, text_with_causes};
+use scl::plan::ParameterValue;
 use scl::untyped;
 use scl::{NotReady, OpenOptions, TransportChoiceError};
+use scl_topology::rust_name::gate_field;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -25,6 +29,8 @@ use std::time::Duration;
 pub(crate) struct Component {
     shared: Arc<Shared>,
     gates: Vec<Py<Gate>>,
+    /// The values of its parameters, each with its name.
+    parameters: Vec<(&'static str, ParameterValue)>,
     /// `None` once closed. Dropping it hands over the messages that are left.
     component: Native<Mutex<Option<untyped::Component>>>,
     is_test: bool,
@@ -40,7 +46,7 @@ struct WithGates {
 impl Component {
     /// Opens a component of a system whose plans are given as JSON.
     #[staticmethod]
-    #[pyo3(signature = (plan, component, *, runtime_dir=None, system=None, transport=None))]
+    #[pyo3(signature = (plan, component, *, runtime_dir=None, system=None, transport=None, set=None))]
     fn open(
         py: Python<'_>,
         plan: &Plan,
@@ -48,8 +54,9 @@ impl Component {
         runtime_dir: Option<PathBuf>,
         system: Option<String>,
         transport: Option<&str>,
+        set: Option<BTreeMap<String, String>>,
     ) -> PyResult<Self> {
-        let options = options(runtime_dir, system, transport)?;
+        let options = with_values(options(runtime_dir, system, transport)?, set);
         let plan = plan.component(component)?;
         let opened = detach(py, || {
             no_panic(|| {
@@ -63,12 +70,19 @@ impl Component {
 
     /// Opens a component for a unit test, together with its counterpart.
     #[staticmethod]
-    fn open_test(py: Python<'_>, plan: &Plan, component: &str) -> PyResult<(Self, Self)> {
+    #[pyo3(signature = (plan, component, *, set=None))]
+    fn open_test(
+        py: Python<'_>,
+        plan: &Plan,
+        component: &str,
+        set: Option<BTreeMap<String, String>>,
+    ) -> PyResult<(Self, Self)> {
+        let options = with_values(OpenOptions::new(), set);
         let plan = plan.component(component)?;
         let counterpart = plan.counterpart();
         let opened = detach(py, || {
             no_panic(|| {
-                let (component, peer) = untyped::Component::test_blocking(plan)?;
+                let (component, peer) = untyped::Component::test_blocking_with(plan, options)?;
                 Ok((WithGates::of(component, plan)?, WithGates::of(peer, &counterpart)?))
             })
         })?;
@@ -90,6 +104,13 @@ impl Component {
     #[getter]
     fn gates(&self, py: Python<'_>) -> Vec<Py<Gate>> {
         self.gates.iter().map(|gate| gate.clone_ref(py)).collect()
+    }
+
+    /// The parameters, in the order of the topology file: name, name as an identifier, and value.
+    #[getter]
+    fn parameters(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, String, Py<PyAny>)>> {
+        let found = self.parameters.iter();
+        found.map(|(name, value)| Ok((*name, gate_field(name), parameter::object(py, value)?))).collect()
     }
 
     /// Waits until all required peers are connected. `waited` is the time in seconds that the caller has waited before,
@@ -210,10 +231,13 @@ impl Component {
     fn new(py: Python<'_>, plan: &scl::plan::Plan, opened: WithGates, is_test: bool) -> PyResult<Self> {
         let WithGates { gates, component } = opened;
         let shared = Arc::new(Shared::new(&component, &plan.component, &plan.system));
+        let parameters = component.spec().parameters.iter();
+        let parameters = parameters.filter_map(|it| Some((&*it.name, component.parameter(&it.name)?.clone())));
+        let parameters = parameters.collect();
         let gates = plan.gates.iter().zip(gates);
         let gates = gates.map(|(plan, gate)| Py::new(py, Gate::new(plan.clone(), Arc::clone(&shared), gate)));
         let gates = gates.collect::<PyResult<Vec<_>>>()?;
-        Ok(Self { component: shared.keep(Mutex::new(Some(component))), shared, gates, is_test })
+        Ok(Self { component: shared.keep(Mutex::new(Some(component))), shared, gates, parameters, is_test })
     }
 }
 
@@ -230,4 +254,9 @@ fn options(runtime_dir: Option<PathBuf>, system: Option<String>, transport: Opti
         options = options.transports(text.parse().map_err(wrong)?);
     }
     Ok(options)
+}
+
+/// Sets values of parameters, by `component.parameter`.
+fn with_values(options: OpenOptions, values: Option<BTreeMap<String, String>>) -> OpenOptions {
+    values.into_iter().flatten().fold(options, |options, (parameter, value)| options.set(parameter, value))
 }

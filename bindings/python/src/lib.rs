@@ -11,6 +11,7 @@ mod gate;
 mod limit;
 mod logging;
 mod native;
+mod parameter;
 mod pending_call;
 mod pending_miss;
 mod plain;

@@ -70,6 +70,12 @@ impl Plan {
         Ok(facts.collect())
     }
 
+    /// The parameters of a component, in the order of the topology file: name and type.
+    fn parameters(&self, component: &str) -> PyResult<Vec<(&str, String)>> {
+        let parameters = self.component(component)?.parameters.iter();
+        Ok(parameters.map(|it| (&*it.name, it.kind.to_string())).collect())
+    }
+
     /// The plan of the other ends of a component's gates, with the messages of the component.
     fn counterpart(&self, component: &str) -> PyResult<Self> {
         let plan = self.component(component)?;

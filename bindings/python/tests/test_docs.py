@@ -10,7 +10,9 @@ from conftest import Program, System
 
 ROOT = Path(__file__).parents[3]
 PAGE = (ROOT / "docs" / "python.md").read_text()
-BLOCKS = re.findall(r"^```python\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
+ALL = re.findall(r"^```python\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
+CONTROLS = [block for block in ALL if "controls_scl" in block]
+BLOCKS = [block for block in ALL if block not in CONTROLS]
 CLASSES = {
     "Sensor": "sensor",
     "Actuator": "actuator",
@@ -82,6 +84,13 @@ def test_a_program_of_the_page_runs(system: System, tmp_path: Path, block: str) 
         program.next_line() if "print(setpoint" in block else program.wait_until_asleep()
         program.send_signal(signal.SIGTERM)
     code, errors = program.end()
+    assert (code, [line for line in errors.splitlines() if " scl" not in line]) == (0, [])
+
+
+@pytest.mark.parametrize("block", CONTROLS, ids=range(len(CONTROLS)))
+def test_a_program_with_parameters_runs(system: System, tmp_path: Path, block: str) -> None:
+    shutil.copy(ROOT / "crates/scl-generate/tests/python/expected/controls_scl.py", tmp_path)
+    code, errors = _start(system, tmp_path, block).end()
     assert (code, [line for line in errors.splitlines() if " scl" not in line]) == (0, [])
 
 

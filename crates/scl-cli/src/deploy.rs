@@ -2,6 +2,7 @@
 
 use crate::run::component_names;
 use clap::{Args, Subcommand};
+use scl_plan::Assignment;
 use scl_run::{Unit, UnitOptions, systemd_units};
 use scl_terminal::{Problem, parse_duration, print_out};
 use std::fs;
@@ -45,6 +46,9 @@ pub(crate) struct SystemdArguments {
     /// Use the programs of this profile of the launch file; several: later ones win.
     #[arg(long = "profile", value_name = "NAME")]
     profiles: Vec<String>,
+    /// Give a parameter this value, for example `controller.gain=2`; wins over the launch file. May be repeated.
+    #[arg(long, value_name = "COMPONENT.PARAMETER=VALUE", value_parser = Assignment::parse)]
+    set: Vec<Assignment>,
     /// The user of all services [default: root].
     #[arg(long, value_name = "USER")]
     user: Option<String>,
@@ -63,6 +67,7 @@ pub(crate) fn deploy(arguments: &DeployArguments) -> Result<ExitCode, Vec<Proble
         folder: arguments.folder.clone(),
         profiles: arguments.profiles.clone(),
         host: arguments.host.clone(),
+        set: arguments.set.clone(),
         grace: arguments.grace,
         ..scl_run::Options::default()
     };

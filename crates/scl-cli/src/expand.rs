@@ -4,7 +4,8 @@ use crate::load::{MaxSize, load_file, unsound};
 use clap::Args;
 use scl_terminal::{Problem, print_out};
 use scl_topology::grammar::MEMORY;
-use scl_topology::model::{ComponentModel, ConnectionModel, GateModel, Model};
+use scl_topology::grammar::parameter::PARAMETERS;
+use scl_topology::model::{ComponentModel, ConnectionModel, GateModel, Model, ParameterModel, WrittenValue};
 use scl_topology::source::Spanned;
 use serde_yaml::{Mapping, Value};
 use std::path::PathBuf;
@@ -52,12 +53,12 @@ fn flat(model: &Model, system: &str) -> Value {
     if let Some(codec) = &model.codec {
         file.insert("codec".into(), text(codec));
     }
-    file.insert("components".into(), model.components.iter().map(component).collect());
+    file.insert("components".into(), model.components.iter().map(|it| component(model, it)).collect());
     file.insert("connections".into(), model.connections.iter().map(connection).collect());
     file.into()
 }
 
-fn component(component: &ComponentModel) -> Value {
+fn component(model: &Model, component: &ComponentModel) -> Value {
     let mut entry = Mapping::new();
     entry.insert("name".into(), text(&component.name));
     if let Some(doc) = &component.doc {
@@ -69,8 +70,39 @@ fn component(component: &ComponentModel) -> Value {
     if let Some(memory) = &component.memory {
         entry.insert(MEMORY.into(), text(memory));
     }
+    let parameters = component.of.and_then(|kind| model.kinds.get(kind)).unwrap_or(component).parameters.iter();
+    if parameters.len() > 0 {
+        entry.insert(PARAMETERS.into(), parameters.map(parameter).collect());
+    }
     entry.insert("gates".into(), component.gates.iter().map(gate).collect());
     entry.into()
+}
+
+fn parameter(parameter: &ParameterModel) -> Value {
+    let value = match (&parameter.value, parameter.keys.is_empty()) {
+        (None, true) => text(&parameter.kind),
+        (value, _) => {
+            let default = (text(&parameter.kind), value.as_ref().map_or(Value::Null, written));
+            let keys = parameter.keys.iter().map(|(key, value)| (text(key), written(value)));
+            [default].into_iter().chain(keys).collect::<Mapping>().into()
+        }
+    };
+    Mapping::from_iter([(text(&parameter.name), value)]).into()
+}
+
+fn written(value: &WrittenValue) -> Value {
+    match value {
+        WrittenValue::One(value) => unquoted(value),
+        WrittenValue::Many(values, _) => values.iter().map(unquoted).collect(),
+    }
+}
+
+/// A number or a boolean without quotes.
+fn unquoted(value: &Spanned<String>) -> Value {
+    match serde_yaml::from_str(&value.value) {
+        Ok(plain @ (Value::Number(_) | Value::Bool(_))) => plain,
+        _ => text(value),
+    }
 }
 
 fn gate(gate: &GateModel) -> Value {
@@ -80,11 +112,7 @@ fn gate(gate: &GateModel) -> Value {
             let mut keys = Mapping::new();
             keys.insert(text(&gate.kind), payload.as_ref().map_or(Value::Null, text));
             for option in &gate.options {
-                // Numbers and booleans are written without quotes.
-                let value = match serde_yaml::from_str(&option.value.value) {
-                    Ok(value @ (Value::Number(_) | Value::Bool(_))) if !option.quoted => value,
-                    _ => text(&option.value),
-                };
+                let value = if option.quoted { text(&option.value) } else { unquoted(&option.value) };
                 keys.insert(text(&option.key), value);
             }
             keys.into()

@@ -110,7 +110,7 @@ impl Plans {
         let takes_work = |gate: &GatePlan| matches!(gate.kind, GateKind::Pull | GateKind::Rep);
         let gates = plan.gates.iter().filter(|gate| !takes_work(gate)).cloned().collect();
         let plan = Plan { gates, ..plan.clone() };
-        let mut options = OpenOptions::new();
+        let mut options = OpenOptions::new().stands_in();
         if let Some(system) = self.system_name() {
             options = options.system(system);
         }

@@ -3,6 +3,7 @@
 use crate::load::{MaxSize, load_file, show_errors};
 use clap::Args;
 use scl_loader::Loaded;
+use scl_plan::Assignment;
 use scl_run::SystemNames;
 use scl_terminal::{Problem, parse_duration};
 use std::ffi::OsString;
@@ -37,6 +38,9 @@ pub(crate) struct RunArguments {
     /// Start the components of this host of the launch file, and its gateway to the other hosts.
     #[arg(long, value_name = "HOST")]
     host: Option<String>,
+    /// Give a parameter this value, for example `controller.gain=2`; wins over the launch file. May be repeated.
+    #[arg(long, value_name = "COMPONENT.PARAMETER=VALUE", value_parser = Assignment::parse)]
+    set: Vec<Assignment>,
     /// Stop after this time, for example `5s`, and succeed.
     #[arg(long = "for", value_name = "TIME", value_parser = parse_duration)]
     run_for: Option<Duration>,
@@ -62,6 +66,7 @@ Examples:
   scl run --profile python        the programs of a profile
   scl run --only sensor           one component, while the others run elsewhere
   scl run --host board            on the board: its components and its gateway
+  scl run --set controller.gain=2 another value of a parameter
   scl restart sensor              from another shell; `scl stop` stops everything
 
 A launch file (docs/launch.md has all of it):
@@ -97,6 +102,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<ExitCode, Vec<Problem>> {
         only: arguments.only.clone(),
         without: arguments.without.clone(),
         host: arguments.host.clone(),
+        set: arguments.set.clone(),
         release: arguments.release,
         no_build: arguments.no_build,
         run_for: arguments.run_for,

@@ -3,6 +3,7 @@
 mod file;
 mod gate;
 mod names;
+mod parameter;
 mod shape;
 
 use crate::exit::COULD_NOT_DO;

@@ -263,6 +263,23 @@ fn a_bound_changes_no_plan() {
 }
 
 #[test]
+fn a_parameter_concerns_one_program() {
+    let parameters = "- name: controller\n    parameters:\n      - gain: {f64: 0.8}";
+    let system = System::of_files(&[
+        ("old.yaml", &ROVER.replace("- name: controller", parameters)),
+        ("new.yaml", &ROVER.replace("- name: controller", &parameters.replace("0.8", "1, range: [0, 2]"))),
+    ]);
+    let output = system.scl(&["diff", "old.yaml", "new.yaml"]).output().unwrap();
+    expect![[r#"
+        ~ parameter `controller.gain`: default from `0.8` to `1`, range from `none` to `0 to 2`
+
+        to rebuild:
+          controller: parameter `gain` differs
+    "#]]
+    .assert_eq(&String::from_utf8(output.stdout).unwrap());
+}
+
+#[test]
 fn json_says_the_same() {
     let new = ROVER.replace("sensor: sub", "sensor: {sub: rover.Measurement, queue: 1}");
     let system = System::of_files(&[("old.yaml", ROVER), ("new.yaml", &new)]);

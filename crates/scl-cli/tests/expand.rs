@@ -12,6 +12,13 @@ kinds:
     doc: One motor with its controller.
     optional: true
     memory: 8GiB
+    parameters:
+      - pin: u8
+      - gain: {f64: 0.8, range: [0, 10], unit: 1/s}
+      - label: {text: '5', doc: 'a, b'}
+      - mode: {one_of: [manual, auto], default: manual}
+      - offsets: {list: f64, length: 2, default: [0, 1.5]}
+      - limit: {duration: , range: [1ms, 1s]}
     gates:
       - setpoint: {sub: rover.Setpoint, queue: 1, when_full: drop_oldest}
       - state: {pub: rover.MotorState, doc: 'yes', latched: true}
@@ -69,6 +76,33 @@ fn a_topology_is_printed_without_kinds() {
               doc: One motor with its controller.
               optional: true
               memory: 8GiB
+              parameters:
+              - pin: u8
+              - gain:
+                  f64: 0.8
+                  range:
+                  - 0
+                  - 10
+                  unit: 1/s
+              - label:
+                  text: 5
+                  doc: a, b
+              - mode:
+                  one_of:
+                  - manual
+                  - auto
+                  default: manual
+              - offsets:
+                  list: f64
+                  length: 2
+                  default:
+                  - 0
+                  - 1.5
+              - limit:
+                  duration: null
+                  range:
+                  - 1ms
+                  - 1s
               gates:
               - setpoint:
                   sub: rover.Setpoint
@@ -82,6 +116,33 @@ fn a_topology_is_printed_without_kinds() {
             - name: right_motor
               doc: 'The other: it turns.'
               memory: 9GiB
+              parameters:
+              - pin: u8
+              - gain:
+                  f64: 0.8
+                  range:
+                  - 0
+                  - 10
+                  unit: 1/s
+              - label:
+                  text: 5
+                  doc: a, b
+              - mode:
+                  one_of:
+                  - manual
+                  - auto
+                  default: manual
+              - offsets:
+                  list: f64
+                  length: 2
+                  default:
+                  - 0
+                  - 1.5
+              - limit:
+                  duration: null
+                  range:
+                  - 1ms
+                  - 1s
               gates:
               - setpoint:
                   sub: rover.Setpoint
@@ -140,9 +201,9 @@ fn a_topology_with_errors_is_not_printed() {
         &expect![[""]],
         &expect![[r#"
             error: [SCL1305] `moter` is no kind
-              --> topology.yaml:24:6
+              --> topology.yaml:31:6
                |
-            24 |   - [each moter.state, controller.states]
+            31 |   - [each moter.state, controller.states]
                |      ^^^^^^^^^^^^^^^^
                |
                = help: write `each motor.state`

@@ -86,6 +86,8 @@ mod run_output;
 #[cfg(feature = "run")]
 mod run_package;
 #[cfg(feature = "run")]
+mod run_parameters;
+#[cfg(feature = "run")]
 mod run_placement;
 #[cfg(feature = "run")]
 mod run_profiles;

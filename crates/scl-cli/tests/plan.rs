@@ -201,7 +201,14 @@ fn the_format_is_documented() {
     let yaml = yaml
         .replace("codec: json}", "codec: json, rate: 100Hz}")
         .replace("codec: json, queue: 1}", "codec: json, queue: 1, deadline: 1s}")
-        .replace("components:\n", "kinds:\n  - {name: lamp, gates: []}\ncomponents:\n  - {name: red, kind: lamp}\n");
+        .replace(
+            "components:\n",
+            "kinds:\n  - {name: lamp, parameters: PARAMETERS, gates: []}\ncomponents:\n  - {name: red, kind: lamp}\n",
+        )
+        .replace(
+            "PARAMETERS",
+            "[{a: {f64: 1, range: [0, 2], unit: m, doc: text}}, {b: {one_of: [c, d]}}, {e: {list: u8, length: 2}}]",
+        );
     let text = String::from_utf8(scl_plan(&[("topology.yaml", &yaml)], &[]).stdout).unwrap();
     let keys = text.lines().filter_map(|line| line.trim().strip_prefix('"')?.split_once("\":"));
     let printed: BTreeSet<&str> = keys.map(|(key, _)| key).collect();

@@ -45,7 +45,7 @@ fn unknown_keys_get_a_suggestion_and_the_list() {
             5 |   b: {command: ls, colour: red}
               |                    ^^^^^^
               |
-              = note: the keys are `alive_within`, `build`, `command`, `cpu`, `descriptors`, `environment`, `essential`, `input`, `opens`, `priority`, `ready_within`, `replay`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
+              = note: the keys are `alive_within`, `build`, `command`, `cpu`, `descriptors`, `environment`, `essential`, `input`, `opens`, `parameters`, `priority`, `ready_within`, `replay`, `restart`, `restart_delay`, `restart_limit`, `stop_within`, `working_directory`
 
         "#]],
     );

@@ -3,6 +3,7 @@
 //! A gate whose codec is protobuf and whose message is in `schemas:` has functions for the message structs of
 //! protobuf-c; any other gate has functions for bytes.
 
+mod comment;
 mod component_functions;
 mod content;
 mod enumeration;
@@ -11,6 +12,7 @@ mod gate;
 mod header;
 mod helpers;
 mod literal;
+mod parameters;
 mod protobuf_c;
 mod recursion;
 mod source;
@@ -50,6 +52,7 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
         }
     }
     found.extend(system.components.iter().flat_map(|component| enumeration::declarations(system, component, C)));
+    found.extend(system.components.iter().flat_map(|component| parameters::declarations(system, component, C)));
     found
 }
 

@@ -1,6 +1,6 @@
 //! Names of the topology that would become the same name in another language: SCL1101 and SCL1102.
 
-use crate::system::{Component, Gate, Instance, MessageUse, SenderValue};
+use crate::system::{ChoiceValue, Component, Gate, Instance, MessageUse, Parameter, SenderValue};
 use scl_topology::diagnostic::Diagnostic;
 use scl_topology::external::{MESSAGE_CLASH, NAME_CLASH};
 use scl_topology::source::Span;
@@ -38,6 +38,7 @@ pub(crate) struct Origin {
 enum Kind {
     Component,
     Gate,
+    Parameter,
     Message,
     Generated,
 }
@@ -69,6 +70,17 @@ impl Origin {
         let of = sender.path.as_deref().unwrap_or(&sender.class_name);
         let what = format!("the sender `{of}` of gate `{}.{}`", component.name, gate.name);
         Self { what, span: Some(gate.span), kind: Kind::Generated }
+    }
+
+    pub(crate) fn parameter(component: &Component, parameter: &Parameter) -> Self {
+        let what = format!("parameter `{}.{}`", component.name, parameter.name);
+        Self { what, span: Some(parameter.span), kind: Kind::Parameter }
+    }
+
+    /// A word that a parameter can be.
+    pub(crate) fn choice(component: &Component, parameter: &Parameter, value: &ChoiceValue) -> Self {
+        let what = format!("value `{}` of parameter `{}.{}`", value.word, component.name, parameter.name);
+        Self { what, span: Some(parameter.span), kind: Kind::Parameter }
     }
 
     /// A message that a gate carries.
@@ -112,7 +124,7 @@ fn report(declaration: &Declaration, first: &Origin, second: &Origin) -> Diagnos
     let headline = format!("{} and {} would both become `{name}` in {scope}", first.what, second.what);
     // Suggest the easier rename: components and gates rather than messages, which other programs may use.
     let [other, renamed] = match (first.kind, second.kind) {
-        (_, Kind::Component | Kind::Gate) | (Kind::Generated, _) => [first, second],
+        (_, Kind::Component | Kind::Gate | Kind::Parameter) | (Kind::Generated, _) => [first, second],
         _ => [second, first],
     };
     let mut problem = match renamed.span.or(other.span) {

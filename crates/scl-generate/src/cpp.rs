@@ -2,6 +2,7 @@
 
 mod enumeration;
 mod messages;
+mod parameters;
 mod plan_text;
 
 use crate::clash::{Declaration, Origin};
@@ -28,6 +29,7 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
     let mut declarations = messages::declarations(system, &namespace, &inside);
     declarations.extend(system.components_and_counterparts().map(component));
     declarations.extend(enumeration::declarations(system, &namespace, &inside));
+    declarations.extend(parameters::declarations(system, &namespace, &inside));
     for component in system.components_and_counterparts() {
         let scope = format!("the C++ struct `{namespace}::{}`", component.class_name);
         if component.counterpart.is_some() {
@@ -61,11 +63,13 @@ pub(crate) fn files(system: &System) -> Vec<File> {
     }
     out.line(format!("\nnamespace {namespace} {{"));
     enumeration::write_all(system, &mut out);
+    parameters::write_all(system, &mut out);
     out.line(
         "\nnamespace scl_generated {\n\n/// What the programs need of the topology file, as `scl plan` prints it.",
     );
     out.line(format!("inline constexpr ::std::string_view plan = {};", plan_text::literal(&system.plan_json())));
     enumeration::write_names(system, &mut out);
+    parameters::write_readers(system, &mut out);
     out.line("\n} // namespace scl_generated");
     for component in system.components_and_counterparts() {
         out.blank();
@@ -86,6 +90,7 @@ fn write_component(out: &mut Writer, component: &Component, messages: &Messages)
     write_comment(out, component.doc.as_deref().unwrap_or(&default));
     out.block(format!("struct {class} : ::scl::Component {{"), "};", |out| {
         write_opening(out, component);
+        parameters::write_member(component, out);
         for gate in &component.gates {
             out.blank();
             write_gate(out, gate, component.counterpart_of.is_some(), messages);
@@ -126,12 +131,16 @@ fn write_opening(out: &mut Writer, component: &Component) {
         ));
     }
     if let Some(peer) = component.counterpart.as_deref().map(|peer| &peer.class_name) {
+        let (doc, parameter, argument) = match component.parameters.is_empty() {
+            true => ("", "", ""),
+            false => (" Only `set` of the options has an effect.", "const ::scl::Options& options = {}", ", options"),
+        };
         out.line(format!(
             "\n\
              /// Opens the component for a unit test, together with the other ends of its gates, without processes,\n\
-             /// sockets or files.\n\
-             static ::std::pair<{class}, {peer}> test() {{\n    \
-                 return ::scl::open_test<{class}, {peer}>(scl_generated::plan, \"{name}\");\n\
+             /// sockets or files.{doc}\n\
+             static ::std::pair<{class}, {peer}> test({parameter}) {{\n    \
+                 return ::scl::open_test<{class}, {peer}>(scl_generated::plan, \"{name}\"{argument});\n\
              }}\n\n\
              /// For `test`.\n\
              {for_test}"

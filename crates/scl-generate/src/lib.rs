@@ -21,7 +21,7 @@ mod writer;
 mod zmq;
 
 pub use output::{File, Outcome, OutputError, is_current, write};
-pub use system::{Component, Gate, Instance, MessageUse, SenderValue, Senders, System};
+pub use system::{Choice, ChoiceValue, Component, Gate, Instance, MessageUse, Parameter, SenderValue, Senders, System};
 pub use zmq::Format;
 
 use clash::Declaration;

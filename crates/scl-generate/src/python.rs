@@ -3,7 +3,7 @@
 //! ```text
 //! # header, docstring, imports
 //! _PLAN                 the plan, from which components are opened and message classes are made
-//! class Sensor          one per component, gates as annotated attributes (`component`)
+//! class Sensor          one per component, gates as annotated attributes (`component`), after its parameters
 //! if TYPE_CHECKING:     the messages as type checkers and editors see them (`message`)
 //! else:                 the messages when the program runs: made from the plan when they are first used
 //! ```
@@ -14,6 +14,7 @@ mod enumeration;
 mod layout;
 mod message;
 mod names;
+mod parameters;
 mod schema;
 
 use crate::clash::{Declaration, Origin};
@@ -46,6 +47,7 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
         found.extend(component.gates.iter().map(gate));
         found.push(declare(&class, Origin::component(component)));
     }
+    found.extend(parameters::declarations(system, &scope));
     found.extend(enumeration::declarations(system, &scope));
     let used: Vec<_> = system.gates().flat_map(|gate| &gate.types).collect();
     found.extend(names.top_level().map(|(name, full_name)| {
@@ -63,6 +65,7 @@ pub(crate) fn files(system: &System) -> Vec<File> {
     let mut body = Writer::default();
     enumeration::write_all(system, &mut body);
     for component in system.components_and_counterparts() {
+        parameters::write(component, &names, &imports, &mut body);
         component::write(system, component, &names, &imports, &mut body);
     }
     let messages = message::Messages { schema: &schema, names: &names, imports: &imports };
@@ -76,7 +79,7 @@ pub(crate) fn files(system: &System) -> Vec<File> {
     out.line("\nfrom __future__ import annotations\n\nfrom typing import TYPE_CHECKING\n\nimport scl as _scl\n");
     imports.write(&mut out);
     let components = system.components_and_counterparts().map(names::class);
-    let components = components.chain(enumeration::classes(system));
+    let components = components.chain(enumeration::classes(system)).chain(parameters::classes(system));
     let exported = components.chain(names.top_level().map(|(name, _)| name.to_owned()));
     let quoted = exported.collect::<BTreeSet<_>>().into_iter().map(|name| Doc::text(format!("\"{name}\"")));
     let all = Doc::concat([Doc::text("__all__ = "), Doc::group("[", quoted.collect(), "]")]);

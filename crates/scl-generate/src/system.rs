@@ -1,9 +1,11 @@
 //! What generators know of a system: plans, documentation, messages, and the places of names in the topology file.
 
 mod component;
+mod parameter;
 mod senders;
 
 pub use component::{Component, Gate, Instance, MessageUse};
+pub use parameter::{Choice, ChoiceValue, Parameter};
 pub use senders::{SenderValue, Senders};
 
 use prost_types::FileDescriptorSet;
@@ -99,6 +101,11 @@ impl System {
     /// The gates that have an enum of senders of their own, with it.
     pub(crate) fn own_senders(&self) -> impl Iterator<Item = (&Component, &Gate, &Senders)> {
         self.components.iter().flat_map(|component| component.own_senders().map(move |(of, own)| (component, of, own)))
+    }
+
+    /// The parameters of all components that are one of several words, with their enums.
+    pub(crate) fn choices(&self) -> impl Iterator<Item = (&Component, &Parameter, &Choice)> {
+        self.components.iter().flat_map(|component| component.choices().map(move |(of, own)| (component, of, own)))
     }
 
     /// The name in `snake_case`, for names of files, modules, namespaces and prefixes. It may be a keyword.

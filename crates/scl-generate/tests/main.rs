@@ -6,6 +6,7 @@ mod clashes;
 mod cpp_names;
 #[allow(dead_code, reason = "the tests with tools use the rest")]
 mod fixture;
+mod parameters;
 mod python;
 mod writing;
 mod zmq;

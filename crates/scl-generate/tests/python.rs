@@ -1,7 +1,7 @@
 //! Generated Python modules beside the expected ones. `tests/tests/python_typing.rs` checks what type checkers and
 //! `ruff format` say of the expected ones, and `tests/tests/python_generated.rs` runs them.
 
-use crate::fixture::{clashes, generated, repository, text, topology};
+use crate::fixture::{clashes, generated, repository, testable, text, topology};
 use expect_test::{expect, expect_file};
 use scl_generate::Target;
 use std::path::Path;
@@ -32,6 +32,35 @@ fn the_topologies_of_the_other_languages() {
 fn the_topologies_of_tests_between_processes() {
     expect_file!["python/expected/six_scl.py"].assert_eq(&module("six", "tests/topologies/six_kinds.yaml"));
     expect_file!["python/expected/json_scl.py"].assert_eq(&module("json", "tests/topologies/json.yaml"));
+}
+
+#[test]
+fn parameters_become_a_dataclass() {
+    let text = text(&testable(&topology("controls.yaml"), Target::Python), "controls_scl.py");
+    expect_file!["python/expected/controls_scl.py"].assert_eq(&text);
+}
+
+#[test]
+fn words_that_become_one_member_are_refused() {
+    let yaml = "\
+components:
+  - name: controller
+    parameters:
+      - mode: {one_of: [slow_mode, SLOW_MODE]}
+    gates: []
+";
+    expect![[r#"
+        error: [SCL1102] value `slow_mode` of parameter `controller.mode` and value `SLOW_MODE` of parameter `controller.mode` would both become `SLOW_MODE` in class `ControllerMode`
+         --> topology.yaml:4:9
+          |
+        4 |       - mode: {one_of: [slow_mode, SLOW_MODE]}
+          |         ^^^^
+          |         |
+          |         becomes `SLOW_MODE`
+          |         value `slow_mode` of parameter `controller.mode` becomes `SLOW_MODE`
+          |
+          = help: rename the value `SLOW_MODE` of parameter `controller.mode`
+    "#]].assert_eq(&clashes(yaml, SCHEMA, Target::Python));
 }
 
 #[test]

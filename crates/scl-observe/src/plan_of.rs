@@ -31,7 +31,7 @@ impl System {
         };
         let schema = peers.iter().filter(names_it).find_map(|peer| self.plan_schema(peer));
         let (system, component) = (self.name().to_owned(), component.to_owned());
-        Ok(Plan { system, component, declared_at: String::new(), schema, gates })
+        Ok(Plan { system, component, declared_at: String::new(), schema, parameters: Vec::new(), gates })
     }
 
     fn plan_schema(&self, component: &Component) -> Option<Schema> {

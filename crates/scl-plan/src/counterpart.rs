@@ -17,6 +17,7 @@ impl Plan {
             component: format!("{}'s peers", self.component),
             declared_at: String::new(),
             schema: None,
+            parameters: Vec::new(),
             gates: self.gates.iter().map(|gate| opposite(&self.component, gate)).collect(),
         }
     }

@@ -7,5 +7,6 @@
 //! A component refers to its schema by the hash, because most components of a system share one.
 
 mod object;
+mod parameter;
 mod read;
 mod write;

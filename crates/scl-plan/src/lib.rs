@@ -41,6 +41,7 @@ mod json;
 mod kind;
 pub mod memory;
 mod options;
+mod parameter;
 mod plan;
 mod system;
 #[cfg(all(test, feature = "json"))]
@@ -52,6 +53,10 @@ mod version;
 pub use error::{PlanError, UnknownComponent};
 pub use kind::{GateKind, Undecodable, WhenFull};
 pub use options::{GateOptions, OptionAccess, OptionField};
+pub use parameter::{
+    Assignment, ConstText, LONGEST_VALUE, ParameterPlan, ParameterType, ParameterValue, SET_VARIABLE, Scalar,
+    assignments, list_text, set_text,
+};
 pub use plan::{ConnectionPlan, GatePlan, Payload, Plan, Schema};
 pub use system::{KindPlan, SystemPlan};
 #[cfg(feature = "json")]

@@ -2,6 +2,7 @@
 
 use crate::kind::{GateKind, WhenFull};
 use crate::options::GateOptions;
+use crate::parameter::ParameterPlan;
 use std::fmt;
 use std::sync::Arc;
 
@@ -19,11 +20,19 @@ pub struct Plan {
     pub declared_at: String,
     /// The protobuf messages of its gates, if the topology names `schemas`.
     pub schema: Option<Schema>,
+    /// Its parameters, in the order of the topology file.
+    #[cfg_attr(feature = "json", serde(skip_serializing_if = "Vec::is_empty"))]
+    pub parameters: Vec<ParameterPlan>,
     /// Its gates, in the order of the topology file.
     pub gates: Vec<GatePlan>,
 }
 
 impl Plan {
+    /// The parameter with this name.
+    pub fn parameter(&self, name: &str) -> Option<&ParameterPlan> {
+        self.parameters.iter().find(|parameter| parameter.name == name)
+    }
+
     /// The gate with this name.
     pub fn gate(&self, name: &str) -> Option<&GatePlan> {
         self.gates.iter().find(|gate| gate.name == name)

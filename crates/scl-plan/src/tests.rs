@@ -1,5 +1,6 @@
 //! Plans as text: both directions, damaged texts, and what errors say.
 
+use crate::parameter::tests::one_of_each_form;
 use crate::{
     ConnectionPlan, GateKind, GateOptions, GatePlan, KindPlan, Payload, Plan, PlanError, Schema, SystemPlan, WhenFull,
 };
@@ -39,7 +40,7 @@ fn gate(kind: GateKind, connections: Vec<ConnectionPlan>) -> GatePlan {
     }
 }
 
-/// All kinds, a schema, and names that JSON has to escape.
+/// All kinds, parameters, a schema, and names that JSON has to escape.
 fn rover() -> SystemPlan {
     let link = || vec![connection("sensor", "measurements", "sensor.measurements--it.hl75aqsl")];
     let schema = Schema { hash: "1a2b".to_owned(), descriptors: [0, 255, 7, 10].into() };
@@ -48,17 +49,15 @@ fn rover() -> SystemPlan {
         component: component.to_owned(),
         declared_at: "C:\\rover \"1\".yaml:2:5".to_owned(),
         schema: Some(schema.clone()),
+        parameters: Vec::new(),
         gates,
     };
     let mut bytes = gate(GateKind::Pub, Vec::new());
     (bytes.name, bytes.payload, bytes.codec) = ("raw_bytes".to_owned(), Payload::Bytes, "raw".to_owned());
     let all = GateKind::ALL.map(|kind| gate(kind, link())).into_iter().chain([bytes]).collect();
-    let clock = Plan { schema: None, ..plan("clock", Vec::new()) };
-    SystemPlan {
-        system: "rover".to_owned(),
-        components: vec![plan("controller", all), plan("twin", Vec::new()), clock],
-        kinds: Vec::new(),
-    }
+    let twin = Plan { parameters: one_of_each_form(), ..plan("twin", Vec::new()) };
+    let clock = Plan { schema: None, component: "clock".to_owned(), ..twin.clone() };
+    SystemPlan { system: "rover".to_owned(), components: vec![plan("controller", all), twin, clock], kinds: Vec::new() }
 }
 
 /// The same with a kind of two components.
@@ -155,7 +154,7 @@ fn a_kind_whose_components_do_not_fit_is_refused() {
         kind `idler` has no components
         kind `idler` has `clok`, which is not among the components
         kind `idler` has `clock` twice, or together with another kind
-        kind `idler` has `controller`, whose gates differ from those of its first component
+        kind `idler` has `controller`, which differs from its first component in gates or parameters
         kind `controller` has the name of a component
         kind `idler` is declared twice
         unknown field `kinds` in `components[0]`"#]]

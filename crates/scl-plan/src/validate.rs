@@ -2,6 +2,7 @@
 
 use crate::error::PlanError;
 use crate::kind::GateKind;
+use crate::parameter::{ParameterPlan, ParameterType};
 use crate::plan::{GatePlan, Payload, Plan};
 use crate::system::SystemPlan;
 use std::collections::{HashMap, HashSet};
@@ -36,16 +37,24 @@ impl SystemPlan {
                     return ensure(false, &part, &format!("has `{name}`, which is not among the components"));
                 };
                 let is_same = gates.get_or_insert_with(|| shape(plan)) == &shape(plan);
-                ensure(is_same, &part, &format!("has `{name}`, whose gates differ from those of its first component"))?;
+                ensure(
+                    is_same,
+                    &part,
+                    &format!("has `{name}`, which differs from its first component in gates or parameters"),
+                )?;
             }
         }
         Ok(())
     }
 }
 
-/// What the components of a kind have in common: all that a program knows of its gates.
-fn shape(plan: &Plan) -> Vec<(&str, GateKind, &Payload, &str)> {
-    plan.gates.iter().map(|gate| (gate.name.as_str(), gate.kind, &gate.payload, gate.codec.as_str())).collect()
+/// A gate's name, kind, payload and codec.
+type GateShape<'p> = (&'p str, GateKind, &'p Payload, &'p str);
+
+/// What the components of a kind have in common: all that a program knows of its gates, and its parameters.
+fn shape(plan: &Plan) -> (Vec<GateShape<'_>>, &[ParameterPlan]) {
+    let gates = plan.gates.iter().map(|gate| (gate.name.as_str(), gate.kind, &gate.payload, gate.codec.as_str()));
+    (gates.collect(), &plan.parameters)
 }
 
 impl Plan {
@@ -58,12 +67,35 @@ impl Plan {
         ensure(!self.component.is_empty(), "a component", "has no name")?;
         ensure(!self.system.is_empty(), &component, "belongs to a system without a name")?;
         let mut names = HashSet::new();
+        for parameter in &self.parameters {
+            let part = format!("parameter `{}.{}`", self.component, parameter.name);
+            ensure(names.insert(&parameter.name), &part, "is declared twice")?;
+            validate_parameter(&part, parameter)?;
+        }
+        let mut names = HashSet::new();
         for gate in &self.gates {
             let part = format!("gate `{}.{}`", self.component, gate.name);
             ensure(names.insert(&gate.name), &part, "is declared twice")?;
             validate_gate(&part, gate)?;
         }
         Ok(())
+    }
+}
+
+/// Checks that type, range and default agree.
+fn validate_parameter(part: &str, parameter: &ParameterPlan) -> Result<(), PlanError> {
+    ensure(!parameter.name.is_empty(), part, "has no name")?;
+    if let ParameterType::OneOf(words) = &parameter.kind {
+        let mut seen = HashSet::new();
+        ensure(!words.is_empty(), part, "has no words to choose from")?;
+        ensure(words.iter().all(|word| seen.insert(word)), part, "has a word twice")?;
+    }
+    ensure(!matches!(parameter.kind, ParameterType::List(_, Some(0))), part, "is a list of 0 items")?;
+    ensure(parameter.range.is_none() || parameter.has_range(), part, "has a range, but its values have no order")?;
+    ensure(parameter.range.is_none() || parameter.bounds().is_some(), part, "has a range that is none")?;
+    match parameter.default_value() {
+        Some(Err(reason)) => ensure(false, part, &format!("has a wrong default: {reason}")),
+        _ => Ok(()),
     }
 }
 

@@ -10,6 +10,8 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Component {
     pub(crate) name: String,
+    /// Its kind, where the topology says one.
+    pub(crate) kind: Option<String>,
     pub(crate) program: Program,
     pub(crate) policy: Policy,
     /// The recording that its program plays, relative to the program's folder.

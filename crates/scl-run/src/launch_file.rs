@@ -20,6 +20,7 @@ mod likely;
 mod likely_key;
 mod names;
 mod outdented;
+mod parameters;
 mod path;
 mod placeholder;
 mod profile;
@@ -30,15 +31,17 @@ mod shape;
 mod terminal;
 mod transports;
 mod unknown_key;
+mod unset;
 mod value;
 mod words;
 
 pub(crate) use document::LaunchDocument;
-pub(crate) use entry::{LaunchComponent, Source};
+pub(crate) use entry::{LaunchComponent, Opens, Source};
 pub(crate) use settings::Settings;
 pub(crate) use transports::Transports;
 
 use super::deployment::Deployment;
+use super::system_names::SystemNames;
 use entry::Needs;
 use keys::is_own;
 use profile::Profile;
@@ -61,6 +64,7 @@ components:
   controller:
     command: ./controller 2>> log      # a text is given to the shell
     environment: {GAIN: 0.5}
+    parameters: {period: 5ms, mode: auto}   # else the defaults of the topology
     working_directory: control         # default: the folder of this file
   logger:
     command: ./logger

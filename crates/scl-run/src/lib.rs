@@ -68,6 +68,7 @@ use plan::{Built, RunPlan};
 use policy::Policy;
 use program::{Build, Program};
 use rustix::process::Signal;
+use scl_plan::Assignment;
 use scl_terminal::{Problem, print_err};
 use signal_hook::iterator::Signals;
 use sockets::Sockets;
@@ -93,6 +94,8 @@ pub struct Options {
     pub host: Option<String>,
     /// Components not to start.
     pub without: Vec<String>,
+    /// Values of parameters, which win over all others; later ones win.
+    pub set: Vec<Assignment>,
     /// Whether to build the cargo package with optimizations.
     pub release: bool,
     /// Whether to start the programs as they are, without building anything.

@@ -3,6 +3,7 @@
 mod cargo_builds;
 mod host;
 mod package;
+mod parameters;
 
 pub use host::{DeployedSystem, read_deployment};
 
@@ -16,6 +17,7 @@ use super::placement::Placement;
 use super::program::{Build, Program};
 use super::selection::Selection;
 use super::system_names::SystemNames;
+use parameters::Values;
 use scl_terminal::{Problem, print_err, quoted_list};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -42,8 +44,6 @@ pub(crate) struct RunPlan {
     pub(crate) named_after: Option<PathBuf>,
     pub(crate) builds: Vec<Build>,
     pub(crate) components: Vec<Component>,
-    /// The kinds of the system, each with its components.
-    pub(crate) kinds: Vec<(String, Vec<String>)>,
     /// The program that connects this host to the others, with `--host`.
     pub(crate) gateway: Option<Component>,
 }
@@ -158,6 +158,7 @@ fn plan_from_launch_file(
     let launch = document.read_shown(known.as_ref())?;
     let mut components = launch.components_with(&options.profiles)?;
     let mut expected = known.as_ref().map_or_else(Vec::new, |names| names.components.clone());
+    let values = Values::new(options, parameters::inherited()?.as_deref(), &components, known.as_ref())?;
     let host = host::choose(&launch, options, &shown).map_err(|problem| vec![problem])?;
     if let Some(host) = host {
         components.retain(|component| host.components.contains(&component.name));
@@ -178,21 +179,27 @@ fn plan_from_launch_file(
     let gateway = host.filter(|_| selection.includes(Deployment::GATEWAY));
     let gateway =
         gateway.map(|host| host::plan_gateway(folder, launch_path, topology.as_deref(), &launch, host, options));
-    let gateway = gateway.transpose().map_err(|problem| vec![problem])?;
+    let mut gateway = gateway.transpose().map_err(|problem| vec![problem])?;
+    gateway.iter_mut().for_each(|gateway| gateway.program.environment.extend(values.cleared()));
     let chosen: Vec<LaunchComponent> = components.into_iter().filter(|it| selection.includes(&it.name)).collect();
+    let unset = values.unset(&chosen);
+    if !unset.is_empty() {
+        return Err(unset);
+    }
     let mut builds = plan_builds(folder, &launch, &chosen);
-    let topology_name = known.as_ref().map(|names| names.system.as_str());
     let named_after = topology.filter(|_| own_name.is_none());
     let named_after = named_after.zip(known.as_ref()).and_then(|(file, names)| named_after_file(&file, names));
-    let plan = |component| plan_component(folder, &launch, component, topology_name, options.grace, &mut builds);
+    let plan = |component: &LaunchComponent| {
+        let mut planned = plan_component(folder, &launch, component, known.as_ref(), options.grace, &mut builds);
+        planned.program.environment.extend(values.variable(component));
+        planned
+    };
     let components = chosen.iter().map(plan).collect();
-    let kinds = known.as_ref().map_or_else(Vec::new, |names| names.kinds.clone());
     Ok(RunPlan {
         system: own_name.or_else(system_of_environment).or_else(|| known.map(|names| names.system)),
         named_after,
         builds,
         components,
-        kinds,
         gateway,
     })
 }
@@ -257,7 +264,7 @@ fn plan_component(
     folder: &Path,
     launch: &LaunchFile,
     component: &LaunchComponent,
-    topology_name: Option<&str>,
+    known: Option<&SystemNames>,
     grace: Duration,
     builds: &mut Vec<Build>,
 ) -> Component {
@@ -277,7 +284,8 @@ fn plan_component(
         }
         Source::Replay(path) => (replay_command(path, &component.name), Some(PathBuf::from(path))),
     };
-    let expected = component.expected(topology_name).map(|expected| (COMPONENT.to_owned(), expected));
+    let expected =
+        component.expected(known.map(|names| names.system.as_str())).map(|expected| (COMPONENT.to_owned(), expected));
     let own = component.environment.iter().cloned();
     let program = Program {
         command,
@@ -292,6 +300,7 @@ fn plan_component(
     };
     Component {
         name: component.name.clone(),
+        kind: known.and_then(|names| names.kind_of(&component.name)).map(str::to_owned),
         program,
         policy: settings.policy(grace),
         recording,

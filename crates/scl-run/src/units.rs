@@ -21,6 +21,9 @@ use text::{duration, environment, quoted};
 /// The shortest limit: systemd understands 0 as no limit.
 const SHORTEST: Duration = Duration::from_millis(1);
 
+/// What systemd replaces by the name of the component in the template of a kind.
+const INSTANCE: &str = "%i";
+
 /// What to write unit files for, and the user of the services.
 #[derive(Debug, Clone, Default)]
 pub struct UnitOptions {
@@ -67,11 +70,11 @@ enum Called<'c> {
 }
 
 impl Called<'_> {
-    /// The name of the component in the unit file. systemd puts it in place of `%i`.
+    /// The name of the component in the unit file.
     fn component(self) -> String {
         match self {
             Called::Component(name) => name.to_owned(),
-            Called::AnyOf(_) => "%i".to_owned(),
+            Called::AnyOf(_) => INSTANCE.to_owned(),
         }
     }
 }

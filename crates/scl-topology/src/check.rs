@@ -39,6 +39,7 @@ mod no_effect;
 mod option;
 mod option_edit;
 mod pair_kinds;
+mod parameter;
 mod parts;
 mod path_length;
 mod payload_fault;
@@ -152,6 +153,12 @@ pub(crate) const RULES: &[&Rule] = &[
     &time::TOO_SHORT,
     &time::NO_PROMISE,
     &time::TWICE,
+    &parameter::NO_PARAMETER,
+    &parameter::WRONG_VALUE,
+    &parameter::NO_EFFECT,
+    &parameter::TAKEN,
+    &parameter::OF_KIND,
+    &parameter::WORDS,
     &control::UNKNOWN_CODE,
     &control::NO_EFFECT,
     &control::FIXED,
@@ -207,6 +214,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     let mut draft = Draft::new(model, sources);
     let system = system_name::system_name(model, facts);
 
+    let parameters = parameter::check(model, sources, problems);
     gate_kind::check(&mut draft, problems);
     payload_type::check(&mut draft, problems);
     schema_type::check(&mut draft, facts, problems);
@@ -249,7 +257,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     instances::tell_once(model, problems);
     repeated::tell_once(problems);
     control::apply(model, sources, problems);
-    if problems.has_errors() { None } else { finish::finish(&draft, system, &codec, connection_room) }
+    if problems.has_errors() { None } else { finish::finish(&draft, &parameters, system, &codec, connection_room) }
 }
 
 fn check_names(model: &Model, sources: &Sources, problems: &mut Diagnostics) {

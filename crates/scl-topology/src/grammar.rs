@@ -8,6 +8,7 @@ mod codec;
 mod kind;
 mod option;
 mod page;
+pub mod parameter;
 mod queue_policy;
 mod section;
 mod shape;

@@ -57,6 +57,7 @@ pub(crate) static COMPONENT: Table = Table::new(&[
         &["optional"],
         "`optional: true` says that peers do not wait for this component",
     ),
+    habit("params config configuration arg rosparameters rosparams settings options properties", &["parameters"], ""),
     habit("mem memorylimit memlimit memorymax maxmemory memorybound ram", &["memory"], ""),
     habit(
         "required mandatory essential",
@@ -89,10 +90,9 @@ pub(crate) static COMPONENT: Table = Table::new(&[
         "which program runs a component stands in the launch file, as its `command`",
     ),
     habit(
-        "env environment envfile variables parameters params config arg rosparameters rosparams settings",
+        "env environment envfile variables",
         &[],
-        "a topology has no settings of programs: remove them here, and give them to the program in the launch file, by \
-         its `environment` or `command`",
+        "the environment of a program stands in the launch file, as its `environment`",
     ),
     habit(
         "restart respawn restartpolicy restartdelay respawndelay",

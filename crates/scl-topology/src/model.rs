@@ -6,7 +6,9 @@
 //! `everyone`, so that the checks see components, gates and pairs only. For a broken file, the macro still generates
 //! the structs that it can read from the model, so that completion in editors keeps working.
 
+use crate::grammar::parameter::{self, LIST, ONE_OF};
 use crate::source::{FileId, Span, Spanned};
+use scl_plan::{ConstText, ParameterType, Scalar};
 
 /// A whole file, or all files of a system together: those that `include` names, joined by [`crate::join::join`].
 #[derive(Debug, Clone, Default)]
@@ -101,6 +103,10 @@ pub struct ComponentModel {
     pub kind: Option<Spanned<String>>,
     /// The number of its kind in [`Model::kinds`], if that is declared: then `gates` are those of the kind.
     pub of: Option<usize>,
+    /// `parameters:` of the component or kind itself, in file order.
+    pub parameters: Vec<ParameterModel>,
+    /// The entry `parameters`, from the key to the last one.
+    pub parameters_entry: Option<Span>,
     /// `gates:`, in file order: of the component, or of its kind.
     pub gates: Vec<GateModel>,
     /// The entry `gates` of the component itself, from the key to the last gate.
@@ -112,6 +118,30 @@ pub struct ComponentModel {
     pub group: usize,
     /// The whole entry, without the dash before it.
     pub span: Span,
+}
+
+/// One entry of `parameters`.
+#[derive(Debug, Clone)]
+pub struct ParameterModel {
+    /// Its name.
+    pub name: Spanned<String>,
+    /// The word of its type.
+    pub kind: Spanned<String>,
+    /// What stands behind the type.
+    pub value: Option<WrittenValue>,
+    /// The other keys, such as `range`.
+    pub keys: Vec<(Spanned<String>, WrittenValue)>,
+    /// The whole entry.
+    pub span: Span,
+}
+
+/// A value of a parameter as it is written.
+#[derive(Debug, Clone)]
+pub enum WrittenValue {
+    /// A single value.
+    One(Spanned<String>),
+    /// The items of a list, and the place of the list.
+    Many(Vec<Spanned<String>>, Span),
 }
 
 /// One entry of `gates`.
@@ -198,6 +228,47 @@ impl Model {
     pub(crate) fn around(&self, group: usize) -> impl Iterator<Item = usize> {
         let parent = |group: &usize| self.groups.get(*group).map(|it| it.parent).filter(|parent| parent != group);
         std::iter::successors(Some(group), parent)
+    }
+}
+
+impl ParameterModel {
+    /// Its type, as far as it can be read.
+    pub fn declared_type(&self) -> Option<ParameterType> {
+        match (self.kind.value.as_str(), &self.value) {
+            (ONE_OF, Some(WrittenValue::Many(words, _))) if !words.is_empty() => {
+                let words: Vec<ConstText> = words.iter().map(|word| word.value.clone().into()).collect();
+                Some(ParameterType::OneOf(words.into()))
+            }
+            (LIST, Some(WrittenValue::One(item))) => {
+                let length = self.key("length").and_then(|length| parameter::length(length.text()?));
+                Some(ParameterType::List(Scalar::of(&item.value)?, length))
+            }
+            (ONE_OF | LIST, _) => None,
+            (scalar, _) => Scalar::of(scalar).map(ParameterType::One),
+        }
+    }
+
+    /// The value of a key beside the type.
+    pub(crate) fn key(&self, key: &str) -> Option<&WrittenValue> {
+        self.keys.iter().find(|(known, _)| known.value == key).map(|(_, value)| value)
+    }
+}
+
+impl WrittenValue {
+    /// A single value.
+    pub(crate) fn text(&self) -> Option<&str> {
+        match self {
+            WrittenValue::One(text) => Some(&text.value),
+            WrittenValue::Many(..) => None,
+        }
+    }
+
+    /// Where it is written.
+    pub fn span(&self) -> Span {
+        match self {
+            WrittenValue::One(text) => text.span,
+            WrittenValue::Many(_, span) => *span,
+        }
     }
 }
 

@@ -12,9 +12,9 @@ pub(crate) use socket_name::shortened;
 
 use crate::fingerprint;
 use crate::source::Span;
-use crate::topology::{ComponentId, ConnectionId, GateId, GateKind, Payload, Topology};
+use crate::topology::{ComponentId, ConnectionId, GateId, GateKind, Parameter, Payload, Topology};
 use contract::{contract, gate_contract};
-use scl_plan::{ConnectionPlan, GatePlan, Plan};
+use scl_plan::{ConnectionPlan, GatePlan, ParameterPlan, Plan};
 use socket_name::{endpoint, gate_endpoint, tap_endpoint};
 
 /// Length of a contract, in characters.
@@ -33,8 +33,13 @@ pub fn resolve(topology: &Topology, component: ComponentId, location: &dyn Fn(Sp
         component: component.name().to_owned(),
         declared_at: location(component.span()),
         schema: None,
+        parameters: component.parameters().iter().map(|it| resolve_parameter(it, location)).collect(),
         gates: component.gates().iter().map(|&gate| resolve_gate(topology, gate, location)).collect(),
     }
+}
+
+fn resolve_parameter(parameter: &Parameter, location: &dyn Fn(Span) -> String) -> ParameterPlan {
+    ParameterPlan { declared_at: location(parameter.span()).into(), ..parameter.declared().clone() }
 }
 
 fn resolve_gate(topology: &Topology, id: GateId, location: &dyn Fn(Span) -> String) -> GatePlan {

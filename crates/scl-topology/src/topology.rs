@@ -1,10 +1,14 @@
 //! The checked topology: indices instead of names, no error left. Only [`check`](crate::check) makes one.
 
+mod parameter;
+
 pub use crate::grammar::{Codec, DeclaredOptions, GateKind, WhenFull};
+pub use parameter::{Parameter, choice_name, parameters_name};
 
 use crate::source::Span;
 use std::collections::HashSet;
 use std::fmt;
+use std::sync::Arc;
 
 /// The index of a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -136,6 +140,7 @@ pub struct Component {
     pub(crate) memory: Option<u64>,
     pub(crate) span: Span,
     pub(crate) kind: Option<KindId>,
+    pub(crate) parameters: Arc<[Parameter]>,
     pub(crate) gates: Vec<GateId>,
 }
 
@@ -167,6 +172,10 @@ impl Component {
     /// `kind:`.
     pub fn kind(&self) -> Option<KindId> {
         self.kind
+    }
+    /// Its parameters, in file order: its own, or those of its kind.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
     }
     /// Its gates, in file order.
     pub fn gates(&self) -> &[GateId] {

@@ -38,7 +38,7 @@ int main(void) {
         usleep(50000);
         status = follow(&wheel, &target);
         if (status == SCL_OK) {
-            speed += (target - speed) / 4;
+            speed += (target - speed) * wheel.parameters.response;
             Drive__WheelState state = DRIVE__WHEEL_STATE__INIT;
             state.speed = speed;
             state.language = "C";

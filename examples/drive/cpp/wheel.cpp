@@ -20,7 +20,7 @@ int main() {
         if (const auto setpoint = wheel.setpoint.latest()) {
             target = setpoint->speed();
         }
-        speed += (target - speed) / 4;
+        speed += (target - speed) * wheel.parameters.response;
         drive::WheelState state;
         state.set_speed(speed);
         state.set_language("C++");

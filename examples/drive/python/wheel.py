@@ -13,5 +13,5 @@ with Wheel() as wheel:
             target = 0.0
         if (setpoint := wheel.setpoint.latest()) is not None:
             target = setpoint.speed
-        speed += (target - speed) / 4
+        speed += (target - speed) * wheel.parameters.response
         wheel.state.send(WheelState(speed=speed, language="Python"))

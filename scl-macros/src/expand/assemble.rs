@@ -5,9 +5,10 @@ use super::context::Context;
 use super::gate_types::bytes;
 use super::kinds::opener_method;
 use super::names::field_name;
+use super::parameters::expand_values;
 use proc_macro2::TokenStream;
 use quote::quote_spanned;
-use scl_topology::topology::{Component, GateKind, Topology};
+use scl_topology::topology::{Component, ComponentType, GateKind, Topology};
 
 /// Which end of a gate's connections a struct has.
 #[derive(Clone, Copy)]
@@ -32,12 +33,18 @@ impl Side {
 pub(super) fn expand_methods(
     context: &Context<'_>,
     topology: &Topology,
-    component: &Component,
+    of: ComponentType<'_>,
     traits: &CodecTraits<'_>,
     side: Side,
 ) -> TokenStream {
+    let component = of.component;
     let private = &context.private;
+    let parameters = match side {
+        Side::Component => expand_values(context, of.name(), component.parameters()),
+        Side::Counterpart => None,
+    };
     let opened = expand_opened(context, topology, component, traits, side);
+    let opened = parameters.into_iter().chain(opened);
     let fields = component.gates().iter().map(|&id| field_name(topology.gate(id)));
     let gates = fields.map(|field| quote_spanned!(context.span => &self.#field as &dyn #private::AnyGate));
     quote_spanned! { context.span =>

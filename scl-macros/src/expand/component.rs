@@ -9,6 +9,7 @@ use super::found_types::Requirements;
 use super::gate_types::gate_type;
 use super::kind;
 use super::names::{counterpart_name, field_name, instance_name, struct_name};
+use super::parameters;
 use super::schemas::EmbeddedSchemas;
 use super::senders::{self, kinds_told_apart, sender_type};
 use super::spec::expand_spec;
@@ -89,11 +90,16 @@ fn expand_structs(context: &Context<'_>, topology: &Topology, component: Compone
             };
             GateField { name: field_name(gate), doc, gate_type }
         });
-        let (name, doc) = match side {
-            Side::Component => (struct_name(component), docs::of_component(context, topology, component)),
-            Side::Counterpart => (counterpart_name(component), docs::of_counterpart(component.name())),
+        let (name, doc, parameters) = match side {
+            Side::Component => {
+                let parameters = parameters::expand(context, component.name(), component.component.parameters());
+                (struct_name(component), docs::of_component(context, topology, component), parameters)
+            }
+            Side::Counterpart => (counterpart_name(component), docs::of_counterpart(component.name()), None),
         };
-        expand_struct(context, &name, &doc, &fields.collect::<Vec<_>>())
+        let (types, parameters) = parameters.unzip();
+        let expanded = expand_struct(context, &name, &doc, &parameters.into_iter().chain(fields).collect::<Vec<_>>());
+        quote!(#expanded #types)
     });
     quote!(#own #for_tests #counterpart)
 }
@@ -115,7 +121,7 @@ fn expand_implementation(
     let (private, for_tests) = (&context.private, &context.for_tests);
     let (name, peer) = (struct_name(component), counterpart_name(component));
     let implementation = |name: &Ident, constants: TokenStream, side: Side| {
-        let methods = expand_methods(context, topology, component.component, codec_traits, side);
+        let methods = expand_methods(context, topology, component, codec_traits, side);
         quote_spanned! { context.span =>
             impl #private::Component for #name {
                 #constants

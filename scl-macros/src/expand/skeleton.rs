@@ -8,12 +8,14 @@ use super::docs::{self, GateDoc};
 use super::kind::{Instance, expand_instances};
 use super::kinds::gate_struct;
 use super::names::{identifier, instance_name};
+use super::parameters;
 use super::problems::expand_unknown_type;
 use super::senders::{expand_enum, sender_type};
 use super::structs::{GateField, expand_struct};
 use super::unopened::expand_unopened;
 use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote};
+use scl_topology::grammar::parameter::PARAMETERS;
 use scl_topology::model::{ComponentModel, GateModel, Model};
 use scl_topology::rust_name::{component_type, gate_field};
 use scl_topology::senders::{Peer, Senders, enum_name};
@@ -39,7 +41,8 @@ pub(super) fn expand_skeleton(context: &Context<'_>) -> TokenStream {
 
 fn expand_component(context: &Context<'_>, component: &ComponentModel) -> Option<TokenStream> {
     let name = identifier(&component_type(&component.name.value), Span::call_site())?;
-    let mut seen = HashSet::from([HANDLE_FIELD.to_owned()]);
+    let parameters_field = (!component.parameters.is_empty()).then(|| PARAMETERS.to_owned());
+    let mut seen: HashSet<String> = parameters_field.into_iter().chain([HANDLE_FIELD.to_owned()]).collect();
     // Two components with the same name are probably meant to be one.
     let same_name = context.loaded.model.owners().filter(|other| other.name.value == component.name.value);
     let gates = same_name.flat_map(|component| &component.gates);
@@ -49,8 +52,9 @@ fn expand_component(context: &Context<'_>, component: &ComponentModel) -> Option
         .collect();
     let docs: Vec<GateDoc> = gates.iter().map(|gate| gate.doc(context)).collect();
     let doc = docs::of_unchecked_component(context, component, &docs);
-    let fields: Vec<GateField> =
-        gates.iter().zip(docs).filter_map(|(gate, doc)| gate.field(context, doc.text())).collect();
+    let fields = gates.iter().zip(docs).filter_map(|(gate, doc)| gate.field(context, doc.text()));
+    let (parameters, field) = parameters::expand_unchecked(context, component).unzip();
+    let fields: Vec<GateField> = field.into_iter().chain(fields).collect();
     let expanded = expand_struct(context, &name, &doc, &fields);
     let peer = expand_peer(context, component, &gates, &name);
     let instances = expand_instances_of(context, component);
@@ -61,7 +65,7 @@ fn expand_component(context: &Context<'_>, component: &ComponentModel) -> Option
     let instance = instances.as_ref().map(|(name, _)| name);
     let methods = expand_unopened(context, &name, instance, peer.as_ref().map(|(name, _)| name));
     let (peer, instances) = (peer.map(|(_, peer)| peer), instances.map(|(_, instances)| instances));
-    Some(quote!(#expanded #peer #instances #senders #methods))
+    Some(quote!(#expanded #parameters #peer #instances #senders #methods))
 }
 
 /// The enum of the components of a kind, as far as their names can be variants; `None` for a component.

@@ -1,6 +1,7 @@
 //! The constants that the runtime needs, from the plan of a component: `ComponentSpec`, `GateSpec`, `ConnectionSpec`.
 
 use super::context::Context;
+use super::parameters::expand_plan;
 use super::schemas::EmbeddedSchemas;
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
@@ -12,12 +13,14 @@ use syn::Ident;
 /// The `ComponentSpec` of a component or of its counterpart.
 pub(super) fn expand_spec(context: &Context<'_>, plan: &Plan, schemas: &EmbeddedSchemas<'_>) -> TokenStream {
     let private = &context.private;
-    let Plan { system, component, declared_at, schema, gates } = plan;
+    let Plan { system, component, declared_at, schema, parameters, gates } = plan;
+    let parameters = parameters.iter().map(|parameter| expand_plan(private, parameter));
     let gates = gates.iter().map(|gate| expand_gate(private, gate));
     let schema = schemas.expand_reference(schema.as_ref());
     quote! {
         #private::ComponentSpec {
-            system: #system, name: #component, declared_at: #declared_at, gates: &[#(#gates),*], schema: #schema,
+            system: #system, name: #component, declared_at: #declared_at, parameters: &[#(#parameters),*],
+            gates: &[#(#gates),*], schema: #schema,
         }
     }
 }

@@ -45,7 +45,7 @@ fn expand_implementation(context: &Context<'_>, name: &Ident) -> TokenStream {
     quote_spanned! { context.span =>
         impl #private::Component for #name {
             const SPEC: &'static #private::ComponentSpec = &#private::ComponentSpec {
-                system: "", name: "", declared_at: "", gates: &[], schema: ::core::option::Option::None,
+                system: "", name: "", declared_at: "", parameters: &[], gates: &[], schema: ::core::option::Option::None,
             };
             fn assemble(_: &mut #private::Opener) -> ::core::result::Result<Self, #private::OpenError> {
                 ::core::unreachable!()

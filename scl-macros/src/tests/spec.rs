@@ -60,7 +60,7 @@ connections:
         }
         impl scl :: private :: Component for Sensor {
         const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
-        system : "t" , name : "sensor" , declared_at : "t.yaml:2:11" , gates : & [scl :: private :: GateSpec {
+        system : "t" , name : "sensor" , declared_at : "t.yaml:2:11" , parameters : & [] , gates : & [scl :: private :: GateSpec {
         name : "measurements" , kind : scl :: private :: GateKind :: Pub , payload : "rover.Measurement" , codec : "protobuf" , declared_at : "t.yaml:5:9" , endpoint : "" , tap : "sensor.measurements.tap" , contract : "hl75aqsl" , options : scl :: private :: GateOptions {
         .. scl :: private :: GateOptions :: DEFAULT }
         , connections : & [scl :: private :: ConnectionSpec {
@@ -78,7 +78,7 @@ connections:
         scl :: private :: component_main_functions ! (Sensor where for < '__any > (< __scl_types_t_yaml_sensor as scl :: private :: NamedType < 0usize >> :: Type ,) : TypeIsFound_0) ;
         # [cfg (test)] impl scl :: private :: Component for SensorPeer {
         const SPEC : & 'static scl :: private :: ComponentSpec = & scl :: private :: ComponentSpec {
-        system : "t" , name : "sensor's peers" , declared_at : "" , gates : & [scl :: private :: GateSpec {
+        system : "t" , name : "sensor's peers" , declared_at : "" , parameters : & [] , gates : & [scl :: private :: GateSpec {
         name : "measurements" , kind : scl :: private :: GateKind :: Sub , payload : "rover.Measurement" , codec : "protobuf" , declared_at : "t.yaml:5:9" , endpoint : "" , tap : "" , contract : "hl75aqsl" , options : scl :: private :: GateOptions {
         max_size : 18446744073709551615u64 , queue : 4294967295u32 , when_full : scl :: private :: WhenFull :: Wait , backpressure : true , timeout : scl :: private :: Duration :: new (10u64 , 0u32) , in_flight : 64u32 , undecodable : scl :: private :: Undecodable :: Fail , .. scl :: private :: GateOptions :: DEFAULT }
         , connections : & [scl :: private :: ConnectionSpec {

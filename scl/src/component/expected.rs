@@ -59,8 +59,14 @@ mod tests {
     use std::ffi::OsString;
 
     fn result(expected: Option<&str>) -> Result<(), String> {
-        const SPEC: &ComponentSpec =
-            &ComponentSpec { system: "rover", name: "sensor", declared_at: "rover.yaml:1:1", gates: &[], schema: None };
+        const SPEC: &ComponentSpec = &ComponentSpec {
+            system: "rover",
+            name: "sensor",
+            declared_at: "rover.yaml:1:1",
+            parameters: &[],
+            gates: &[],
+            schema: None,
+        };
         let variables = |name: &str| (name == VARIABLE).then_some(expected?).map(OsString::from);
         check(SPEC, &variables).map_err(|error| error.to_string())
     }

@@ -166,70 +166,6 @@ macro_rules! __kind_methods {
     };
 }
 
-/// The enum of the components of a kind.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! __instances {
-    ($(#[$doc:meta])* $name:ident { $($(#[$variant_doc:meta])* $variant:ident = $component:literal,)* }) => {
-        $(#[$doc])*
-        #[allow(dead_code, non_camel_case_types)]
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub enum $name {
-            $($(#[$variant_doc])* $variant,)*
-        }
-
-        #[allow(dead_code)]
-        impl $name {
-            /// All of them, in the order of the topology file.
-            pub const ALL: &'static [Self] = &[$(Self::$variant),*];
-
-            /// The component's name in the topology file.
-            pub const fn name(self) -> &'static str {
-                match self {
-                    $(Self::$variant => $component,)*
-                }
-            }
-        }
-
-        impl ::core::fmt::Display for $name {
-            fn fmt(&self, out: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
-                out.write_str(self.name())
-            }
-        }
-
-        impl $crate::private::Senders for $name {
-            fn of(connection: &$crate::private::ConnectionSpec) -> ::core::option::Option<Self> {
-                Self::ALL.iter().copied().find(|component| component.name() == connection.peer_component)
-            }
-        }
-    };
-}
-
-/// The enum of the senders of a gate.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! __senders {
-    ($(#[$doc:meta])* $name:ident {
-        $($(#[$variant_doc:meta])* $variant:ident = ($component:literal, $gate:literal),)*
-    }) => {
-        $(#[$doc])*
-        #[allow(dead_code, non_camel_case_types)]
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub enum $name {
-            $($(#[$variant_doc])* $variant,)*
-        }
-
-        impl $crate::private::Senders for $name {
-            fn of(connection: &$crate::private::ConnectionSpec) -> ::core::option::Option<Self> {
-                match (connection.peer_component, connection.peer_gate) {
-                    $(($component, $gate) => ::core::option::Option::Some(Self::$variant),)*
-                    _ => ::core::option::Option::None,
-                }
-            }
-        }
-    };
-}
-
 /// The functions that `#[scl::main]` calls. That macro has only the component's name, and cannot know the name under
 /// which the program imports the crate `scl`.
 #[doc(hidden)]
@@ -284,9 +220,22 @@ macro_rules! __component_test_methods {
             pub async fn test() -> ::core::result::Result<(Self, $peer), $crate::OpenError>
             $($bounds)*
             {
+                Self::test_with(::core::default::Default::default()).await
+            }
+
+            /// `test` with values for parameters: `OpenOptions::new().set("controller.gain", "2")`. Of a kind, the
+            /// first component is opened. Transports and folders in the options have no effect.
+            ///
+            /// # Errors
+            /// A parameter has no value, or a wrong one; those of `test`.
+            pub async fn test_with(
+                options: $crate::OpenOptions,
+            ) -> ::core::result::Result<(Self, $peer), $crate::OpenError>
+            $($bounds)*
+            {
                 let transport = $crate::private::Memory::new();
-                let component = $crate::private::open($crate::OpenOptions::of_test(transport.clone())).await?;
-                let peer = $crate::private::open($crate::OpenOptions::of_test(transport)).await?;
+                let component = $crate::private::open(options.for_test(transport.clone())).await?;
+                let peer = $crate::private::open($crate::OpenOptions::new().for_test(transport)).await?;
                 ::core::result::Result::Ok((component, peer))
             }
 
@@ -297,9 +246,21 @@ macro_rules! __component_test_methods {
             pub fn test_blocking() -> ::core::result::Result<(Self, $peer), $crate::OpenError>
             $($bounds)*
             {
+                Self::test_blocking_with(::core::default::Default::default())
+            }
+
+            /// `test_with` for a component without async.
+            ///
+            /// # Errors
+            /// Those of `test_with` and `test_blocking`.
+            pub fn test_blocking_with(
+                options: $crate::OpenOptions,
+            ) -> ::core::result::Result<(Self, $peer), $crate::OpenError>
+            $($bounds)*
+            {
                 let transport = $crate::private::Memory::new();
-                let component = $crate::private::open_blocking($crate::OpenOptions::of_test(transport.clone()))?;
-                let peer = $crate::private::open_blocking($crate::OpenOptions::of_test(transport))?;
+                let component = $crate::private::open_blocking(options.for_test(transport.clone()))?;
+                let peer = $crate::private::open_blocking($crate::OpenOptions::new().for_test(transport))?;
                 ::core::result::Result::Ok((component, peer))
             }
         }

@@ -1,5 +1,6 @@
 //! Opening a component: its registration, then its gates one by one.
 
+use super::parameters::{self, FromParameter};
 use super::transports::Transports;
 use super::{ComponentHandle, expected, needs};
 use crate::codec::Codec;
@@ -14,6 +15,7 @@ use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::state::{ComponentState, OwnedRuntime, Owner, stats_period};
 use crate::time::Watchdog;
 use crate::transport::{Endpoint, Receiver, Sender, Transport, TransportError};
+use scl_plan::ParameterValue;
 use std::slice::from_ref;
 use std::sync::Arc;
 
@@ -21,6 +23,8 @@ use std::sync::Arc;
 pub struct Opener {
     state: Owner,
     transports: Transports,
+    /// In file order.
+    parameters: Vec<ParameterValue>,
 }
 
 impl Opener {
@@ -30,6 +34,7 @@ impl Opener {
         options: &OpenOptions,
         runtime: Option<Arc<OwnedRuntime>>,
     ) -> Result<Self, OpenError> {
+        let parameters = parameters::values(spec, options, &|name| options.variable(name))?;
         let (registration, stats, transports) = match options.transport.clone() {
             Some(transport) => {
                 let transports = Transports::Own(transport);
@@ -40,7 +45,19 @@ impl Opener {
         };
         let state = Owner::new(ComponentState::new(spec, registration, stats, runtime, options.is_test));
         state.start_reporting();
-        Ok(Self { state, transports })
+        Ok(Self { state, transports, parameters })
+    }
+
+    /// The value of the parameter at an index of the component's list.
+    pub fn parameter<T: FromParameter>(&self, index: usize) -> Result<T, OpenError> {
+        let (component, parameter) = (self.state.spec.name, &*self.state.spec.parameters[index].name);
+        let wrong = || OpenError::WrongValue { component, parameter, reason: "it is of another type".to_owned() };
+        T::from_value(&self.parameters[index]).ok_or_else(wrong)
+    }
+
+    /// The values of all parameters, in file order.
+    pub(crate) fn parameters(&self) -> &[ParameterValue] {
+        &self.parameters
     }
 
     /// Opens the `pub` gate at an index of the component's list.

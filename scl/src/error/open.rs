@@ -113,6 +113,47 @@ pub enum OpenError {
         /// The gate that was probably meant.
         nearest: Option<String>,
     },
+    /// A value is set for a parameter that the component does not have.
+    #[error("component `{component}` has no parameter `{parameter}`, which is set{}", suggestion(nearest))]
+    NoSuchParameter {
+        /// The component.
+        component: &'static str,
+        /// The name of the parameter.
+        parameter: String,
+        /// The parameter that was probably meant.
+        nearest: Option<String>,
+    },
+    /// The value that a parameter is set to cannot be its value.
+    #[error("parameter `{component}.{parameter}` cannot have the value that it is set to: {reason}")]
+    WrongValue {
+        /// The component.
+        component: &'static str,
+        /// The parameter.
+        parameter: &'static str,
+        /// Why.
+        reason: String,
+    },
+    /// A parameter without a default is not set.
+    #[error(
+        "parameter `{component}.{parameter}` ({kind}) has no value: set it under `parameters` in the launch file, with \
+         `scl run --set {component}.{parameter}=...`, or in the environment, `SCL_SET={component}.{parameter}=...`"
+    )]
+    NoValue {
+        /// The component.
+        component: &'static str,
+        /// The parameter.
+        parameter: &'static str,
+        /// Its type, for people.
+        kind: String,
+    },
+    /// [`OpenOptions::set`](crate::OpenOptions::set) does not name a parameter.
+    #[error("component `{component}` cannot be opened: {reason}")]
+    Set {
+        /// The component.
+        component: &'static str,
+        /// What is not understood.
+        reason: String,
+    },
     /// The component's gates need more than its transport offers.
     #[error(
         "component `{component}` needs more than its transport offers: {}; choose another transport",

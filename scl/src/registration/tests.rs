@@ -15,6 +15,7 @@ static SENSOR: ComponentSpec = ComponentSpec {
     system: "rover",
     name: "sensor",
     declared_at: "rover.yaml:3:4",
+    parameters: &[],
     gates: &[],
     schema: Some(Schema { hash: "1111", descriptors: b"descriptors" }),
 };

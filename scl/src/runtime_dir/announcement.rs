@@ -251,6 +251,7 @@ mod tests {
             component: "gps".to_owned(),
             declared_at: "nav.yaml:1:2".to_owned(),
             schema: None,
+            parameters: Vec::new(),
             gates: vec![GatePlan {
                 name: "position".to_owned(),
                 kind: GateKind::Pub,
@@ -308,7 +309,14 @@ mod tests {
             gate(GateKind::Req, "", "", &REQ),
         ];
         let schema = Some(Schema { hash: "1111", descriptors: b"" });
-        let spec = ComponentSpec { system: "nav", name: "gps", declared_at: "nav.yaml:1:2", gates: &GATES, schema };
+        let spec = ComponentSpec {
+            system: "nav",
+            name: "gps",
+            declared_at: "nav.yaml:1:2",
+            parameters: &[],
+            gates: &GATES,
+            schema,
+        };
         let announcement = Announcement::of(&spec, &"ipc,one.peer=shm".parse().unwrap());
         assert_eq!((announcement.version, announcement.pid), (VERSION, std::process::id()));
         assert_eq!(announcement.schema.as_deref(), Some("1111"));

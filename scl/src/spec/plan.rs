@@ -11,6 +11,7 @@ impl ComponentSpec {
             component: self.name.to_owned(),
             declared_at: self.declared_at.to_owned(),
             schema: None,
+            parameters: self.parameters.to_vec(),
             gates: self.gates.iter().map(gate_plan).collect(),
         }
     }

@@ -72,8 +72,14 @@ mod tests {
     use crate::state::OwnedRuntime;
     use scl_fork::ProcessMark;
 
-    static SPEC: ComponentSpec =
-        ComponentSpec { system: "nav", name: "gps", declared_at: "nav.yaml:1:2", gates: &[], schema: None };
+    static SPEC: ComponentSpec = ComponentSpec {
+        system: "nav",
+        name: "gps",
+        declared_at: "nav.yaml:1:2",
+        parameters: &[],
+        gates: &[],
+        schema: None,
+    };
 
     #[tokio::test]
     async fn the_last_owner_outlives_those_who_use_the_component_for_a_moment() {

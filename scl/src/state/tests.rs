@@ -4,8 +4,14 @@ use super::calls::DIRECT_WAIT;
 use super::*;
 use crate::registry::Unregistered;
 
-static SPEC: ComponentSpec =
-    ComponentSpec { system: "rover", name: "sensor", declared_at: "rover.yaml:1:1", gates: &[], schema: None };
+static SPEC: ComponentSpec = ComponentSpec {
+    system: "rover",
+    name: "sensor",
+    declared_at: "rover.yaml:1:1",
+    parameters: &[],
+    gates: &[],
+    schema: None,
+};
 
 /// An end that holds messages back, which its peer may take or not.
 struct Holding {

@@ -41,6 +41,7 @@ fn camera() -> ComponentSpec {
         system: "rover",
         name: "camera",
         declared_at: "rover.yaml:1:1",
+        parameters: &[],
         gates: Box::leak(gates.into_boxed_slice()),
         schema: None,
     }

@@ -37,7 +37,7 @@ impl Component {
     /// # Cancel safety
     /// Nothing stays open.
     pub async fn test(plan: &Plan) -> Result<(Self, Self), OpenError> {
-        let options = OpenOptions::of_test(Memory::of_test());
+        let options = OpenOptions::new().for_test(Memory::of_test());
         let component = Self::open_with(plan, options.clone()).await?;
         let peer = Self::open_with(&plan.counterpart(), options).await?;
         for end in [&component, &peer] {
@@ -51,7 +51,16 @@ impl Component {
     /// # Errors
     /// [`OpenError`]: the plan contradicts itself, or the operating system refuses a runtime.
     pub fn test_blocking(plan: &Plan) -> Result<(Self, Self), OpenError> {
-        let options = OpenOptions::of_test(Memory::of_test());
+        Self::test_blocking_with(plan, OpenOptions::new())
+    }
+
+    /// [`test_blocking`](Self::test_blocking) with values of parameters, as [`OpenOptions::set`] sets them. Other
+    /// options have no effect.
+    ///
+    /// # Errors
+    /// [`OpenError`]: also if a value cannot be that of its parameter.
+    pub fn test_blocking_with(plan: &Plan, options: OpenOptions) -> Result<(Self, Self), OpenError> {
+        let options = options.for_test(Memory::of_test());
         let component = Self::open_blocking_with(plan, options.clone())?;
         let peer = Self::open_blocking_with(&plan.counterpart(), options)?;
         for end in [&component, &peer] {

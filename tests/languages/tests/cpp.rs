@@ -8,5 +8,6 @@ mod exits;
 mod json;
 mod misuse;
 mod page;
+mod parameters;
 mod signals;
 mod six_kinds;

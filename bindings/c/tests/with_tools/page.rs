@@ -2,12 +2,13 @@
 
 use scl_generate::{System, Target, generate, write};
 use scl_tests::Compile;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 /// What the statements of the page take for granted.
 const BEFORE: &str = "\
 #include <scl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <sys/epoll.h>
 void statements(scl_component *component, scl_gate *gate, scl_gate *other);
@@ -34,6 +35,7 @@ fn the_code_of_the_page_compiles() {
 
     let folder = tempfile::tempdir().unwrap();
     generate_rover(&repository.join("examples/quickstart"), folder.path());
+    generate_c(&repository.join("crates/scl-generate/tests/topologies/controls.yaml"), folder.path());
     for (index, block) in blocks.iter().enumerate() {
         let whole = block.starts_with("#include");
         let text = if whole { (*block).to_owned() } else { format!("{BEFORE}{block}}}\n") };
@@ -53,15 +55,19 @@ fn the_code_of_the_page_compiles() {
 
 /// The generated C of the quick start, with what protoc-c makes of its schema.
 fn generate_rover(quickstart: &Path, folder: &Path) {
-    let topology: PathBuf = quickstart.join("topology.yaml");
-    let system = System::of(&scl_loader::load(&scl_loader::Request::new(topology))).unwrap();
-    for file in generate(&system, Target::C).unwrap() {
-        write(folder, &file).unwrap();
-    }
+    generate_c(&quickstart.join("topology.yaml"), folder);
     let mut protoc = Command::new("protoc-c");
     protoc.arg(format!("--c_out={}", folder.display())).arg("-I").arg(quickstart).arg(quickstart.join("rover.proto"));
     let made = protoc.output().unwrap_or_else(|error| {
         panic!("`protoc-c` does not start: {error}; install it (Debian: apt-get install protobuf-c-compiler)")
     });
     assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+}
+
+/// The generated C of a topology.
+fn generate_c(topology: &Path, folder: &Path) {
+    let system = System::of(&scl_loader::load(&scl_loader::Request::new(topology))).unwrap();
+    for file in generate(&system, Target::C).unwrap() {
+        write(folder, &file).unwrap();
+    }
 }

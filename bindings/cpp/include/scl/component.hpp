@@ -133,13 +133,15 @@ class Component {
     std::int64_t linger_ = detail::linger;
 };
 
-/// Opens a component for a unit test, together with its counterpart. Generated code calls it.
+/// Opens a component for a unit test, together with its counterpart. Only `set` of the options has an effect. Generated
+/// code calls it.
 template <class Tested, class Counterpart>
-std::pair<Tested, Counterpart> open_test(std::string_view plan_json, const std::string& name) {
+std::pair<Tested, Counterpart> open_test(
+    std::string_view plan_json, const std::string& name, const Options& options = {}) {
     detail::check_library();
     TestEnd component, counterpart;
-    detail::check(
-        scl_open_test(plan_json.data(), plan_json.size(), name.c_str(), component.result(), counterpart.result()));
+    detail::check(scl_open_test_with(plan_json.data(), plan_json.size(), name.c_str(), options.to_json().c_str(),
+                                     component.result(), counterpart.result()));
     return {Tested(std::move(component)), Counterpart(std::move(counterpart))};
 }
 

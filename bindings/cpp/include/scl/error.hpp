@@ -39,9 +39,9 @@ enum class Errc : int {
     argument = SCL_ARGUMENT,
     /// The component or the request is closed.
     handle = SCL_HANDLE,
-    /// The system has no component, or the component no gate, with this name.
+    /// The system has no component, or the component no gate or parameter, with this name.
     name = SCL_NAME,
-    /// The gate is of another kind.
+    /// The gate is of another kind, or the parameter of another type.
     kind = SCL_KIND,
     /// The plan is not valid, or was written for another version of SCL.
     plan = SCL_PLAN,
@@ -49,7 +49,7 @@ enum class Errc : int {
     taken = SCL_TAKEN,
     /// The runtime folder cannot be used.
     folder = SCL_FOLDER,
-    /// An environment variable has a value that is not understood.
+    /// An environment variable has a value that is not understood, or a parameter has no value or a wrong one.
     environment = SCL_ENVIRONMENT,
     /// The component was closed by another thread during the call.
     closed = SCL_CLOSED,

@@ -1,6 +1,7 @@
 /// Options for opening a component.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,9 @@ struct Options {
     /// Whether SIGTERM and Ctrl-C request a stop, and an uncaught `scl::Error` ends the program with a message and an
     /// exit code instead of `abort`.
     bool signals = true;
+    /// Values of parameters, as texts like in the topology file: `{{"controller.period", "10ms"}}`. They count more than
+    /// those in `SCL_SET`, and those of other components have no effect.
+    std::map<std::string, std::string> set = {};
 
     /// The options as JSON for the C interface.
     std::string to_json() const {
@@ -26,7 +30,13 @@ struct Options {
         append(json, "runtime_dir", runtime_dir);
         append(json, "system", system);
         append(json, "transport", transport);
-        return json + "}";
+        const char* before = ",\"set\":{";
+        for (const auto& [parameter, value] : set) {
+            append_text(json.append(before), parameter);
+            append_text(json.append(":"), value);
+            before = ",";
+        }
+        return json + (set.empty() ? "}" : "}}");
     }
 
   private:
@@ -34,8 +44,13 @@ struct Options {
         if (!value) {
             return;
         }
-        json.append(",\"").append(key).append("\":\"");
-        for (char letter : *value) {
+        json.append(",\"").append(key).append("\":");
+        append_text(json, *value);
+    }
+
+    static void append_text(std::string& json, std::string_view text) {
+        json.push_back('"');
+        for (char letter : text) {
             if (letter == '"' || letter == '\\') {
                 json.push_back('\\');
                 json.push_back(letter);

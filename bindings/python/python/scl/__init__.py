@@ -16,6 +16,7 @@ from scl._gates import Gate, Pub, Pull, Push, Rep, Req, Request
 from scl._generated import GeneratedComponent
 from scl._kinds import ComponentOfKind
 from scl._native import __version__
+from scl._parameters import Choice, ComponentWithParameters, Parameters
 from scl._signals import stop_requested
 from scl._sub import Instance, Sender, Sub, SubFrom
 from scl._tasks import until_stopped
@@ -23,14 +24,17 @@ from scl._testing import Counterpart, DynamicCounterpart, TestableComponent, tes
 
 __all__ = [
     "Buffer",
+    "Choice",
     "Component",
     "ComponentOfKind",
+    "ComponentWithParameters",
     "Counterpart",
     "DynamicComponent",
     "DynamicCounterpart",
     "Gate",
     "GeneratedComponent",
     "Instance",
+    "Parameters",
     "Pub",
     "Pull",
     "Push",

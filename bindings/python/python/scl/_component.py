@@ -25,7 +25,7 @@ _KINDS: dict[str, type[Any]] = {"pub": Pub, "sub": Sub, "req": Req, "rep": Rep, 
 Facts = dict[str, tuple[str, list[codec.Codec]]]
 """The attribute and the codecs of each gate."""
 
-_FIELDS = frozenset({"_native", "_gates", "_attributes", "_readiness"})
+_FIELDS = frozenset({"_native", "_gates", "_attributes", "_parameters", "_readiness"})
 """The attributes of a component other than its gates."""
 
 _STEP = 0.2
@@ -52,22 +52,26 @@ class Component:
         runtime_dir: str | os.PathLike[str] | None = None,
         system: str | None = None,
         transport: Transport | None = None,
+        set: Mapping[str, str] | None = None,
         signals: bool = True,
     ) -> None:
         """Opens the component `name` of a plan, the JSON text of `scl plan`.
 
         If `name` is that of a kind, it is the component of the kind that `SCL_COMPONENT` names.
 
-        Missing options come from the environment: `SCL_RUNTIME_DIR`, `SCL_SYSTEM` and `SCL_TRANSPORT`. With
-        `signals`, SIGTERM and SIGINT ask the program to stop, unless the program has handlers of its own.
+        Missing options come from the environment: `SCL_RUNTIME_DIR`, `SCL_SYSTEM`, `SCL_TRANSPORT` and `SCL_SET`. `set`
+        has values of parameters, as in the topology file: `{"controller.period": "10ms"}`. With `signals`, SIGTERM and
+        SIGINT ask the program to stop, unless the program has handlers of its own.
         """
         plan = _native.Plan(plan) if isinstance(plan, str) else plan
         name = plan.started_as(name)
         # Before opening, so that no peer sees a component that cannot run.
         facts = facts_of(plan, name)
         _process.prepare(signals)
+        values = None if set is None else dict(set)
         self._adopt(
-            _native.Component.open(plan, name, runtime_dir=runtime_dir, system=system, transport=transport), facts
+            _native.Component.open(plan, name, runtime_dir=runtime_dir, system=system, transport=transport, set=values),
+            facts,
         )
 
     @classmethod
@@ -90,8 +94,14 @@ class Component:
                 made = _KINDS[gate.kind](gate, loops, *codecs)
             found[gate.name] = self.__dict__[attribute] = made
         self._gates = found
+        self._parameters = self._values(native.parameters)
         self._attributes = frozenset(attribute for attribute, _ in facts.values())
         self._readiness: _native.Readiness | None = None
+
+    @classmethod
+    def _values(cls, parameters: list[tuple[str, str, Any]]) -> object:
+        """Returns the values of the parameters, as the component has them: here by name."""
+        return MappingProxyType({name: value for name, _, value in parameters})
 
     @property
     def name(self) -> str:
@@ -218,6 +228,7 @@ def open(
     runtime_dir: str | os.PathLike[str] | None = None,
     system: str | None = None,
     transport: Transport | None = None,
+    set: Mapping[str, str] | None = None,
     signals: bool = True,
 ) -> DynamicComponent:
     """Checks a topology file, with the same messages as `scl check`, and opens one of its components.
@@ -230,7 +241,7 @@ def open(
         warnings.warn(f"\n{warning}", stacklevel=2)
     component = plan.started_as(component)
     return described(DynamicComponent, plan, component)(
-        plan, component, runtime_dir=runtime_dir, system=system, transport=transport, signals=signals
+        plan, component, runtime_dir=runtime_dir, system=system, transport=transport, set=set, signals=signals
     )
 
 
@@ -241,13 +252,14 @@ def open_plan(
     runtime_dir: str | os.PathLike[str] | None = None,
     system: str | None = None,
     transport: Transport | None = None,
+    set: Mapping[str, str] | None = None,
     signals: bool = True,
 ) -> DynamicComponent:
     """Like `open`, but takes the plans that `scl plan` printed instead of a topology file."""
     plans = _native.Plan(plan)
     component = plans.started_as(component)
     return described(DynamicComponent, plans, component)(
-        plans, component, runtime_dir=runtime_dir, system=system, transport=transport, signals=signals
+        plans, component, runtime_dir=runtime_dir, system=system, transport=transport, set=set, signals=signals
     )
 
 
@@ -255,14 +267,19 @@ C = TypeVar("C", bound=Component)
 
 
 def described(base: type[C], plan: _native.Plan, component: str) -> type[C]:
-    """Returns a class for one component whose documentation lists its gates, for `help`."""
+    """Returns a class for one component whose documentation lists its gates and parameters, for `help`."""
+    parameters = plan.parameters(component)
     lines = [f"The component `{component}` of `{plan.system}`.", "", "Gates:"]
     for name, snake_name, kind, codec_name, types, peers in plan.gates(component):
         carried = " -> ".join(f"`{it}`" for it in types) or "bytes"
         ends = ", ".join(f"`{peer}`" for peer in peers) or "no peer"
         written = "" if codec_name == "protobuf" or not types else f" as {codec_name}"
         lines.append(f"    {_attribute_of(snake_name)}: `{kind}` of {carried}{written}, connected to {ends}")
-    return type(base.__name__, (base,), {"__doc__": "\n".join(lines), "__module__": base.__module__})
+    own: dict[str, Any] = {"__module__": base.__module__}
+    if parameters:
+        lines += ["", "Parameters:", *(f"    {name}: {kind}" for name, kind in parameters)]
+        own["parameters"] = property(lambda self: self._parameters, doc="The values of the parameters, by name.")
+    return type(base.__name__, (base,), {"__doc__": "\n".join(lines), **own})
 
 
 def _attribute_of(gate: str) -> str:

@@ -38,12 +38,14 @@ class GeneratedComponent(Component):
         runtime_dir: str | os.PathLike[str] | None = None,
         system: str | None = None,
         transport: Transport | None = None,
+        set: Mapping[str, str] | None = None,
         signals: bool = True,
     ) -> None:
         """Opens the component.
 
-        Missing options come from the environment: `SCL_RUNTIME_DIR`, `SCL_SYSTEM` and `SCL_TRANSPORT`. With
-        `signals`, SIGTERM and SIGINT ask the program to stop, unless the program has handlers of its own.
+        Missing options come from the environment: `SCL_RUNTIME_DIR`, `SCL_SYSTEM`, `SCL_TRANSPORT` and `SCL_SET`. `set`
+        has values of parameters, as in the topology file: `{"controller.period": "10ms"}`. With `signals`, SIGTERM and
+        SIGINT ask the program to stop, unless the program has handlers of its own.
         """
         super().__init__(
             self._plan_text,
@@ -51,5 +53,6 @@ class GeneratedComponent(Component):
             runtime_dir=runtime_dir,
             system=system,
             transport=transport,
+            set=set,
             signals=signals,
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from typing import Any, ClassVar, Generic, TypeVar, cast
 
 from scl._component import Component, Transport
@@ -30,6 +31,7 @@ class ComponentOfKind(GeneratedComponent, Generic[INSTANCE]):
         runtime_dir: str | os.PathLike[str] | None = None,
         system: str | None = None,
         transport: Transport | None = None,
+        set: Mapping[str, str] | None = None,
         signals: bool = True,
     ) -> None:
         """Opens this component of the kind or, without `instance`, the one that `SCL_COMPONENT` names.
@@ -44,6 +46,7 @@ class ComponentOfKind(GeneratedComponent, Generic[INSTANCE]):
             runtime_dir=runtime_dir,
             system=system,
             transport=transport,
+            set=set,
             signals=signals,
         )
 

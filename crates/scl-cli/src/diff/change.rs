@@ -2,13 +2,14 @@
 
 use super::Side;
 use super::connections::connections_of;
-use super::facts::{Fact, component_facts, connection_facts, gate_facts};
+use super::facts::{Fact, component_facts, connection_facts, gate_facts, parameter_facts};
+use scl_plan::Plan;
 use std::collections::HashMap;
 
 /// One part that differs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Change {
-    /// Which sort of part: `component`, `gate`, `connection`, `system`, `message`, `enum`.
+    /// Which sort of part: `component`, `parameter`, `gate`, `connection`, `system`, `message`, `enum`.
     pub(super) part: &'static str,
     /// Its name.
     pub(super) name: String,
@@ -30,12 +31,13 @@ pub(super) enum How {
 /// A part: its name and its facts.
 type Part = (String, Vec<Fact>);
 
-/// Returns every difference: the system, then components, gates and connections. For each of these, removed parts come
-/// first, then the others in the order of the new file; connections are in the order of their sending gates.
+/// Returns every difference: the system, then components, parameters, gates and connections. For each of these, removed
+/// parts come first, then the others in the order of the new file; connections are in the order of their sending gates.
 pub(super) fn find_changes(old: &Side, new: &Side) -> Vec<Change> {
     let system = |side: &Side| vec![(String::new(), vec![("name", side.system.clone())])];
     let mut changes = compare("system", &system(old), &system(new));
     changes.extend(compare("component", &components(old), &components(new)));
+    changes.extend(compare("parameter", &parameters(old), &parameters(new)));
     changes.extend(compare("gate", &gates(old), &gates(new)));
     changes.extend(compare("connection", &connections(old), &connections(new)));
     changes
@@ -43,6 +45,14 @@ pub(super) fn find_changes(old: &Side, new: &Side) -> Vec<Change> {
 
 fn components(side: &Side) -> Vec<Part> {
     side.topology.components().map(|(_, it)| (it.name().to_owned(), component_facts(it))).collect()
+}
+
+fn parameters(side: &Side) -> Vec<Part> {
+    let of = |plan: &Plan| {
+        let facts = plan.parameters.iter().map(|it| (format!("{}.{}", plan.component, it.name), parameter_facts(it)));
+        facts.collect::<Vec<_>>()
+    };
+    side.plan.components.iter().flat_map(of).collect()
 }
 
 fn gates(side: &Side) -> Vec<Part> {

@@ -1,6 +1,6 @@
 //! The facts about the parts of a topology, as pairs of key and value.
 
-use scl_plan::{ConnectionPlan, GatePlan};
+use scl_plan::{ConnectionPlan, GatePlan, ParameterPlan};
 use scl_text::size;
 use scl_topology::grammar::OPTIONS;
 use scl_topology::topology::{Component, Gate};
@@ -14,6 +14,20 @@ pub(super) fn component_facts(component: &Component) -> Vec<Fact> {
         ("optional", component.optional().to_string()),
         ("memory", component.memory().map_or_else(|| "no bound".to_owned(), size::text)),
         ("doc", doc(component.doc())),
+    ]
+}
+
+/// The facts about a parameter.
+pub(super) fn parameter_facts(parameter: &ParameterPlan) -> Vec<Fact> {
+    let ParameterPlan { kind, default, range, unit, doc, .. } = parameter;
+    let text = |text: Option<&str>| text.unwrap_or("none").to_owned();
+    let range = range.as_ref().map(|(least, largest)| format!("{least} to {largest}"));
+    vec![
+        ("type", kind.to_string()),
+        ("default", text(default.as_deref())),
+        ("range", text(range.as_deref())),
+        ("unit", text(unit.as_deref())),
+        ("doc", self::doc(doc.as_deref())),
     ]
 }
 

@@ -2,7 +2,7 @@
 
 use super::Side;
 use super::connections::connection_name;
-use scl_plan::{ConnectionPlan, GatePlan, Plan};
+use scl_plan::{ConnectionPlan, ConstText, GatePlan, ParameterPlan, Plan};
 use std::collections::HashMap;
 
 /// A component and why it must be rebuilt.
@@ -32,6 +32,7 @@ pub(super) fn find_rebuilds(old: &Side, new: &Side) -> Vec<Rebuild> {
 #[derive(PartialEq, Eq)]
 enum Part<'p> {
     System(&'p str),
+    Parameter(Box<ParameterPlan>),
     Gate(Box<GatePlan>),
     Connection(&'p ConnectionPlan),
 }
@@ -39,6 +40,10 @@ enum Part<'p> {
 /// The parts of a plan by name.
 fn parts<'p>(system: &'p str, plan: &'p Plan) -> Vec<(String, Part<'p>)> {
     let mut parts = vec![("the system's name".to_owned(), Part::System(system))];
+    for parameter in &plan.parameters {
+        let alone = ParameterPlan { declared_at: ConstText::default(), ..parameter.clone() };
+        parts.push((format!("parameter `{}`", parameter.name), Part::Parameter(Box::new(alone))));
+    }
     for gate in &plan.gates {
         // Where a gate is declared is compiled in, too, but only for error texts.
         let alone = GatePlan { connections: Vec::new(), declared_at: String::new(), ..gate.clone() };

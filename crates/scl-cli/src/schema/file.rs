@@ -2,6 +2,7 @@
 
 use super::gate::{gate_schema, shared_gate_schema};
 use super::names::{FULL_NAME, NAME, Names, PATH};
+use super::parameter::parameter_schema;
 use super::shape::shape_schema;
 use scl_topology::grammar::{
     COMPONENT_KEYS, INCLUDE_KEYS, Item, KIND, Key, OWN_PREFIX, SECTIONS, Shape, without_references,
@@ -60,6 +61,7 @@ fn list_schema(key: &Key, item: Item, names: &Names) -> Value {
             json!({ "type": "string", "pattern": "\\S", "description": "A folder, for example `proto`." })
         }
         Item::Gate => gate_schema(names),
+        Item::Parameter => parameter_schema(),
         Item::SharedGate => shared_gate_schema(names),
         Item::Topology => include_schema(),
         Item::Export => return exports_schema(),

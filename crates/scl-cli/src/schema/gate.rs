@@ -36,7 +36,7 @@ pub(super) fn shared_gate_schema(names: &Names) -> Value {
 }
 
 /// A mapping from a name to one of these forms.
-fn named(description: &str, forms: Vec<Value>) -> Value {
+pub(super) fn named(description: &str, forms: Vec<Value>) -> Value {
     json!({
         "type": "object",
         "description": description,

@@ -4,7 +4,7 @@ use super::enumeration::{names_of_kind, of_kind};
 use super::function::Function;
 use super::gate::{member, refuse_null};
 use super::literal::literal;
-use super::prefix;
+use super::{parameters, prefix};
 use crate::system::{Component, System};
 
 /// The functions of a component. A counterpart is opened together with its component.
@@ -20,16 +20,22 @@ pub(super) fn component_functions(system: &System, component: &Component) -> Vec
                 "Opens the component of the kind that SCL_COMPONENT names; `options_json` may be NULL, see scl_open."
             }
         };
-        function("open", doc, "const char *options_json", open_body(component, enumeration.as_deref()))
+        function("open", doc, "const char *options_json", open_body(&own, component, enumeration.as_deref()))
     });
     let open_as = enumeration.as_ref().map(|enumeration| {
         let doc = "Opens this component of the kind; `options_json` may be NULL, see scl_open.";
         let parameters = format!("{enumeration} instance, const char *options_json");
-        function("open_as", doc, &parameters, open_as_body(component, enumeration))
+        function("open_as", doc, &parameters, open_as_body(&own, component, enumeration))
     });
     let test = component.counterpart.as_ref().map(|peer| {
         let doc = "Opens the component for a unit test, with the other ends of its gates, see scl_open_test.";
-        function("test", doc, &format!("{} *peer", prefix(system, peer)), test_body(component))
+        function("test", doc, &format!("{} *peer", prefix(system, peer)), test_body(&own, component))
+    });
+    let with_parameters = component.counterpart.as_ref().filter(|_| !component.parameters.is_empty());
+    let test_with = with_parameters.map(|peer| {
+        let doc = "The same with values of parameters; `options_json` may be NULL, see scl_open_test_with.";
+        let parameters = format!("{} *peer, const char *options_json", prefix(system, peer));
+        function("test_with", doc, &parameters, test_with_body(&own, component))
     });
     let ready = function(
         "ready",
@@ -39,10 +45,10 @@ pub(super) fn component_functions(system: &System, component: &Component) -> Vec
     );
     let doc = "Waits until running peers have taken all messages, then closes the component, see scl_close.";
     let close = function("close", doc, "int64_t timeout_ns", close_body());
-    open.into_iter().chain(open_as).chain(test).chain([ready, close]).collect()
+    open.into_iter().chain(open_as).chain(test).chain(test_with).chain([ready, close]).collect()
 }
 
-fn open_body(component: &Component, enumeration: Option<&str>) -> String {
+fn open_body(own: &str, component: &Component, enumeration: Option<&str>) -> String {
     let (refuse, name) = (refuse_null("self"), literal(&component.name));
     let find_instance = enumeration.map_or(String::new(), |enumeration| {
         let names = names_of_kind(enumeration);
@@ -52,7 +58,7 @@ fn open_body(component: &Component, enumeration: Option<&str>) -> String {
                  self->instance = ({enumeration})find_name(name, {names}, count);\n"
         )
     });
-    let once_open = once_open(find_instance + &find_gates(component, &["self"]));
+    let once_open = once_open(own, component, find_instance + &find_gates(component, &["self"]), &["self"]);
     format!(
         "{refuse}\n\
          memset(self, 0, sizeof *self);\n\
@@ -61,9 +67,9 @@ fn open_body(component: &Component, enumeration: Option<&str>) -> String {
     )
 }
 
-fn open_as_body(component: &Component, enumeration: &str) -> String {
-    let (refuse, names, once_open) =
-        (refuse_null("self"), names_of_kind(enumeration), once_open(find_gates(component, &["self"])));
+fn open_as_body(own: &str, component: &Component, enumeration: &str) -> String {
+    let (refuse, names) = (refuse_null("self"), names_of_kind(enumeration));
+    let once_open = once_open(own, component, find_gates(component, &["self"]), &["self"]);
     format!(
         "{refuse}\n\
          memset(self, 0, sizeof *self);\n\
@@ -76,20 +82,43 @@ fn open_as_body(component: &Component, enumeration: &str) -> String {
     )
 }
 
-fn test_body(component: &Component) -> String {
+fn test_body(own: &str, component: &Component) -> String {
+    match component.parameters.is_empty() {
+        true => test_lines(own, component, &format!("open_test({}, ", literal(&component.name))),
+        false => format!("return {own}_test_with(self, peer, NULL);"),
+    }
+}
+
+fn test_with_body(own: &str, component: &Component) -> String {
+    test_lines(own, component, &format!("open_test_with({}, options_json, ", literal(&component.name)))
+}
+
+/// The body of a function that opens both ends; `open` is the begin of the call.
+fn test_lines(own: &str, component: &Component, open: &str) -> String {
     let [refuse_self, refuse_peer] = ["self", "peer"].map(refuse_null);
-    let (name, once_open) = (literal(&component.name), once_open(find_gates(component, &["self", "peer"])));
+    let structs = ["self", "peer"];
+    let once_open = once_open(own, component, find_gates(component, &structs), &structs);
     format!(
         "{refuse_self}\n{refuse_peer}\n\
          memset(self, 0, sizeof *self);\n\
          memset(peer, 0, sizeof *peer);\n\
-         scl_status status = open_test({name}, &self->component, &peer->component);\n\
+         scl_status status = {open}&self->component, &peer->component);\n\
          {once_open}return status;"
     )
 }
 
-/// Lines that are run if the component was opened.
-fn once_open(lines: String) -> String {
+/// Lines that are run if the component was opened. Reading its parameters fails only if the library is another one than
+/// `scl.h` is of; then these structs are closed again.
+fn once_open(own: &str, component: &Component, lines: String, structs: &[&str]) -> String {
+    let read = parameters::once_open(own, component);
+    let close = structs
+        .iter()
+        .map(|of| format!("        scl_close({of}->component, 0);\n        memset({of}, 0, sizeof *{of});\n"));
+    let close = match read.is_empty() {
+        true => String::new(),
+        false => format!("    if (status != SCL_OK) {{\n{}    }}\n", close.collect::<String>()),
+    };
+    let lines = lines + &read + &close;
     if lines.is_empty() { lines } else { format!("if (status == SCL_OK) {{\n{lines}}}\n") }
 }
 

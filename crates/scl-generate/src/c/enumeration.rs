@@ -36,7 +36,7 @@ pub(super) fn names_of_senders(prefix: &str, gate: &Gate) -> String {
 }
 
 /// `ROVER_MOTOR_INSTANCE_LEFT_MOTOR`.
-fn constant(enumeration: &str, value: &str) -> String {
+pub(super) fn constant(enumeration: &str, value: &str) -> String {
     format!("{enumeration}_{value}").to_ascii_uppercase()
 }
 
@@ -70,18 +70,24 @@ pub(super) fn declarations(system: &System, component: &Component, scope: &str) 
 pub(super) fn declare_kind(system: &System, component: &Component, out: &mut Writer) {
     let Some(enumeration) = of_kind(system, component) else { return };
     let comment = format!("The components of the kind `{}`.", component.name);
-    write(&comment, &enumeration, component.instances.iter().map(|it| it.snake_name.as_str()), out);
+    write_enum(&comment, &enumeration, component.instances.iter().map(|it| it.snake_name.as_str()), out);
 }
 
 /// Writes the enums of the senders of a component's gates into the header.
 pub(super) fn declare_senders(prefix: &str, component: &Component, out: &mut Writer) {
     for (gate, senders) in component.own_senders() {
         let comment = format!("The gates that send to `{}.{}`.", component.name, gate.name);
-        write(&comment, &own_of(prefix, gate), senders.values.iter().map(|it| it.snake_name.as_str()), out);
+        write_enum(&comment, &own_of(prefix, gate), senders.values.iter().map(|it| it.snake_name.as_str()), out);
     }
 }
 
-fn write<'a>(comment: &str, enumeration: &str, values: impl Iterator<Item = &'a str>, out: &mut Writer) {
+/// Writes an enum into the header.
+pub(super) fn write_enum<'a>(
+    comment: &str,
+    enumeration: &str,
+    values: impl Iterator<Item = &'a str>,
+    out: &mut Writer,
+) {
     let constants: Vec<String> = values.map(|value| constant(enumeration, value)).collect();
     out.line(format!("\n/* {comment} */"));
     let end = format!("}} {enumeration};");
@@ -103,7 +109,8 @@ pub(super) fn define(system: &System, component: &Component, out: &mut Writer) {
     }
 }
 
-fn write_names<'a>(array: &str, names: impl Iterator<Item = &'a str>, out: &mut Writer) {
+/// Writes an array of names into the source.
+pub(super) fn write_names<'a>(array: &str, names: impl Iterator<Item = &'a str>, out: &mut Writer) {
     out.blank();
     out.block(format!("static const char *const {array}[] = {{"), "};", |out| {
         names.for_each(|name| out.line(format!("{},", literal(name))));

@@ -1,8 +1,8 @@
 //! `<system>_scl.h`.
 
+use super::comment::write_comment;
 use super::component_functions::component_functions;
-use super::{content, enumeration, functions, gate, messages, prefix, protobuf_c, source, wait};
-use crate::comment;
+use super::{content, enumeration, functions, gate, messages, parameters, prefix, protobuf_c, source, wait};
 use crate::system::{Component, Gate, System};
 use crate::writer::Writer;
 use std::collections::BTreeSet;
@@ -57,6 +57,7 @@ fn includes(system: &System) -> BTreeSet<String> {
 fn write_component(system: &System, component: &Component, out: &mut Writer) {
     let prefix = prefix(system, component);
     enumeration::declare_senders(&prefix, component, out);
+    parameters::declare(&prefix, component, out);
     out.blank();
     let noun = if component.is_kind() { "Kind" } else { "Component" };
     let headline = format!("{noun} `{}` ({})", component.name, component.declared_at);
@@ -68,6 +69,9 @@ fn write_component(system: &System, component: &Component, out: &mut Writer) {
         out.line("scl_component *component;");
         if let Some(enumeration) = enumeration::of_kind(system, component) {
             out.line(format!("{enumeration} instance;"));
+        }
+        if let Some(parameters) = parameters::struct_name(&prefix, component) {
+            out.line(format!("{parameters} parameters;"));
         }
         if component.gates.is_empty() {
             return;
@@ -115,16 +119,4 @@ fn write_checks(system: &System, out: &mut Writer) {
         functions(system, component).iter().for_each(|function| function.check(out));
     }
     out.line("#endif\n");
-}
-
-/// Writes a comment with a headline and the text of `doc:`.
-fn write_comment(headline: &str, doc: Option<&str>, out: &mut Writer) {
-    let headline = comment::c_lines(headline).concat();
-    let Some(doc) = doc else {
-        out.line(format!("/* {headline} */"));
-        return;
-    };
-    out.line(format!("/*\n * {headline}\n *"));
-    comment::c_lines(doc).iter().for_each(|line| out.line(format!(" * {line}").trim_end()));
-    out.line(" */");
 }

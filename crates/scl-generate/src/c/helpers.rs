@@ -1,6 +1,7 @@
 //! The helpers of a generated source: what all gates share.
 
 use super::content::Content;
+use super::parameters::{self, READ_CHOICE, READ_LIST, READ_VALUES, Source};
 use super::recursion::is_any_recursive;
 use super::{messages, wait};
 use crate::system::System;
@@ -20,16 +21,24 @@ pub(super) fn needed(system: &System) -> Vec<&'static str> {
     let receives = any(&|kind, first, _| matches!(kind, Sub | Pull) && first);
     let is_answered = any(&|kind, _, second| kind == Req && second);
     let is_asked = any(&|kind, first, _| kind == Rep && first);
-    let is_tested = system.components.iter().any(|component| component.counterpart.is_some());
+    let tested = || system.components.iter().filter(|component| component.counterpart.is_some());
+    let is_tested = tested().any(|component| component.parameters.is_empty());
+    let is_tested_with = tested().any(|component| !component.parameters.is_empty());
+    let parameters = || system.components.iter().flat_map(|component| &component.parameters);
+    let reads = |source| parameters().any(|parameter| parameters::source(parameter) == source);
     let waits = system.components_and_counterparts().any(|component| !wait::gates(component).is_empty());
     let messages = messages(system);
     let mut names = messages.iter().map(|message| message.dotted.as_str());
     let is_recursive = system.descriptors.as_ref().is_some_and(|files| is_any_recursive(files, &mut names));
-    let has_enums = system.kinds().next().is_some() || system.gates().any(|gate| gate.senders.is_some());
+    let is_named = system.kinds().next().is_some() || system.gates().any(|gate| gate.senders.is_some());
     let all = [
         (true, OPEN),
-        (has_enums, FIND_NAME),
+        (is_named || reads(Source::Choice), FIND_NAME),
         (is_tested, OPEN_TEST),
+        (is_tested_with, OPEN_TEST_WITH),
+        (reads(Source::Copy), READ_VALUES),
+        (reads(Source::List), READ_LIST),
+        (reads(Source::Choice), READ_CHOICE),
         (sends || asks || replies, PACK),
         (sends, SEND),
         (asks, CALL),
@@ -76,6 +85,15 @@ static scl_status open_test(const char *name, scl_component **component, scl_com
 {
     scl_status status = check_library();
     return status != SCL_OK ? status : scl_open_test(plan, sizeof plan - 1, name, component, peer);
+}";
+
+const OPEN_TEST_WITH: &str = "\
+static scl_status open_test_with(const char *name, const char *options_json, scl_component **component,
+                                 scl_component **peer)
+{
+    scl_status status = check_library();
+    return status != SCL_OK ? status
+                            : scl_open_test_with(plan, sizeof plan - 1, name, options_json, component, peer);
 }";
 
 const PACK: &str = "\

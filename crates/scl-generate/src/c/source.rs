@@ -1,7 +1,7 @@
 //! `<system>_scl.c`.
 
 use super::literal::literal;
-use super::{enumeration, functions, helpers, messages};
+use super::{enumeration, functions, helpers, messages, parameters};
 use crate::comment;
 use crate::system::System;
 use crate::writer::Writer;
@@ -21,6 +21,7 @@ pub(super) fn text(system: &System) -> String {
     write_plan(system, &mut out);
     helpers::needed(system).into_iter().for_each(|helper| out.line(format!("\n{helper}")));
     system.components.iter().for_each(|component| enumeration::define(system, component, &mut out));
+    system.components.iter().for_each(|component| parameters::define(system, component, &mut out));
     let functions = system.components_and_counterparts().flat_map(|component| functions(system, component));
     functions.for_each(|function| function.define(&mut out));
     out.finish()

@@ -41,16 +41,22 @@ pub(super) fn declarations(system: &System, namespace: &str, inside: &str) -> Ve
 pub(super) fn write_all(system: &System, out: &mut Writer) {
     for kind in system.kinds() {
         let values = kind.instances.iter().map(|it| (it.class_name.as_str(), it.doc.as_deref()));
-        write(out, &format!("The components of the kind `{}`.", kind.name), &of_kind(kind), values);
+        write_enum(out, &format!("The components of the kind `{}`.", kind.name), &of_kind(kind), values);
     }
     for (component, gate, senders) in system.own_senders() {
         let values = senders.values.iter().map(|it| (it.class_name.as_str(), it.path.as_deref()));
         let comment = format!("The gates that send to `{}.{}`.", component.name, gate.name);
-        write(out, &comment, &senders.class_name, values);
+        write_enum(out, &comment, &senders.class_name, values);
     }
 }
 
-fn write<'a>(out: &mut Writer, comment: &str, name: &str, values: impl Iterator<Item = (&'a str, Option<&'a str>)>) {
+/// Writes an enum, whose values are given as name and documentation.
+pub(super) fn write_enum<'a>(
+    out: &mut Writer,
+    comment: &str,
+    name: &str,
+    values: impl Iterator<Item = (&'a str, Option<&'a str>)>,
+) {
     out.blank();
     write_comment(out, comment);
     out.block(format!("enum class {name} {{"), "};", |out| {
@@ -64,10 +70,7 @@ fn write<'a>(out: &mut Writer, comment: &str, name: &str, values: impl Iterator<
 /// Writes what the values of all enums stand for.
 pub(super) fn write_names(system: &System, out: &mut Writer) {
     for kind in system.kinds() {
-        let names = names_of_kind(kind);
-        out.line(format!("\ninline constexpr const char* {names}[] = {{"));
-        write_list(kind.instances.iter().map(|it| it.name.as_str()), out);
-        out.line("};");
+        write_names_of(&names_of_kind(kind), kind.instances.iter().map(|it| it.name.as_str()), out);
     }
     let gates = system.components.iter().flat_map(|component| &component.gates);
     for of in gates.filter_map(|gate| gate.senders.as_ref()) {
@@ -83,6 +86,13 @@ pub(super) fn write_names(system: &System, out: &mut Writer) {
             out.line("};");
         });
     }
+}
+
+/// Writes a constant with the names that the values of an enum stand for.
+pub(super) fn write_names_of<'a>(constant: &str, names: impl Iterator<Item = &'a str>, out: &mut Writer) {
+    out.line(format!("\ninline constexpr const char* {constant}[] = {{"));
+    write_list(names, out);
+    out.line("};");
 }
 
 fn write_list<'a>(names: impl Iterator<Item = &'a str>, out: &mut Writer) {

@@ -38,11 +38,14 @@ fn arguments(system: &System, component: &Component) -> Vec<Doc> {
     let mut arguments = Vec::new();
     arguments.extend(instance.as_ref().map(|instance| generic("ComponentOfKind", instance)));
     arguments.extend(peer.as_ref().map(|peer| generic("TestableComponent", peer)));
+    let parameters = component.parameters_class();
+    arguments.extend(parameters.as_ref().map(|class| generic("ComponentWithParameters", class)));
     if arguments.is_empty() {
         arguments.push(Doc::text("_scl.GeneratedComponent"));
     }
     arguments.extend([Doc::text("plan=_PLAN"), Doc::text(format!("component=\"{}\"", component.name))]);
     arguments.extend(instance.map(|instance| Doc::text(format!("instances={instance}"))));
+    arguments.extend(parameters.map(|class| Doc::text(format!("parameters={class}"))));
     let senders = component.gates.iter().filter_map(|gate| {
         let enumeration = enumeration::of_senders(system, gate.senders.as_ref()?);
         Some(Doc::text(format!("\"{}\": {enumeration}", names::gate(gate))))

@@ -1,7 +1,7 @@
 //! Docstrings, which editors show when the cursor is on a name.
 
 use crate::comment;
-use crate::system::{Component, Gate, System};
+use crate::system::{Component, Gate, Parameter, System};
 use crate::writer::Writer;
 use scl_plan::{GateOptions, OptionAccess, Payload};
 use std::time::Duration;
@@ -65,6 +65,14 @@ pub(super) fn of_gate(component: &Component, gate: &Gate, unsupported: Option<&s
     parts.extend(unsupported.map(|reason| format!("Python cannot open this gate: {reason}.")));
     parts.push(format!("Declared at `{}`.", gate.plan.declared_at));
     parts.join("\n\n")
+}
+
+/// The docstring of a parameter's field: its `doc`, type, range, unit and default.
+pub(super) fn of_parameter(parameter: &Parameter) -> String {
+    let doc = parameter.plan.doc.as_ref().map(|doc| doc.trim().to_owned());
+    let facts = format!("Parameter: {}.", parameter.described());
+    let place = format!("Declared at `{}`.", parameter.plan.declared_at);
+    doc.into_iter().chain([facts, place]).collect::<Vec<_>>().join("\n\n")
 }
 
 fn sentence(gate: &Gate) -> String {

@@ -52,21 +52,23 @@ pub(super) fn classes(system: &System) -> impl Iterator<Item = String> {
 /// Writes all enums, before the components that need them.
 pub(super) fn write_all(system: &System, out: &mut Writer) {
     for kind in system.kinds() {
-        let members = kind.instances.iter().map(|it| (&*it.snake_name, &*it.name, it.doc.as_deref()));
+        let members = kind.instances.iter().map(|it| (member(&it.snake_name), &*it.name, it.doc.as_deref()));
         write("Instance", &of_kind(kind), &format!("The components of the kind `{}`.", kind.name), members, out);
     }
     for (component, gate, senders) in system.own_senders() {
-        let members = senders.values.iter().map(|it| (&*it.snake_name, it.path.as_deref().unwrap_or_default(), None));
+        let members =
+            senders.values.iter().map(|it| (member(&it.snake_name), it.path.as_deref().unwrap_or_default(), None));
         let doc = format!("The gates that send to `{}.{}`.", component.name, gate.name);
         write("Sender", &senders.class_name, &doc, members, out);
     }
 }
 
-fn write<'a>(
+/// Writes an enum. Its members are given as name, value and documentation.
+pub(super) fn write<'a>(
     base: &str,
     class: &str,
     doc: &str,
-    members: impl Iterator<Item = (&'a str, &'a str, Option<&'a str>)>,
+    members: impl Iterator<Item = (String, &'a str, Option<&'a str>)>,
     out: &mut Writer,
 ) {
     out.line(format!("\n\nclass {class}(_scl.{base}):"));
@@ -74,7 +76,7 @@ fn write<'a>(
         docs::write(doc, out);
         out.blank();
         for (name, value, doc) in members {
-            out.line(format!("{} = \"{value}\"", member(name)));
+            out.line(format!("{name} = \"{value}\""));
             doc.iter().for_each(|doc| docs::write(doc, out));
         }
     });

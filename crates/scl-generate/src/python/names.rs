@@ -3,7 +3,7 @@
 use super::Imports;
 use super::schema::{Schema, SchemaFile};
 use crate::identifier;
-use crate::system::{Component, Gate, System};
+use crate::system::{ChoiceValue, Component, Gate, Parameter, System};
 use scl_loader::walk;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
@@ -63,6 +63,18 @@ pub(super) fn gate(gate: &Gate) -> String {
     }
 }
 
+/// The field of a parameter.
+pub(super) fn parameter(parameter: &Parameter) -> String {
+    let name = identifier::python(&parameter.snake_name);
+    // As for gates. The package has the same rule.
+    if name.starts_with('_') { format!("parameter{name}") } else { name }
+}
+
+/// The member of an enum for a word that a parameter can be.
+pub(super) fn choice(value: &ChoiceValue) -> String {
+    value.snake_name.to_ascii_uppercase()
+}
+
 /// Whether a field can be written as an attribute.
 pub(super) fn is_attribute(field: &str) -> bool {
     // Inside classes, Python mangles names that start with two underscores.
@@ -96,11 +108,12 @@ struct TypeName {
 
 impl Names {
     pub(super) fn of(system: &System, schema: &Schema<'_>) -> Self {
+        let parameters = system.components.iter().flat_map(|component| &component.parameters);
         let mut names = Self {
             types: HashMap::new(),
             messages: BTreeMap::new(),
             enums: BTreeMap::new(),
-            attributes: system.gates().map(gate).collect(),
+            attributes: system.gates().map(gate).chain(parameters.map(parameter)).collect(),
         };
         let ambiguous = ambiguous_names(schema);
         for file in &schema.files {

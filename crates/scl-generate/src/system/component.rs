@@ -1,5 +1,6 @@
 //! Components, kinds of components and gates, with all that their programs need.
 
+use super::parameter::{Choice, Parameter};
 use super::senders::Senders;
 use scl_plan::{GatePlan, Plan, SystemPlan};
 use scl_text::list::listed;
@@ -26,6 +27,8 @@ pub struct Component {
     pub instances: Vec<Instance>,
     /// The gates, in file order.
     pub gates: Vec<Gate>,
+    /// The parameters, in file order; a counterpart has none.
+    pub parameters: Vec<Parameter>,
     /// The plan, or that of the first component of the kind. Its `gates` are those of [`Gate::plan`].
     pub plan: Plan,
     /// The other ends of its gates, for unit tests, after
@@ -90,6 +93,16 @@ impl Component {
         senders.filter(|(_, senders)| senders.kind.is_none())
     }
 
+    /// The parameters that are one of several words, with their enums.
+    pub(crate) fn choices(&self) -> impl Iterator<Item = (&Parameter, &Choice)> {
+        self.parameters.iter().filter_map(|parameter| Some((parameter, parameter.choice.as_ref()?)))
+    }
+
+    /// The name of the type of all its parameters: `ControllerParameters`; `None` if it has none.
+    pub(crate) fn parameters_class(&self) -> Option<String> {
+        (!self.parameters.is_empty()).then(|| topology::parameters_name(&self.name))
+    }
+
     pub(super) fn of(
         topology: &Topology,
         of: ComponentType<'_>,
@@ -98,6 +111,7 @@ impl Component {
     ) -> Option<Self> {
         let plan = plan.component(of.component.name()).ok()?;
         let gates = of.component.gates().iter().zip(&plan.gates);
+        let parameters = of.component.parameters().iter().zip(&plan.parameters);
         let instances = of.kind.map_or(&[][..], |kind| kind.components());
         Some(Self {
             name: of.name().to_owned(),
@@ -108,6 +122,7 @@ impl Component {
             declared_at: location(of.span()),
             instances: instances.iter().map(|id| Instance::of(topology.component(*id))).collect(),
             gates: gates.map(|(&id, plan)| Gate::of(topology, id, plan)).collect(),
+            parameters: parameters.map(|(of_file, plan)| Parameter::of(of.name(), of_file, plan)).collect(),
             plan: plan.clone(),
             counterpart: None,
             counterpart_of: None,
@@ -154,6 +169,7 @@ impl Component {
             declared_at: self.declared_at.clone(),
             instances: Vec::new(),
             gates: gates.collect(),
+            parameters: Vec::new(),
             plan,
             counterpart: None,
             counterpart_of: Some(self.name.clone()),

@@ -18,7 +18,7 @@ fn every_kind_of_gate_has_its_functions() {
 #[test]
 fn generated_code_compiles_without_a_warning() {
     let quickstart = repository().join("examples/quickstart/topology.yaml");
-    for path in [topology("every_kind.yaml"), topology("bytes.yaml"), quickstart] {
+    for path in [topology("every_kind.yaml"), topology("bytes.yaml"), topology("controls.yaml"), quickstart] {
         let project = Project::of(&path);
         let source = format!("{}_scl.c", system(&path).snake_name());
         project.compiles("cc", &[&["-std=c11"], &STRICT[..], &[&source]].concat());

@@ -9,7 +9,8 @@ use std::process::Command;
 fn generated_headers_compile_without_a_warning() {
     let quickstart = repository().join("examples/quickstart/topology.yaml");
     let cases = [topology("every_kind.yaml"), topology("bytes.yaml"), quickstart].map(|path| (path, false));
-    for (path, is_testable) in cases.into_iter().chain([(topology("every_kind.yaml"), true)]) {
+    let testable_cases = [topology("every_kind.yaml"), topology("controls.yaml")].map(|path| (path, true));
+    for (path, is_testable) in cases.into_iter().chain(testable_cases) {
         let folder = tempfile::tempdir().unwrap();
         for file in if is_testable { testable(&path, Target::Cpp) } else { generated(&path, Target::Cpp) } {
             write(folder.path(), &file).unwrap();

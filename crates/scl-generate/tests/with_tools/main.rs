@@ -9,4 +9,5 @@ mod cpp;
 #[path = "../fixture.rs"]
 mod fixture;
 mod names;
+mod parameters;
 mod testable;

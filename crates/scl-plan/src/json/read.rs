@@ -1,6 +1,7 @@
 //! From JSON to plans.
 
 use super::object::At;
+use super::parameter::parameter;
 use crate::base64;
 use crate::error::PlanError;
 use crate::kind::{GateKind, Undecodable, WhenFull};
@@ -74,7 +75,7 @@ fn read_schemas(at: &At<'_>) -> Result<Vec<Schema>, PlanError> {
 }
 
 fn component(at: &At<'_>, system: &str, schemas: &[Schema]) -> Result<Plan, PlanError> {
-    let fields = at.object(&["name", "declared_at", "schema", "gates"])?;
+    let fields = at.object(&["name", "declared_at", "schema", "parameters", "gates"])?;
     let schema = fields.optional_text("schema")?.map(|hash| {
         let known = schemas.iter().find(|schema| schema.hash == hash).cloned();
         known.ok_or_else(|| PlanError::Inconsistent {
@@ -87,6 +88,10 @@ fn component(at: &At<'_>, system: &str, schemas: &[Schema]) -> Result<Plan, Plan
         component: fields.text("name")?,
         declared_at: fields.text("declared_at")?,
         schema: schema.transpose()?,
+        parameters: match fields.has("parameters") {
+            true => fields.field("parameters")?.list(|it| parameter(&it))?,
+            false => Vec::new(),
+        },
         gates: fields.field("gates")?.list(|it| gate(&it))?,
     })
 }

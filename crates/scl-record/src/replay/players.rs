@@ -84,7 +84,7 @@ impl Players {
                 let connections = plan.gates.iter_mut().flat_map(|gate| &mut gate.connections);
                 connections.for_each(|connection| connection.required = false);
             }
-            let opened = Component::open_with(&plan, OpenOptions::new().system(&cast.system)).await;
+            let opened = Component::open_with(&plan, OpenOptions::new().system(&cast.system).stands_in()).await;
             let mut component = opened.map_err(|error| problem_of(&error))?;
             for gate in &plan.gates {
                 let id = (plan.component.clone(), gate.name.clone());

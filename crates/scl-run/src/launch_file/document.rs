@@ -4,6 +4,7 @@ use super::LaunchFile;
 use super::dialect::LAUNCH;
 use super::reader::Reader;
 use super::rules::{UNCHECKED, WRONG_VALUE};
+use super::unset::unset_parameters;
 use crate::system_names::SystemNames;
 use scl_terminal::Problem;
 use scl_topology::advice::{Extent, Judged, try_advice};
@@ -146,7 +147,12 @@ pub fn check_launch_file(
     let document = LaunchDocument::of(sources.clone(), file);
     let found = topology(document.topology().map(|(path, _)| path));
     let known = if let LaunchTopology::Names(names) = &found { Some(names) } else { None };
-    let mut diagnostics = document.check(known).1;
+    let (launch, mut diagnostics) = document.check(known);
+    // Not tried with the advice: the fix of a mistake would bring them to light, and be refused.
+    let is_sound = diagnostics.iter().all(|problem| problem.severity != Severity::Error);
+    let unset = known.zip(document.document.root.as_ref()).filter(|_| is_sound);
+    diagnostics.extend(unset.into_iter().flat_map(|(known, root)| unset_parameters(root, &launch, known)));
+    diagnostics.sort_by_key(|problem| problem.primary.as_ref().map(|label| label.span));
     let of_topology = match (&found, document.topology()) {
         (LaunchTopology::Missing(likely), Some((path, field))) => {
             let message = format!("the topology file does not exist: `{path}`");

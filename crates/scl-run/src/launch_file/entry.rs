@@ -26,6 +26,8 @@ pub(crate) struct LaunchComponent {
     pub(crate) source: Source,
     /// For this program.
     pub(crate) environment: Vec<(String, String)>,
+    /// The values of its parameters; of several for one, the last counts.
+    pub(crate) parameters: Vec<(String, String)>,
     /// Which components its program may open.
     pub(crate) opens: Opens,
     /// Where its standard input comes from.
@@ -103,6 +105,7 @@ pub(super) struct Entry {
     pub(super) build: Option<Vec<String>>,
     pub(super) source: Option<Source>,
     pub(super) environment: Vec<(String, String)>,
+    pub(super) parameters: Vec<(String, String)>,
     pub(super) opens: Option<Opens>,
     pub(super) input: Option<StandardInput>,
     pub(super) settings: Settings,
@@ -123,9 +126,9 @@ pub(super) enum Needs<'a> {
 impl Entry {
     /// The component, if the entry says what runs it.
     pub(super) fn into_component(self) -> Option<LaunchComponent> {
-        let Self { name, build, source, environment, opens, input, settings, place } = self;
+        let Self { name, build, source, environment, parameters, opens, input, settings, place } = self;
         let (opens, input) = (opens.unwrap_or_default(), input.unwrap_or_default());
-        Some(LaunchComponent { name, build, source: source?, environment, opens, input, settings, place })
+        Some(LaunchComponent { name, build, source: source?, environment, parameters, opens, input, settings, place })
     }
 
     /// The same entry for each of these components.
@@ -134,10 +137,11 @@ impl Entry {
     }
 
     /// Applies the entry to a component. A command or a recording replaces the program, and resets the keys that belong
-    /// to the old one: `build`, `working_directory`, `opens` and `input`. Variables are added; all other keys replace
-    /// the component's.
+    /// to the old one: `build`, `working_directory`, `opens` and `input`. Variables and values of parameters are added;
+    /// all other keys replace the component's.
     pub(super) fn apply_to(&self, component: &mut LaunchComponent) {
         component.environment.extend(self.environment.iter().cloned());
+        component.parameters.extend(self.parameters.iter().cloned());
         if let Some(source) = &self.source {
             component.source.clone_from(source);
             component.build = None;
@@ -205,6 +209,7 @@ impl Reader<'_> {
             build: self.read_build(&keys),
             source,
             environment: self.read_environment(&keys),
+            parameters: self.read_parameters(&keys, name),
             opens: keys.get("opens").and_then(|field| self.read_opens(field, name)),
             input: self.read_setting(&keys, "input", |value| StandardInput::of(value.text()?)),
             settings: self.read_settings(&keys),

@@ -7,6 +7,7 @@ use super::reader::{Keys, Reader, wrong};
 use super::rules::{LIKE_A_KEY, WRONG_NAME, WRONG_VALUE};
 use super::value::{shown, text};
 use super::words::flow_word;
+use scl_plan::SET_VARIABLE;
 use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::parse::Field;
 use scl_topology::source::Span;
@@ -58,6 +59,13 @@ impl Reader<'_> {
             let problem = WRONG_NAME.at(message, field.key_span, "");
             let problem = self.separate(problem, field, before);
             self.report(problem);
+            return None;
+        }
+        if name == SET_VARIABLE {
+            let message = format!("`{SET_VARIABLE}` cannot be set here: `scl run` writes it");
+            let problem = WRONG_NAME.at(message, field.key_span, "");
+            let help = "write the values in the entry of the component: `parameters: {gain: 1.5}`";
+            self.report(problem.help(help));
             return None;
         }
         let value = text(field.value);

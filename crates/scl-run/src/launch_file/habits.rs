@@ -135,8 +135,8 @@ const HABITS: &[Habit] = &[
         "`command` names the program, by its path or as it is found in the search path",
     ),
     meant(
-        &["param", "params", "parameters", "config", "rosparam", "extraarguments"],
-        "a program gets parameters as arguments in its `command`, or as variables in `environment`",
+        &["config", "extraarguments"],
+        "a program gets values in `parameters`, as arguments in its `command`, or as variables in `environment`",
     ),
     meant(
         &[

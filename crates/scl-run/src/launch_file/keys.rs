@@ -40,6 +40,7 @@ pub(super) enum Form {
 
 const COMMAND: Form = Form::Other("a command");
 const PATH: Form = Form::Other("a path");
+const VALUES: Form = Form::Other("a mapping from names to values like `{gain: 1.5}`");
 const VARIABLES: Form = Form::Other("a mapping from names to texts or numbers");
 
 impl Form {
@@ -232,6 +233,14 @@ pub(super) const COMPONENT: &[Key] = &[
         form: Form::Other("a list of components like `[sensor, controller]`, or `any`"),
         default: "its own component",
         meaning: "Components that the program may open besides its own. See [The right program](#the-right-program).",
+        ..KEY
+    },
+    Key {
+        name: "parameters",
+        also: &["param", "params", "parameter", "rosparam", "ros_parameters", "ros_params"],
+        form: VALUES,
+        default: "the defaults of the topology",
+        meaning: "Values of the component's parameters. See [Parameters](#parameters).",
         ..KEY
     },
     Key {

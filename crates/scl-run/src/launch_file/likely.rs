@@ -62,7 +62,7 @@ pub(super) fn fits(key: &str, value: &Node) -> bool {
         Form::Processors => processors(value).is_some(),
         Form::Priority => priority(text()).is_some(),
         Form::Port => port(value).is_some(),
-        Form::Other(_) if matches!(key, "environment" | "components" | "hosts" | "profiles") => {
+        Form::Other(_) if matches!(key, "environment" | "parameters" | "components" | "hosts" | "profiles") => {
             value.entries().is_some() || key == "components" && texts(value).is_some()
         }
         Form::Count => number(value).is_some_and(|number| number > 0),

@@ -3,6 +3,7 @@
 //! sound file.
 
 use super::super::system_names::SystemNames;
+use super::super::system_names::tests::rover;
 use super::{EXAMPLE, LaunchDocument};
 use scl_topology::advice::apply;
 use scl_topology::diagnostic::{Diagnostic, Severity};
@@ -22,6 +23,9 @@ components:
     restart: always
     environment:
       GAIN: 0.5
+    parameters:
+      gain: 1.5
+      offsets: [0, 0.1, 0]
   logger:
     command: [python3, logger.py]
     input: terminal
@@ -48,7 +52,9 @@ const MOST_ERRORS: usize = 3;
 
 fn names() -> SystemNames {
     let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+    let parameters = rover().parameters.remove("controller").unwrap();
     SystemNames {
+        parameters: [("controller".to_owned(), parameters)].into(),
         components: owned(&["sensor", "controller", "logger"]),
         gates: owned(&["sensor.measurements", "controller.measurements", "controller.setpoints", "logger.setpoints"]),
         ..SystemNames::default()

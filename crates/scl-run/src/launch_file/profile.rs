@@ -37,6 +37,11 @@ impl LaunchFile {
         if problems.is_empty() { Ok(components) } else { Err(problems) }
     }
 
+    /// The entries of all profiles.
+    pub(super) fn entries_of_profiles(&self) -> impl Iterator<Item = &Entry> {
+        self.profiles.iter().flat_map(|profile| &profile.entries)
+    }
+
     fn unknown_profile(&self, name: &str) -> Problem {
         let names = || self.profiles.iter().map(|profile| profile.name.as_str());
         let problem = Problem::new(format!("unknown profile `{name}`"));

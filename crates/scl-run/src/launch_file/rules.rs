@@ -61,9 +61,9 @@ pub(super) const MISSING: Rule = Rule {
 
 pub(super) const UNKNOWN_NAME: Rule = Rule {
     code: "SCL1205",
-    title: "component or gate that is not in the topology",
-    explanation: "A launch file that has a topology can name only that topology's components and gates. The message \
-                  lists them.",
+    title: "component, gate or parameter that is not in the topology",
+    explanation: "A launch file that has a topology can name only that topology's components and gates, and only the \
+                  parameters that it declares for a component. The message lists them.",
     example: " hosts:
 -  board: {address: 127.0.0.1, port: 7447, components: [sensr]}
 +  board: {address: 127.0.0.1, port: 7447, components: [sensor]}
@@ -148,6 +148,16 @@ pub(super) const LIKE_A_KEY: Rule = Rule {
 ",
 };
 
+pub(super) const UNSET: Rule = Rule {
+    code: "SCL1211",
+    severity: Severity::Warning,
+    title: "parameter without a value",
+    explanation: "The topology declares a parameter without a default, and neither `components` nor a profile gives it \
+                  a value. `scl run` then starts the component only with a value from `--set` or `SCL_SET`. Write the \
+                  value in `parameters` of the component's entry, or a default in the topology.",
+    ..RULE
+};
+
 /// All rules, in the order of their codes.
 pub const LAUNCH_RULES: &[&Rule] = &[
     &UNKNOWN_KEY,
@@ -160,4 +170,5 @@ pub const LAUNCH_RULES: &[&Rule] = &[
     &HOSTS,
     &UNCHECKED,
     &LIKE_A_KEY,
+    &UNSET,
 ];

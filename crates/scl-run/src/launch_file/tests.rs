@@ -2,6 +2,7 @@
 
 use super::super::policy::{Restart, RestartDelay, RestartLimit};
 use super::super::system_names::SystemNames;
+use super::super::system_names::tests::rover;
 use super::super::terminal::StandardInput;
 use super::keys::{self, Key};
 use super::{EXAMPLE, LAUNCH_RULES, LaunchComponent, LaunchDocument, LaunchFile, Settings, Source};
@@ -287,8 +288,7 @@ fn the_reference_page_is_current() {
     assert!(page.contains(&format!("| code | mistake |\n|---|---|\n{codes}")), "docs/launch.md lacks:\n{codes}");
     assert!(page.contains(&format!("```yaml\n{EXAMPLE}```\n")), "docs/launch.md lacks the example:\n{EXAMPLE}");
     let blocks: Vec<&str> = page.split("```yaml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
-    let mut motors = components(&["left_motor", "right_motor"]);
-    motors.kinds = vec![("motor".to_owned(), motors.components.clone())];
+    let motors = rover();
     for text in &blocks {
         let known = text.contains("left_motor").then_some(&motors);
         assert_eq!(parse_launch_file(text, known).err(), None, "{text}");

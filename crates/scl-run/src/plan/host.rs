@@ -86,6 +86,7 @@ pub(super) fn plan_gateway(
     let limit = RestartLimit { count: usize::MAX, within: Duration::from_secs(60) };
     Ok(Component {
         name: Deployment::GATEWAY.to_owned(),
+        kind: None,
         program: Program {
             environment: environment_of_programs(launch).collect(),
             ..Program::new(command.collect(), folder.to_owned())

@@ -3,9 +3,11 @@
 use super::super::Options;
 use super::super::cargo::{Target, cargo};
 use super::super::component::{Component, MadeByCargo};
+use super::super::launch_file::Opens;
 use super::super::policy::Policy;
 use super::super::program::{Build, Program};
 use super::super::selection::Selection;
+use super::parameters::{self, Values};
 use super::{COMPONENT, RunPlan, SystemNames, TOPOLOGY_FILE, named_after_file, system_of_environment};
 use scl_terminal::Problem;
 use std::ffi::OsString;
@@ -24,18 +26,28 @@ pub(super) fn plan_from_package(folder: &Path, names: SystemNames, options: &Opt
         let help = "add a `launch.yaml` that says how each component is started; `scl run --help` shows one";
         return Err(vec![problem.help(help)]);
     }
+    let started: Vec<&String> = names.components.iter().filter(|name| selection.includes(name)).collect();
+    let values = Values::new(options, parameters::inherited()?.as_deref(), &[], Some(&names))?;
+    let unset: Vec<Problem> = started.iter().flat_map(|name| values.unset_of(name, None)).collect();
+    if !unset.is_empty() {
+        return Err(unset);
+    }
     let program = |command| Program::new(command, folder.to_owned());
     let release = options.release.then(|| OsString::from("--release"));
     let build = [cargo(), "build".into(), "--bins".into()].into_iter().chain(release).collect();
     let expected = |name: &String| (COMPONENT.to_owned(), format!("{}.{name}", names.system));
-    let plan = |name: &String| Component {
-        name: name.clone(),
-        program: Program { environment: vec![expected(name)], ..program(vec![cargo()]) },
+    let plan = |name: &&String| Component {
+        name: (*name).clone(),
+        kind: names.kind_of(name).map(str::to_owned),
+        program: Program {
+            environment: [expected(name)].into_iter().chain(values.variable_of(name, &Opens::Own)).collect(),
+            ..program(vec![cargo()])
+        },
         policy: Policy { stop_within: options.grace, ..Policy::default() },
         recording: None,
         made_by_cargo: Some(MadeByCargo {
             build: 0,
-            target: Target::OfComponent { name: name.clone(), kind: names.kind_of(name).map(str::to_owned) },
+            target: Target::OfComponent { name: (*name).clone(), kind: names.kind_of(name).map(str::to_owned) },
         }),
         entry: None,
     };
@@ -43,8 +55,7 @@ pub(super) fn plan_from_package(folder: &Path, names: SystemNames, options: &Opt
         system: system_of_environment().or(Some(names.system.clone())),
         named_after: named_after_file(&folder.join(TOPOLOGY_FILE), &names),
         builds: vec![Build { components: Vec::new(), program: program(build), cargo_choices: Some(Vec::new()) }],
-        components: names.components.iter().filter(|name| selection.includes(name)).map(plan).collect(),
-        kinds: names.kinds,
+        components: started.iter().map(plan).collect(),
         gateway: None,
     })
 }

@@ -2,7 +2,7 @@
 
 use super::super::component::Component;
 use super::super::plan::COMPONENT;
-use super::{Called, Unit, Units};
+use super::{Called, INSTANCE, Unit, Units};
 use scl_terminal::Problem;
 use std::collections::{HashMap, HashSet};
 
@@ -49,9 +49,8 @@ impl Units<'_> {
     /// `SCL_COMPONENT` which one it is.
     fn template(&self, component: &Component) -> Result<Option<Unit>, Problem> {
         let is_told = component.program.environment.iter().any(|variable| names(variable, &component.name));
-        let is_of = |(_, components): &&(String, Vec<String>)| components.contains(&component.name);
-        match self.plan.kinds.iter().find(is_of) {
-            Some((kind, _)) if is_told => self.component(component, Called::AnyOf(kind)).map(Some),
+        match &component.kind {
+            Some(kind) if is_told => self.component(component, Called::AnyOf(kind)).map(Some),
             _ => Ok(None),
         }
     }
@@ -66,5 +65,5 @@ pub(super) fn names((name, value): &(String, String), component: &str) -> bool {
 /// The `Environment=` line of that variable in a template.
 pub(super) fn line((name, value): &(String, String), component: &str) -> String {
     let system = value.strip_suffix(component).unwrap_or_default();
-    format!("Environment={name}={system}%i\n")
+    format!("Environment={name}={system}{INSTANCE}\n")
 }

@@ -2,8 +2,10 @@
 
 use super::text::{duration, quoted};
 use super::{UnitOptions, systemd_units};
+use crate::system_names::tests::rover;
 use crate::{Options, SystemNames};
 use expect_test::expect;
+use scl_plan::Assignment;
 use std::time::Duration;
 
 const LAUNCH: &str = "\
@@ -29,20 +31,26 @@ fn units(launch: &str, user: Option<&str>) -> String {
 
 /// As [`units`], of a system with kinds.
 fn units_of(launch: &str, user: Option<&str>, kinds: &[(&str, &[&str])]) -> String {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().canonicalize().unwrap();
-    std::fs::create_dir(path.join("logs")).unwrap();
-    std::fs::write(path.join("launch.yaml"), launch).unwrap();
-    std::fs::write(path.join("topology.yaml"), "").unwrap();
     let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<String>>();
     let names = SystemNames {
         system: "rover".to_owned(),
         is_named: true,
         components: [owned(&["sensor", "logger"]), kinds.iter().flat_map(|(_, names)| owned(names)).collect()].concat(),
         kinds: kinds.iter().map(|(kind, components)| ((*kind).to_owned(), owned(components))).collect(),
-        gates: Vec::new(),
+        ..SystemNames::default()
     };
-    let run = Options { folder: path.clone(), grace: Duration::from_secs(5), ..Options::default() };
+    units_with(launch, user, &names, &[])
+}
+
+/// As [`units`], of a system with these names, and with values of parameters.
+fn units_with(launch: &str, user: Option<&str>, names: &SystemNames, set: &[&str]) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().canonicalize().unwrap();
+    std::fs::create_dir(path.join("logs")).unwrap();
+    std::fs::write(path.join("launch.yaml"), launch).unwrap();
+    std::fs::write(path.join("topology.yaml"), "").unwrap();
+    let set = set.iter().map(|text| Assignment::parse(text).unwrap()).collect();
+    let run = Options { folder: path.clone(), grace: Duration::from_secs(5), set, ..Options::default() };
     let options = UnitOptions { run, user: user.map(str::to_owned) };
     let units = systemd_units(&options, &|_| Some(names.clone())).unwrap();
     let text: String = units.iter().map(|unit| format!("== {}\n{}", unit.name, unit.text)).collect();
@@ -206,6 +214,29 @@ components:
         WantedBy=multi-user.target
     "#]]
     .assert_eq(&units_of(&launch, None, kinds));
+}
+
+#[test]
+fn services_get_the_values_of_parameters() {
+    let launch = "\
+components:
+  sensor: {command: /bin/cat}
+  motor: {command: /bin/cat, parameters: {pin: 1}}
+  right_motor: {parameters: {name: 'at 5%, \"slow\"'}}
+  controller: {command: /bin/cat, opens: [sensor]}
+";
+    let units = units_with(launch, None, &rover(), &["controller.gain=2", "controller.offsets=[1, 2, 3]"]);
+    let is_shown = |line: &&str| line.starts_with("== ") || line.contains("SCL_SET");
+    let shown: String = units.lines().filter(is_shown).map(|line| format!("{line}\n")).collect();
+    expect![[r#"
+        == rover-sensor.service
+        == rover-motor@.service
+        Environment="SCL_SET=left_motor.pin=1,right_motor.pin=1,right_motor.name=\"at 5%%, \\\"slow\\\"\""
+        == rover-controller.service
+        Environment="SCL_SET=controller.gain=2,controller.offsets=[1, 2, 3]"
+        == rover.target
+    "#]]
+    .assert_eq(&shown);
 }
 
 #[test]

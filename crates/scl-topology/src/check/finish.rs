@@ -1,6 +1,7 @@
 //! Turns a draft without errors into the topology.
 
 use super::draft::{Draft, DraftGate};
+use super::parameter::Parameters;
 use crate::grammar;
 use crate::rust_name::{component_type, gate_field};
 use crate::topology::{
@@ -8,7 +9,13 @@ use crate::topology::{
 };
 
 /// Creates the topology. Returns `None` if a part of the draft has been rejected, which is reported already.
-pub(super) fn finish(draft: &Draft<'_>, system: String, codec: &Codec, connection_room: usize) -> Option<Topology> {
+pub(super) fn finish(
+    draft: &Draft<'_>,
+    parameters: &Parameters,
+    system: String,
+    codec: &Codec,
+    connection_room: usize,
+) -> Option<Topology> {
     let connections: Vec<Connection> = draft.links.iter().map(connection).collect::<Option<_>>()?;
     let mut gates: Vec<Gate> = draft.gates.iter().map(|gate| finish_gate(gate, codec)).collect::<Option<_>>()?;
     for (at, connection) in connections.iter().enumerate() {
@@ -16,7 +23,7 @@ pub(super) fn finish(draft: &Draft<'_>, system: String, codec: &Codec, connectio
             gates[end.0 as usize].connections.push(ConnectionId(at as u32));
         }
     }
-    let components = draft.components.iter().map(|component| Component {
+    let components = draft.components.iter().enumerate().map(|(at, component)| Component {
         name: component.model.name.value.clone(),
         rust_name: component_type(&component.model.name.value),
         doc: component.model.doc.as_ref().map(|doc| doc.value.clone()),
@@ -24,6 +31,7 @@ pub(super) fn finish(draft: &Draft<'_>, system: String, codec: &Codec, connectio
         memory: component.model.memory.as_ref().and_then(|memory| grammar::memory(&memory.value).ok()),
         span: component.model.name.span,
         kind: component.model.of.map(|kind| KindId(kind as u32)),
+        parameters: parameters.of(at, component.model.of),
         gates: component.gates.iter().map(|&gate| GateId(gate as u32)).collect(),
     });
     let components = components.collect();

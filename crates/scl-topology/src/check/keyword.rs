@@ -137,9 +137,9 @@ fn check_foreign<'m>(model: &'m Model, renames: &Renames<'m>, problems: &mut Dia
         let spellings = match noun {
             Noun::System => continue,
             // Rust keywords are reported by other rules.
-            Noun::Gate if is_keyword(&field) => continue,
+            Noun::Gate | Noun::Parameter if is_keyword(&field) => continue,
             _ if is_unescapable(&field) => continue,
-            Noun::Gate => vec![field],
+            Noun::Gate | Noun::Parameter => vec![field],
             Noun::Kind | Noun::Component => vec![field, component_type(&name.value)],
         };
         problems.extend(spellings.iter().find_map(|spelling| find_foreign(renames, noun, name, spelling)));

@@ -19,6 +19,7 @@ pub(super) enum Noun {
     Kind,
     Component,
     Gate,
+    Parameter,
 }
 
 impl Noun {
@@ -28,6 +29,7 @@ impl Noun {
             Noun::Kind => "kind",
             Noun::Component => "component",
             Noun::Gate => "gate",
+            Noun::Parameter => "parameter",
         }
     }
 
@@ -56,7 +58,8 @@ impl Noun {
 pub(super) fn names(model: &Model) -> impl Iterator<Item = (Noun, &Name)> {
     let system = model.system.iter().map(|name| (Noun::System, name));
     let gates = model.owners().flat_map(|owner| &owner.gates).map(|gate| (Noun::Gate, &gate.name));
-    system.chain(types(model)).chain(gates)
+    let parameters = model.owners().flat_map(|owner| &owner.parameters).map(|it| (Noun::Parameter, &it.name));
+    system.chain(types(model)).chain(gates).chain(parameters)
 }
 
 /// The names that become types.

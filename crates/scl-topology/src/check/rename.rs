@@ -92,7 +92,8 @@ impl<'m> Renames<'m> {
             edits.extend(excepted.map(|span| edit(*span, to)));
         }
         match noun {
-            Noun::System => {}
+            // Nothing else in the file names them.
+            Noun::System | Noun::Parameter => {}
             Noun::Component => {
                 let ends = ends(Owner::Component(&name.value));
                 edits.extend(ends.map(|(span, gate)| edit(*span, &Owner::Component(to).end(gate))));

@@ -71,7 +71,7 @@ fn is_reserved(noun: Noun, name: &str) -> bool {
         Noun::Kind | Noun::Component => {
             name == "scl" || name == "topology" || name.starts_with("scl_") || name.starts_with("__")
         }
-        Noun::Gate => name.starts_with("__"),
+        Noun::Gate | Noun::Parameter => name.starts_with("__"),
     }
 }
 

@@ -1,5 +1,6 @@
 //! The sections of a topology file and the keys of a component.
 
+use super::parameter::PARAMETERS;
 use super::shape::{self, Item, OutOfRange, Shape};
 
 /// A section of the file, or a key of a component.
@@ -190,7 +191,7 @@ const LARGEST_MEMORY: u64 = 1 << 40;
 pub const MEMORY_SHAPE: Shape = Shape::Size { most: LARGEST_MEMORY };
 
 /// The keys of a component, in the order in which messages list them. A kind has all but the last.
-pub static COMPONENT_KEYS: [Key; 6] = [
+pub static COMPONENT_KEYS: [Key; 7] = [
     Key {
         key: "name",
         shape: Shape::Name,
@@ -249,6 +250,23 @@ pub static COMPONENT_KEYS: [Key; 6] = [
       - frames: {sub: rover.Image, queue: 10, max_size: 4MiB}
 connections:
   - [camera.frames, detector.frames]
+",
+    },
+    Key {
+        key: PARAMETERS,
+        shape: Shape::List(Item::Parameter),
+        default: "none",
+        summary: "The parameters: values that are set when the program starts, each a field in the program.",
+        text: "The launch file, `scl run --set` or the environment gives their values. See [parameters](#parameters).",
+        example: "components:
+  - name: controller
+    parameters:
+      - gain: {f64: 0.8, range: [0, 10], unit: 1/s, doc: Proportional gain.}
+      - period: {duration: 10ms}
+      - mode: {one_of: [manual, auto], default: manual}
+      - offsets: {list: f64, length: 3, default: [0, 0, 0]}
+      - pin: u8
+    gates: []
 ",
     },
     Key {

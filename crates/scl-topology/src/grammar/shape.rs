@@ -74,6 +74,8 @@ pub enum Item {
     Gate,
     /// Kinds of components.
     Kind,
+    /// Parameters.
+    Parameter,
     /// Gates of every component.
     SharedGate,
     /// Names of other topology files.
@@ -146,6 +148,7 @@ impl Shape {
             Shape::List(Item::Folder) => "a list of folders".to_owned(),
             Shape::List(Item::Gate) => "a list of gates".to_owned(),
             Shape::List(Item::Kind) => "a list of kinds".to_owned(),
+            Shape::List(Item::Parameter) => "a list of parameters".to_owned(),
             Shape::List(Item::SharedGate) => "a list of gates with `to`".to_owned(),
         }
     }

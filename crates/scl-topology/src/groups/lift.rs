@@ -34,6 +34,8 @@ pub(super) fn lift(model: &mut Model, origins: &[Origin], problems: &mut Diagnos
             model.kinds.push(ComponentModel { name, ..component.clone() });
         }
         component.kind = Some(Spanned { value: origin.name.clone(), span: component.name.span });
+        component.parameters.clear();
+        component.parameters_entry = None;
         component.gates.clear();
         component.gates_entry = None;
         component.gates_unread = false;

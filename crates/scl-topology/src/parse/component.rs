@@ -7,6 +7,7 @@ use super::words::{COMPONENT_KEYS, is_kind};
 use super::{Reader, glued, pitfall, scalar, shape};
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::grammar;
+use crate::grammar::parameter::PARAMETERS;
 use crate::model::ComponentModel;
 use crate::source::{Span, Spanned};
 use crate::yaml::{Node, NodeKind};
@@ -184,6 +185,10 @@ impl Reader<'_> {
                     component.kind = self.name_in(*field, "kind");
                     has_kind = true;
                 }
+                PARAMETERS => {
+                    component.parameters_entry = Some(field.key_span.to(field.value.span));
+                    component.parameters = self.read_parameters(*field);
+                }
                 "gates" => {
                     component.gates_entry = Some(field.key_span.to(field.value.span));
                     self.read_all_gates(fields, &mut component);
@@ -273,6 +278,8 @@ pub(super) fn unread_component(name: Spanned<String>) -> ComponentModel {
         memory: None,
         kind: None,
         of: None,
+        parameters: Vec::new(),
+        parameters_entry: None,
         gates: Vec::new(),
         gates_entry: None,
         group: 0,

@@ -26,7 +26,7 @@ impl Reader<'_> {
                 self.report(self.dash_without_space(field.value.span));
             }
             NodeKind::Mapping { entries } => {
-                self.report(shape::section_kind::gates(field, self.source));
+                self.report(shape::section_kind::items(field, "gate", self.source));
                 for gate in self.fields(entries, "`gates`").list {
                     // `-- x: pub` is a key with a dash in it, not a gate with an odd name.
                     if gate.key.starts_with('-') {

@@ -36,7 +36,7 @@ async fn main(mut chassis: Chassis) -> scl::Result<()> {
             }
             ticked = tick.tick() => {
                 ticked?;
-                chassis.wheels.send(&Setpoint { speed: if drives { 1.0 } else { 0.0 } }).await?;
+                chassis.wheels.send(&Setpoint { speed: if drives { chassis.parameters.speed } else { 0.0 } }).await?;
             }
         }
     }

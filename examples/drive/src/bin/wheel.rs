@@ -24,7 +24,7 @@ async fn main(mut wheel: Wheel) -> scl::Result<()> {
             setpoint = wheel.setpoint.recv() => target = setpoint?.speed,
             ticked = tick.tick() => {
                 ticked?;
-                speed += (target - speed) / 4.0;
+                speed += (target - speed) * wheel.parameters.response;
                 wheel.state.send(&WheelState { speed, language: "Rust".to_owned() }).await?;
             }
         }

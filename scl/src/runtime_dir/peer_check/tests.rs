@@ -60,7 +60,7 @@ impl Build {
             connections: Vec::leak(vec![connection]),
         };
         let (gates, schema) = (Vec::leak(vec![gate]), self.schema);
-        ComponentSpec { system: "nav", name: component, declared_at: "nav.yaml:1:2", gates, schema }
+        ComponentSpec { system: "nav", name: component, declared_at: "nav.yaml:1:2", parameters: &[], gates, schema }
     }
 
     fn announce(&self, dir: &SystemDir) -> OwnedPath {

@@ -46,6 +46,7 @@ impl Component for Replier {
         system: "model",
         name: "replier",
         declared_at: "topology.yaml:3:3",
+        parameters: &[],
         gates: &[gate(
             "answer",
             GateKind::Rep,
@@ -73,6 +74,7 @@ impl<const INDEX: usize> Component for Requester<INDEX> {
         system: "model",
         name: NAMES[INDEX],
         declared_at: "topology.yaml:6:3",
+        parameters: &[],
         gates: &[gate("question", GateKind::Req, timeout(INDEX), &[connection("replier", "answer")])],
         schema: None,
     };

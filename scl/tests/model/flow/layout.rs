@@ -190,7 +190,7 @@ impl<const LAYOUT: usize, const INDEX: usize> Component for Reader<LAYOUT, INDEX
 }
 
 const fn component(name: &'static str, gates: &'static [GateSpec]) -> ComponentSpec {
-    ComponentSpec { system: "model", name, declared_at: "topology.yaml:3:3", gates, schema: None }
+    ComponentSpec { system: "model", name, declared_at: "topology.yaml:3:3", parameters: &[], gates, schema: None }
 }
 
 const OPTIONS: GateOptions =

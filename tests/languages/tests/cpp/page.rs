@@ -6,6 +6,7 @@ use std::fs;
 
 /// What the page takes for granted.
 const BEFORE: &str = "\
+#include <controls.scl.hpp>
 #include <rover.scl.hpp>
 #include <poll.h>
 #include <algorithm>
@@ -38,8 +39,9 @@ fn the_code_of_the_page_compiles() {
     let folder = tempfile::tempdir().expect("a folder");
     let source = folder.path().join("page.cpp");
     fs::write(&source, &text).expect("a source");
-    let topology = binding().join("../../examples/quickstart/topology.yaml");
-    let options = include_options().into_iter().chain([format!("-I{}", generated(&topology).folder.display())]);
+    let topologies = ["examples/quickstart/topology.yaml", "crates/scl-generate/tests/topologies/controls.yaml"];
+    let folders = topologies.map(|file| generated(&binding().join("../..").join(file)).folder);
+    let options = include_options().into_iter().chain(folders.map(|folder| format!("-I{}", folder.display())));
     // Examples leave values unused.
     let options = options.chain(["-Wno-unused-but-set-variable".to_owned(), "-Wno-unused-variable".to_owned()]);
     let compiled = options.fold(Compile::cpp(&source), Compile::option).check();

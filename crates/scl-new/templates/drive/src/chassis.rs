@@ -9,13 +9,11 @@ use tracing::{info, warn};
 use crate::WheelInstance;
 use crate::rover::{Setpoint, WheelState};
 
-/// Metres a second.
-pub const SPEED: f64 = 1.0;
-
-/// Drives while all wheels report, and stops them when one does not.
+/// Drives at a speed, in m/s, while all wheels report, and stops them when one does not.
 pub async fn run(
     mut setpoints: Pub<Setpoint>,
     mut states: Sub<WheelState, WheelInstance>,
+    speed: f64,
 ) -> scl::Result<()> {
     let mut tick = scl::time::interval(Duration::from_millis(50))?;
     let mut reports = Reports::default();
@@ -35,7 +33,7 @@ pub async fn run(
             }
             ticked = tick.tick() => {
                 ticked?;
-                let speed = if reports.are_complete() { SPEED } else { 0.0 };
+                let speed = if reports.are_complete() { speed } else { 0.0 };
                 setpoints.send(&Setpoint { speed }).await?;
             }
         }

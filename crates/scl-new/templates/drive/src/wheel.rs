@@ -6,8 +6,12 @@ use scl::{Pub, Sub};
 
 use crate::rover::{Setpoint, WheelState};
 
-/// Follows the set-point, and stops when none comes in time.
-pub async fn run(mut setpoints: Sub<Setpoint>, mut states: Pub<WheelState>) -> scl::Result<()> {
+/// Follows the set-point, and stops when none comes in time. Each step takes a share of the way.
+pub async fn run(
+    mut setpoints: Sub<Setpoint>,
+    mut states: Pub<WheelState>,
+    response: f64,
+) -> scl::Result<()> {
     let mut tick = scl::time::interval(Duration::from_millis(50))?;
     let (mut target, mut speed) = (0.0, 0.0);
     loop {
@@ -20,7 +24,7 @@ pub async fn run(mut setpoints: Sub<Setpoint>, mut states: Pub<WheelState>) -> s
             ticked = tick.tick() => {
                 ticked?;
                 // A motor takes its time.
-                speed += (target - speed) / 4.0;
+                speed += (target - speed) * response;
                 states.send(&WheelState { speed }).await?;
             }
         }

@@ -6,7 +6,8 @@ use rover_system::{Wheel, WheelPeer, wheel};
 /// Runs a wheel and returns the other ends of its gates.
 async fn start() -> scl::Result<WheelPeer> {
     let (wheel, peer) = Wheel::test().await?;
-    tokio::spawn(wheel::run(wheel.setpoint, wheel.state));
+    let response = wheel.parameters.response;
+    tokio::spawn(wheel::run(wheel.setpoint, wheel.state, response));
     Ok(peer)
 }
 

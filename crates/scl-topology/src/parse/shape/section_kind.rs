@@ -74,17 +74,16 @@ fn component_items(section: &Node, source: &SourceFile) -> Option<Vec<Edit>> {
     (!edits.is_empty()).then_some(edits)
 }
 
-/// `gates: {measurements: pub}`.
-pub(in crate::parse) fn gates(field: Field<'_>, source: &SourceFile) -> Diagnostic {
+/// `gates: {measurements: pub}`; `what` is an item of the list, for example a gate.
+pub(in crate::parse) fn items(field: Field<'_>, what: &str, source: &SourceFile) -> Diagnostic {
     let key = first_key(field.value);
     let name = source.snippet(key);
     let span = Span { end: end_with_colon(key, source), ..key };
     let problem = wrong_kind(field, span, format!("a key, where `- {name}: ...` is expected"));
+    let form = format!("each {what} is an item of a list: `- {name}: ...`");
     match gate_items(field.value, source) {
-        Some(edits) => problem
-            .propose(format!("start each gate with `-`: `- {name}: ...`"), edits)
-            .otherwise(format!("each gate is an item of a list: `- {name}: ...`")),
-        None => problem.help(format!("each gate is an item of a list: `- {name}: ...`")),
+        Some(edits) => problem.propose(format!("start each {what} with `-`: `- {name}: ...`"), edits).otherwise(form),
+        None => problem.help(form),
     }
 }
 

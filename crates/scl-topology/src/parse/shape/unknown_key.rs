@@ -288,7 +288,7 @@ mod tests {
                   |     ^^^^ not a key of a component
                   |
                   = help: did you mean `gates`?
-                  = note: keys of a component: `name`, `gates`, `doc`, `optional`, `memory`, `kind`"#]],
+                  = note: keys of a component: `name`, `gates`, `doc`, `optional`, `memory`, `parameters`, `kind`"#]],
         );
     }
 

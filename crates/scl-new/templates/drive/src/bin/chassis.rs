@@ -11,5 +11,6 @@ async fn main(chassis: Chassis) -> scl::Result<()> {
         component: "chassis".to_owned(),
         text: event.text.clone(),
     })?;
-    rover_system::chassis::run(chassis.wheels, chassis.states).await
+    let speed = chassis.parameters.speed;
+    rover_system::chassis::run(chassis.wheels, chassis.states, speed).await
 }

@@ -13,5 +13,6 @@ async fn main(wheel: Wheel) -> scl::Result<()> {
         text: event.text.clone(),
     })?;
     tracing::info!("runs");
-    rover_system::wheel::run(wheel.setpoint, wheel.state).await
+    let response = wheel.parameters.response;
+    rover_system::wheel::run(wheel.setpoint, wheel.state, response).await
 }
