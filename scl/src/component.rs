@@ -8,7 +8,6 @@ mod methods;
 mod needs;
 mod opener;
 mod outcome;
-pub(crate) mod parameters;
 mod realtime;
 mod transports;
 

@@ -5,13 +5,16 @@ mod names;
 mod not_flushed;
 mod not_ready;
 mod open;
+mod set;
 
 pub use any::{Error, Result};
 pub(crate) use names::Missing;
 pub use names::{GateName, PeerName, Peers};
 pub use not_flushed::{NotFlushed, Unflushed};
 pub use not_ready::{MissingPeer, NotReady};
+use open::suggestion;
 pub use open::{MissingGuarantee, OpenError};
+pub use set::SetError;
 
 use crate::codec::{DecodeError, EncodeError};
 use crate::time::Rounded;

@@ -108,6 +108,7 @@ mod named_type;
 #[cfg(feature = "zeromq")]
 mod observation;
 mod options;
+pub mod parameters;
 #[doc(hidden)]
 pub mod private;
 mod registration;
@@ -129,18 +130,20 @@ pub mod transport;
 mod transport_choice;
 mod transport_kind;
 pub mod untyped;
+mod values;
 
 pub use bytes;
 pub use component::Component;
 pub use error::{
     BlockingError, CallError, Error, GateName, LoanError, MissingGuarantee, MissingPeer, NotFlushed, NotReady,
-    OpenError, PeerName, Peers, RecvError, RecvTimeoutError, ReplyError, Result, SendError, SendTimeoutError,
+    OpenError, PeerName, Peers, RecvError, RecvTimeoutError, ReplyError, Result, SendError, SendTimeoutError, SetError,
     TrySendError, Unflushed,
 };
 #[cfg(feature = "raw")]
 pub use gate::View;
 pub use gate::{AnyGate, GateStats, Loaned, PeerStats, Pub, Pull, Push, ReceivingGate, Rep, Req, Request, Sub};
 pub use options::OpenOptions;
+pub use parameters::Live;
 pub use scl_macros::main;
 pub use scl_plan as plan;
 pub use senders::Senders;
@@ -186,6 +189,11 @@ pub use transport_kind::TransportKind;
 /// `scl deploy systemd` say so in the variable `SCL_COMPONENT`, by hand it is `SCL_COMPONENT=left_motor ./motor`.
 /// A program that runs several of them opens each with `Motor::open_as(MotorInstance::LeftMotor)`. `Motor::test()`
 /// returns the first of them.
+///
+/// # Parameters
+/// A component with `parameters` has a field `parameters`, a struct with a field for each. Those that can be changed
+/// while the program runs (`live: true`) are [`Live`] values. [`OpenOptions::set`] gives values, as `scl run --set` and
+/// the environment do.
 ///
 /// # Types
 /// A type whose first part is a package of the `schemas` is one of their messages; any other is a Rust path, looked up

@@ -18,7 +18,6 @@ pub use crate::__senders as senders;
 #[cfg(all(feature = "json", feature = "protobuf"))]
 pub use crate::codec::message_json::{MessagePool, MessageType};
 pub use crate::codec::{self, Codec, by_name as codecs};
-pub use crate::component::parameters::FromParameter;
 pub use crate::component::{
     Component, ComponentHandle, Opener, Returned, block_on, close, close_blocking, instance, open, open_as,
     open_blocking, open_blocking_as, ready, run_async, run_blocking,
@@ -26,6 +25,7 @@ pub use crate::component::{
 pub use crate::error::OpenError;
 pub use crate::gate::{AnyGate, Pub, Pull, Push, Rep, Req, Sub};
 pub use crate::named_type::NamedType;
+pub use crate::parameters::{FromParameter, Live};
 pub use crate::senders::Senders;
 pub use crate::spec::{
     ComponentSpec, ConnectionSpec, GateKind, GateOptions, GateSpec, KindSpec, ParameterPlan, Schema, Undecodable,

@@ -3,7 +3,7 @@
 use crate::registry::{EndCheck, Neighbour, Registered};
 use crate::runtime_dir::{
     Announcement, ComponentLock, ComponentProcess, ComponentStats, FolderWatch, OwnedPath, QUIET, RuntimeDirError,
-    StatsFile, SystemDir, check_peer, explain_missing, publish_schema,
+    StatsFile, SystemDir, ValuesFile, check_peer, explain_missing, publish_schema,
 };
 use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::sync::lock;
@@ -40,6 +40,8 @@ struct Held {
     announcement: OwnedPath,
     /// `None` if the component writes no stats, or the file could not be created.
     stats: Option<StatsFile>,
+    /// `None` if the component has no parameters, or the file could not be created.
+    values: Option<ValuesFile>,
     lock: ComponentLock,
 }
 
@@ -60,7 +62,7 @@ impl Registration {
         let initial_stats =
             stats_period.map(|period| ComponentStats::initial(spec, announcement.pid, announcement.started, period));
         let stats = initial_stats.as_ref().and_then(|stats| create_stats(&dir, spec, stats));
-        let held = Held { announcement: announcement.publish(&dir)?, stats, lock };
+        let held = Held { announcement: announcement.publish(&dir)?, stats, values: None, lock };
         let (held, process) = (Mutex::new(Some(held)), ProcessMark::new());
         Ok(Self { files: Arc::new(Files { dir, spec, announcement, initial_stats, held, process }) })
     }
@@ -76,6 +78,16 @@ impl Registration {
     #[cfg(feature = "zeromq")]
     pub(crate) fn restore_if_removed(&self) -> Result<bool, RuntimeDirError> {
         if self.files.are_in_place() { Ok(false) } else { self.files.restore() }
+    }
+
+    /// Creates the file with the values of the parameters, given by name, and returns the writer for later ones.
+    pub(crate) fn write_values(&self, values: &[(&'static str, String)]) -> ValuesWriter {
+        let Files { dir, spec, held, .. } = &*self.files;
+        if let Some(held) = lock(held).as_mut() {
+            let created = ValuesFile::create(dir, spec.name, values);
+            held.values = created.inspect_err(|error| log_missing(spec, "values of its parameters", error)).ok();
+        }
+        ValuesWriter(Arc::downgrade(&self.files))
     }
 
     /// Returns the figures of a component that has done nothing yet, and the writer for later ones, or `None` if it
@@ -132,6 +144,19 @@ impl StatsWriter {
     }
 }
 
+/// Writes the values of a component's parameters, as long as it is open.
+pub(crate) struct ValuesWriter(Weak<Files>);
+
+impl ValuesWriter {
+    pub(crate) fn write(&self, values: &[(&'static str, String)]) {
+        if let Some(files) = self.0.upgrade()
+            && let Some(file) = lock(&files.held).as_mut().and_then(|held| held.values.as_mut())
+        {
+            file.write(values);
+        }
+    }
+}
+
 impl Drop for Registration {
     fn drop(&mut self) {
         // The task in `keep` may be restoring the files at this moment, so dropping the reference is not enough. In a
@@ -151,7 +176,8 @@ impl Files {
         let held = lock(&self.held);
         held.as_ref().is_none_or(|held| {
             let stats = held.stats.as_ref().is_none_or(StatsFile::is_in_place);
-            held.lock.is_in_place() && held.announcement.is_ours() && stats
+            let values = held.values.as_ref().is_none_or(ValuesFile::is_in_place);
+            held.lock.is_in_place() && held.announcement.is_ours() && stats && values
         })
     }
 
@@ -170,8 +196,12 @@ impl Files {
             held.announcement = self.announcement.publish(&self.dir)?;
         }
         if let Some(Err(error)) = held.stats.as_mut().map(|stats| stats.restore(&self.dir)) {
-            log_missing_stats(self.spec, &error);
+            log_missing(self.spec, "stats", &error);
             held.stats = None;
+        }
+        if let Some(Err(error)) = held.values.as_mut().map(|values| values.restore(&self.dir)) {
+            log_missing(self.spec, "values of its parameters", &error);
+            held.values = None;
         }
         self.dir.mark_restored();
         Ok(!locked || !announced)
@@ -180,11 +210,11 @@ impl Files {
 
 /// Creates the stats file, or logs why it cannot be created: only tools need it, so the component runs without it.
 fn create_stats(dir: &SystemDir, spec: &ComponentSpec, stats: &ComponentStats) -> Option<StatsFile> {
-    StatsFile::create(dir, spec.name, stats).inspect_err(|error| log_missing_stats(spec, error)).ok()
+    StatsFile::create(dir, spec.name, stats).inspect_err(|error| log_missing(spec, "stats", error)).ok()
 }
 
-fn log_missing_stats(spec: &ComponentSpec, error: &RuntimeDirError) {
-    tracing::debug!(error = error as &(dyn Error + 'static), "component `{}` writes no stats", spec.name);
+fn log_missing(spec: &ComponentSpec, what: &str, error: &RuntimeDirError) {
+    tracing::debug!(error = error as &(dyn Error + 'static), "component `{}` writes no {what}", spec.name);
 }
 
 fn publish_messages(dir: &SystemDir, spec: &ComponentSpec) -> Result<(), RuntimeDirError> {

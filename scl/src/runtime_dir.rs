@@ -9,6 +9,8 @@
 //!     <component>.<gate>.tap                     the socket where tools observe a gate
 //!     <endpoint>.tcp                             `127.0.0.1:<port>`, in place of a socket
 //!     <component>.stats                          what it has done lately, see ComponentStats
+//!     <component>.values                         the values of its parameters, see scl::parameters
+//!     <component>.set                            the socket where live parameters are set
 //!     <hash>.schema                              the protobuf messages that a program was built with
 //!     run.<pid>.control, run.<pid>.notify        the sockets of an `scl run`
 //!     <pid>.recorder                             the socket of a recorder that waits for its trigger
@@ -65,6 +67,7 @@ mod schema;
 mod small_file;
 mod stats;
 mod temp_entry;
+mod values;
 
 pub use announcement::{AnnouncedEndpoint, Announcement};
 #[cfg(feature = "zeromq")]
@@ -84,6 +87,7 @@ pub(crate) use peer_check::{check_peer, explain_missing};
 pub(crate) use schema::publish_schema;
 pub(crate) use stats::StatsFile;
 pub use stats::{ComponentStats, ConnectionFigures, GateFigures};
+pub(crate) use values::{ValuesFile, read_values, remove_values};
 
 /// The longest path of a Unix socket in bytes, without its terminating zero.
 const SOCKET_PATH_LIMIT: usize = 107;

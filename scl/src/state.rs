@@ -5,6 +5,7 @@ mod calls;
 mod flush;
 mod monitor;
 mod owner;
+mod parameters;
 mod reported;
 mod runtime;
 #[cfg(test)]
@@ -26,7 +27,8 @@ use crate::registry::{Neighbour, Registered as RegisteredComponent};
 use crate::runtime_dir::ComponentStats;
 use crate::service::{self, Member};
 use crate::spec::{ComponentSpec, GateSpec};
-use crate::sync::{AbortOnDrop, lock, on_another_thread, on_living_thread};
+use crate::sync::{AbortOnDrop, await_other_users, lock, on_another_thread, on_living_thread};
+use crate::values::Values;
 use scl_fork::ProcessMark;
 #[cfg(feature = "protobuf")]
 use scl_shape::FileDescriptorSet;
@@ -64,6 +66,10 @@ pub(crate) struct ComponentState {
     /// Wakes the waiting calls that no sending end wakes.
     waiting_calls: Mutex<Vec<Weak<dyn WakeCall>>>,
     pub(crate) monitor: Arc<Monitor>,
+    /// The values of its parameters.
+    pub(crate) parameters: Values,
+    /// What listens for new values of live parameters, if it has any.
+    setter: OnceLock<Box<dyn Send + Sync>>,
     /// Writes the component's stats, if it has any.
     _stats: Option<AbortOnDrop>,
     /// The component as reported to the service manager, if there is one.
@@ -147,6 +153,8 @@ impl ComponentState {
             message_types: OnceLock::new(),
             waiting_calls: Mutex::default(),
             monitor,
+            parameters: Values::default(),
+            setter: OnceLock::new(),
             _stats: stats,
             member,
             reporting: OnceLock::new(),
@@ -353,12 +361,13 @@ impl ComponentState {
 impl Drop for ComponentState {
     fn drop(&mut self) {
         debug_assert!(!self.is_inherited(), "an owner keeps what a forked child inherits");
+        drop(self.setter.take());
         let ends = std::mem::take(&mut *lock(&self.ends));
         let ends: Vec<_> = ends.into_iter().map(|one| one.end).collect();
         on_living_thread(|| self.hand_over(&ends));
         // The tasks of the ends have been aborted, but one may be in the middle of a poll. The sockets must be closed
         // before the component's lock is released.
-        ends.iter().for_each(owner::await_other_users);
+        ends.iter().for_each(await_other_users);
     }
 }
 

@@ -6,8 +6,13 @@ use std::panic::resume_unwind;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::task::{Context, Poll, Wake, Waker};
 use std::thread::{self, ScopedJoinHandle, Thread};
+use std::time::{Duration, Instant};
 use tokio::runtime::Handle;
 use tokio::task::AbortHandle;
+
+/// How long to wait for tasks that use a value at this moment, each for no longer than one poll.
+const LAST_USE: Duration = Duration::from_secs(1);
+const PAUSE: Duration = Duration::from_micros(20);
 
 /// Locks a mutex. A panic while it was locked elsewhere does not spread, since no lock here guards a half-done change.
 pub(crate) fn lock<T: ?Sized>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -45,6 +50,15 @@ pub(crate) fn on_another_thread<T: Send>(call: impl Fn() -> T + Sync) -> T {
             Err(_) => call(),
         }
     })
+}
+
+/// Waits until this is the only strong reference to a value, so that dropping it drops the value, but at most
+/// [`LAST_USE`]. Tasks hold weak references, which they upgrade only for a moment.
+pub(crate) fn await_other_users<T: ?Sized>(value: &Arc<T>) {
+    let started = Instant::now();
+    while Arc::strong_count(value) > 1 && started.elapsed() < LAST_USE {
+        thread::sleep(PAUSE);
+    }
 }
 
 /// Keeps the waker of a task. Cheap if that waker is kept already, as it usually is.

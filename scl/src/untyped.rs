@@ -54,7 +54,7 @@ pub use readiness::Readiness;
 pub use started_as::started_as;
 
 use crate::component::{Opener, only_failures, wait_for_peers};
-use crate::error::{GateName, NotFlushed, NotReady, OpenError};
+use crate::error::{GateName, NotFlushed, NotReady, OpenError, SetError};
 use crate::gate::{Pub, Pull, Push, Rep, Req, Sub, Watch};
 use crate::intern::intern;
 use crate::log;
@@ -83,8 +83,6 @@ pub struct Component {
     gates: Vec<Option<Gate>>,
     /// The watches of all gates, including those that were taken.
     watches: Vec<Watch>,
-    /// In the order of `spec.parameters`.
-    parameters: Vec<ParameterValue>,
     /// The last field: fields are dropped in order, and the gates go first.
     handle: ComponentHandle,
 }
@@ -148,8 +146,7 @@ impl Component {
         let gates = kinds.map(|(index, kind)| Gate::open(&mut opener, index, kind));
         let gates: Vec<Gate> = gates.collect::<Result<_, _>>()?;
         let watches = gates.iter().map(|gate| gate.any().watch()).collect();
-        let (parameters, handle) = (opener.parameters().to_vec(), opener.handle());
-        Ok(Self { spec, gates: gates.into_iter().map(Some).collect(), watches, parameters, handle })
+        Ok(Self { spec, gates: gates.into_iter().map(Some).collect(), watches, handle: opener.handle() })
     }
 
     /// Returns what the plan says about the component and its gates.
@@ -157,11 +154,25 @@ impl Component {
         self.spec
     }
 
-    /// Returns the value that a parameter had when the component was opened; `None` if there is no parameter of this
-    /// name.
-    pub fn parameter(&self, name: &str) -> Option<&ParameterValue> {
+    /// Returns the value that a parameter has now; `None` if there is no parameter of this name. Only those that are
+    /// live ([`ParameterPlan::live`](crate::plan::ParameterPlan::live)) have other values later.
+    pub fn parameter(&self, name: &str) -> Option<ParameterValue> {
         let index = self.spec.parameters.iter().position(|parameter| parameter.name == name)?;
-        self.parameters.get(index)
+        self.handle.0.parameters.read(index, |value, _| value.clone())
+    }
+
+    /// Returns how often live parameters have changed since the component was opened. A program that compares it with
+    /// an earlier one knows whether to read its parameters again.
+    pub fn parameter_changes(&self) -> u64 {
+        self.handle.0.parameters.changes()
+    }
+
+    /// Sets a live parameter, as a text like in the topology file: `10ms`.
+    ///
+    /// # Errors
+    /// [`SetError`]: the component has no such parameter, it is not live, or it cannot have the value.
+    pub fn set_parameter(&self, name: &str, value: &str) -> Result<(), SetError> {
+        self.handle.0.set_parameters([(name, value)])
     }
 
     /// Takes a gate of whatever kind out of the component.

@@ -24,6 +24,8 @@ mod kinds;
 mod latched;
 #[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
 mod late_peers;
+#[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
+mod live;
 #[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "raw", feature = "zeromq"))]
 mod loans;
 #[cfg(all(feature = "json", feature = "memory"))]

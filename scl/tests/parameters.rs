@@ -89,6 +89,7 @@ async fn what_stands_in_for_a_component_needs_no_values() -> Result<()> {
         range: None,
         unit: None,
         doc: None,
+        live: false,
         declared_at: "".into(),
     };
     let plan = Plan {

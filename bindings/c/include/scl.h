@@ -323,8 +323,8 @@ scl_gate *scl_gate_by_name(scl_component *component,
 /**
  * Stores how many values a parameter has: 1, or the items of a list.
  *
- * Parameters keep the values that they had when the component was opened: those of the option `set`, else those of the
- * environment variable SCL_SET, else their defaults.
+ * Parameters have the values that they had when the component was opened: those of the option `set`, else those of the
+ * environment variable SCL_SET, else their defaults. scl_update_parameters takes over changes of live ones.
  *
  * Errors: SCL_NAME (the component has no such parameter), SCL_HANDLE, SCL_ARGUMENT.
  */
@@ -382,7 +382,7 @@ scl_status scl_parameter_duration_ns(scl_component *component,
 
 /**
  * scl_parameter_bool for the type `text` and for parameters that are one of several words. The text belongs to the
- * component and is valid until scl_close.
+ * component and is valid until scl_close; of a live parameter, until scl_update_parameters stores true.
  */
 scl_status scl_parameter_text(scl_component *component,
                               const char *name,
@@ -395,7 +395,8 @@ scl_status scl_parameter_text(scl_component *component,
  * `float`, `f64` a `double`, `bool` a `bool`, `text` a `const char *`, `duration` nanoseconds in a `uint64_t`. A word
  * of a choice is a `text`. For generated code.
  *
- * The values belong to the component and are valid until scl_close.
+ * The values belong to the component and are valid until scl_close; of a live parameter, until scl_update_parameters
+ * stores true.
  *
  * Errors: SCL_NAME (the component has no such parameter), SCL_KIND (it has another type), SCL_HANDLE, SCL_ARGUMENT.
  */
@@ -404,6 +405,27 @@ scl_status scl_parameter_items(scl_component *component,
                                const char *item_type,
                                const void **items,
                                size_t *count);
+
+/**
+ * Takes over the new values of live parameters: from then on, the calls above store them. Stores whether any has
+ * changed since the component was opened or since the last such call; if not, it costs next to nothing, so a loop may
+ * call it each time. It never waits.
+ *
+ * Errors: SCL_CLOSED, SCL_HANDLE, SCL_ARGUMENT.
+ */
+scl_status scl_update_parameters(scl_component *component,
+                                 bool *changed);
+
+/**
+ * Sets a live parameter of this component, as a text like in the topology file: `10ms`. scl_update_parameters takes it
+ * over, as it does values that `scl set` has set. For unit tests, and for programs that adapt themselves.
+ *
+ * Errors: SCL_NAME (the component has no such parameter), SCL_ARGUMENT (it is not live, or it cannot have this value),
+ * SCL_CLOSED, SCL_HANDLE.
+ */
+scl_status scl_set_parameter(scl_component *component,
+                             const char *name,
+                             const char *value);
 
 /**
  * Returns true if all required peers are connected or, for `rep` and `pull` gates, at least one peer. False for an

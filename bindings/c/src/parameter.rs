@@ -5,12 +5,13 @@ use crate::component::{self, scl_component};
 use crate::error::Failure;
 use crate::status::*;
 use crate::values::Items;
+use scl::SetError;
 use std::ffi::{c_char, c_void};
 
 /// Stores how many values a parameter has: 1, or the items of a list.
 ///
-/// Parameters keep the values that they had when the component was opened: those of the option `set`, else those of the
-/// environment variable SCL_SET, else their defaults.
+/// Parameters have the values that they had when the component was opened: those of the option `set`, else those of the
+/// environment variable SCL_SET, else their defaults. scl_update_parameters takes over changes of live ones.
 ///
 /// Errors: SCL_NAME (the component has no such parameter), SCL_HANDLE, SCL_ARGUMENT.
 #[unsafe(no_mangle)]
@@ -23,8 +24,10 @@ pub unsafe extern "C" fn scl_parameter_count(
         // SAFETY: guaranteed by the caller; NULL is refused.
         let (name, count) = unsafe { (border::text(name, "name")?, border::result(count, "count")?) };
         *count = 0;
-        *count = component::find(component)?.parameters.find(name)?.1.count();
-        Ok(())
+        component::find(component)?.parameters.read(name, |_, items| {
+            *count = items.count();
+            Ok(())
+        })
     })
 }
 
@@ -103,7 +106,7 @@ pub unsafe extern "C" fn scl_parameter_duration_ns(
 }
 
 /// scl_parameter_bool for the type `text` and for parameters that are one of several words. The text belongs to the
-/// component and is valid until scl_close.
+/// component and is valid until scl_close; of a live parameter, until scl_update_parameters stores true.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn scl_parameter_text(
     component: *mut scl_component,
@@ -120,7 +123,8 @@ pub unsafe extern "C" fn scl_parameter_text(
 /// `float`, `f64` a `double`, `bool` a `bool`, `text` a `const char *`, `duration` nanoseconds in a `uint64_t`. A word
 /// of a choice is a `text`. For generated code.
 ///
-/// The values belong to the component and are valid until scl_close.
+/// The values belong to the component and are valid until scl_close; of a live parameter, until scl_update_parameters
+/// stores true.
 ///
 /// Errors: SCL_NAME (the component has no such parameter), SCL_KIND (it has another type), SCL_HANDLE, SCL_ARGUMENT.
 #[unsafe(no_mangle)]
@@ -138,12 +142,53 @@ pub unsafe extern "C" fn scl_parameter_items(
         let (items, count) = unsafe { (border::result(items, "items")?, border::result(count, "count")?) };
         (*items, *count) = (std::ptr::null(), 0);
         let opened = component::find(component)?;
-        let (parameter, found) = opened.parameters.find(name)?;
-        if found.type_word() != wanted {
-            return Err(opened.parameters.wrong_type(parameter, &format!("of the type {wanted}")));
-        }
-        (*items, *count) = (found.address(), found.count());
+        opened.parameters.read(name, |parameter, found| {
+            if found.type_word() != wanted {
+                return Err(opened.parameters.wrong_type(parameter, &format!("of the type {wanted}")));
+            }
+            (*items, *count) = (found.address(), found.count());
+            Ok(())
+        })
+    })
+}
+
+/// Takes over the new values of live parameters: from then on, the calls above store them. Stores whether any has
+/// changed since the component was opened or since the last such call; if not, it costs next to nothing, so a loop may
+/// call it each time. It never waits.
+///
+/// Errors: SCL_CLOSED, SCL_HANDLE, SCL_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_update_parameters(component: *mut scl_component, changed: *mut bool) -> scl_status {
+    border::status(|| {
+        // SAFETY: guaranteed by the caller; NULL is refused.
+        let changed = unsafe { border::result(changed, "changed")? };
+        *changed = false;
+        let opened = component::find(component)?;
+        *changed = opened.with(|component| Ok(opened.parameters.update(component)))?;
         Ok(())
+    })
+}
+
+/// Sets a live parameter of this component, as a text like in the topology file: `10ms`. scl_update_parameters takes it
+/// over, as it does values that `scl set` has set. For unit tests, and for programs that adapt themselves.
+///
+/// Errors: SCL_NAME (the component has no such parameter), SCL_ARGUMENT (it is not live, or it cannot have this value),
+/// SCL_CLOSED, SCL_HANDLE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn scl_set_parameter(
+    component: *mut scl_component,
+    name: *const c_char,
+    value: *const c_char,
+) -> scl_status {
+    border::status(|| {
+        // SAFETY: guaranteed by the caller; NULL is refused.
+        let (name, value) = unsafe { (border::text(name, "name")?, border::text(value, "value")?) };
+        component::find(component)?.with(|component| {
+            component.set_parameter(name, value).map_err(|error| {
+                let is_unknown = matches!(error, SetError::NoSuchParameter { .. });
+                Failure::of(if is_unknown { SCL_NAME } else { SCL_ARGUMENT }, &error)
+            })
+        })
     })
 }
 
@@ -162,12 +207,13 @@ unsafe fn read_item<T>(
     // SAFETY: guaranteed by the caller; NULL is refused.
     let (name, value) = unsafe { (border::text(name, "name")?, border::result(value, "value")?) };
     let opened = component::find(component)?;
-    let (parameter, items) = opened.parameters.find(name)?;
-    let count = items.count();
-    if index >= count {
-        let name = format!("{}.{name}", opened.parameters.component);
-        return Err(Failure::argument(format!("`index` is {index}, but parameter `{name}` has the count {count}")));
-    }
-    *value = item(items, index).ok_or_else(|| opened.parameters.wrong_type(parameter, expected))?;
-    Ok(())
+    opened.parameters.read(name, |parameter, items| {
+        let count = items.count();
+        if index >= count {
+            let name = format!("{}.{name}", opened.parameters.component);
+            return Err(Failure::argument(format!("`index` is {index}, but parameter `{name}` has the count {count}")));
+        }
+        *value = item(items, index).ok_or_else(|| opened.parameters.wrong_type(parameter, expected))?;
+        Ok(())
+    })
 }

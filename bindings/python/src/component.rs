@@ -14,12 +14,12 @@ use crate::waiting::{LOOK, wait};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use scl::host::{self, text_with_causes};
-use scl::plan::ParameterValue;
 use scl::untyped;
 use scl::{NotReady, OpenOptions, TransportChoiceError};
 use scl_topology::rust_name::gate_field;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -29,8 +29,8 @@ use std::time::Duration;
 pub(crate) struct Component {
     shared: Arc<Shared>,
     gates: Vec<Py<Gate>>,
-    /// The values of its parameters, each with its name.
-    parameters: Vec<(&'static str, ParameterValue)>,
+    /// How often its live parameters had changed when their values were last taken over.
+    taken_over: AtomicU64,
     /// `None` once closed. Dropping it hands over the messages that are left.
     component: Native<Mutex<Option<untyped::Component>>>,
     is_test: bool,
@@ -108,9 +108,25 @@ impl Component {
 
     /// The parameters, in the order of the topology file: name, name as an identifier, and value.
     #[getter]
-    fn parameters(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, String, Py<PyAny>)>> {
-        let found = self.parameters.iter();
-        found.map(|(name, value)| Ok((*name, gate_field(name), parameter::object(py, value)?))).collect()
+    fn parameters(&self, py: Python<'_>) -> PyResult<Vec<(String, String, Py<PyAny>)>> {
+        let read = |component: &untyped::Component| {
+            let found = component.spec().parameters.iter();
+            found.filter_map(|it| Some((it.name.to_string(), component.parameter(&it.name)?))).collect::<Vec<_>>()
+        };
+        let found = self.with(py, read)?.into_iter();
+        found.map(|(name, value)| Ok((name.clone(), gate_field(&name), parameter::object(py, &value)?))).collect()
+    }
+
+    /// Returns whether live parameters have changed since the last call that returned true.
+    fn update_parameters(&self, py: Python<'_>) -> PyResult<bool> {
+        let changes = self.with(py, untyped::Component::parameter_changes)?;
+        Ok(self.taken_over.swap(changes, Ordering::AcqRel) != changes)
+    }
+
+    /// Sets a live parameter, as a text like in the topology file.
+    fn set_parameter(&self, py: Python<'_>, name: &str, value: &str) -> PyResult<()> {
+        let set = self.with(py, |component| component.set_parameter(name, value))?;
+        set.map_err(|error| PyValueError::new_err(error.to_string()))
     }
 
     /// Waits until all required peers are connected. `waited` is the time in seconds that the caller has waited before,
@@ -231,13 +247,26 @@ impl Component {
     fn new(py: Python<'_>, plan: &scl::plan::Plan, opened: WithGates, is_test: bool) -> PyResult<Self> {
         let WithGates { gates, component } = opened;
         let shared = Arc::new(Shared::new(&component, &plan.component, &plan.system));
-        let parameters = component.spec().parameters.iter();
-        let parameters = parameters.filter_map(|it| Some((&*it.name, component.parameter(&it.name)?.clone())));
-        let parameters = parameters.collect();
         let gates = plan.gates.iter().zip(gates);
         let gates = gates.map(|(plan, gate)| Py::new(py, Gate::new(plan.clone(), Arc::clone(&shared), gate)));
         let gates = gates.collect::<PyResult<Vec<_>>>()?;
-        Ok(Self { component: shared.keep(Mutex::new(Some(component))), shared, gates, parameters, is_test })
+        Ok(Self {
+            component: shared.keep(Mutex::new(Some(component))),
+            shared,
+            gates,
+            taken_over: AtomicU64::new(0),
+            is_test,
+        })
+    }
+
+    /// Calls `call` with the component, which must be open.
+    fn with<R: Send>(&self, py: Python<'_>, call: impl FnOnce(&untyped::Component) -> R + Send) -> PyResult<R> {
+        self.shared.check_open()?;
+        let called = detach(py, || {
+            let component = self.component.lock().unwrap_or_else(PoisonError::into_inner);
+            Ok::<_, Failure>(call(component.as_ref().ok_or_else(|| self.shared.ended())?))
+        })?;
+        Ok(called?)
     }
 }
 

@@ -134,6 +134,45 @@ def test_parameters_cannot_be_changed() -> None:
         assert "mode: one of `manual` and `auto`" in pydoc.plain(pydoc.render_doc(dynamic))
 
 
+def test_live_parameters_are_taken_over() -> None:
+    controller, peer = generated.Controller.test()
+    with controller, peer:
+        before = controller.parameters
+        assert not controller.update_parameters()
+        controller.set_parameter("gain", "2.5")
+        controller.set_parameter("mode", "auto")
+        assert controller.parameters is before
+        assert controller.update_parameters()
+        assert not controller.update_parameters()
+        found = controller.parameters
+        assert (found.gain, found.mode, found.ratio) == (2.5, generated.ControllerMode.AUTO, 0.5)
+        assert before.gain == 0.8
+    with pytest.raises(scl.Closed):
+        controller.update_parameters()
+    dynamic, peer = scl.test(TOPOLOGY, "controller")
+    with dynamic, peer:
+        dynamic.set_parameter("names", "[a]")
+        assert dynamic.update_parameters()
+        assert dynamic.parameters["names"] == ["a"]
+
+
+@pytest.mark.parametrize(
+    "name, value, words",
+    [
+        ("gian", "1", "component `controller` has no parameter `gian`; did you mean `gain`?"),
+        ("u8", "1", "parameter `controller.u8` is fixed while its program runs"),
+        ("gain", "11", "parameter `controller.gain` cannot have this value: `11` is not from 0 to 10"),
+    ],
+)
+def test_what_cannot_be_set_is_told(name: str, value: str, words: str) -> None:
+    controller, peer = generated.Controller.test()
+    with controller, peer:
+        with pytest.raises(ValueError) as error:
+            controller.set_parameter(name, value)
+        assert words in str(error.value)
+        assert not controller.update_parameters()
+
+
 def test_a_component_without_parameters_has_none() -> None:
     plain, peer = generated.Plain.test()
     with plain, peer:

@@ -207,7 +207,7 @@ fn the_format_is_documented() {
         )
         .replace(
             "PARAMETERS",
-            "[{a: {f64: 1, range: [0, 2], unit: m, doc: text}}, {b: {one_of: [c, d]}}, {e: {list: u8, length: 2}}]",
+            "[{a: {f64: 1, range: [0, 2], unit: m, doc: text, live: true}}, {b: {one_of: [c, d]}}, {e: {list: u8, length: 2}}]",
         );
     let text = String::from_utf8(scl_plan(&[("topology.yaml", &yaml)], &[]).stdout).unwrap();
     let keys = text.lines().filter_map(|line| line.trim().strip_prefix('"')?.split_once("\":"));

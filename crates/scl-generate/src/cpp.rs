@@ -18,7 +18,7 @@ pub(crate) use messages::unwritable;
 const TAKEN_NAMESPACES: [&str; 2] = ["std", "scl"];
 
 /// The functions of `scl::Component`, which a gate of the same name would hide.
-const OF_COMPONENTS: [&str; 5] = ["close", "fd", "handle", "name", "ready"];
+const OF_COMPONENTS: [&str; 6] = ["close", "fd", "handle", "name", "ready", "set_parameter"];
 
 /// The names that the header declares.
 pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
@@ -37,6 +37,10 @@ pub(crate) fn declarations(system: &System) -> Vec<Declaration> {
         }
         if component.is_kind() {
             declarations.push(Declaration::new(&scope, "instance", Origin::generated("function `instance`")));
+        }
+        if component.has_live_parameters() {
+            let function = Origin::generated("function `update_parameters`");
+            declarations.push(Declaration::new(&scope, "update_parameters", function));
         }
         let gate = |gate| Declaration::new(&scope, member(gate), Origin::gate(component, gate));
         declarations.extend(component.gates.iter().map(gate));

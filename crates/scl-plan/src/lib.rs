@@ -54,8 +54,8 @@ pub use error::{PlanError, UnknownComponent};
 pub use kind::{GateKind, Undecodable, WhenFull};
 pub use options::{GateOptions, OptionAccess, OptionField};
 pub use parameter::{
-    Assignment, ConstText, LONGEST_VALUE, ParameterPlan, ParameterType, ParameterValue, SET_VARIABLE, Scalar,
-    assignments, list_text, set_text,
+    Assignment, ConstText, LONGEST_VALUE, ParameterPlan, ParameterType, ParameterValue, SET_SOCKET, SET_VARIABLE,
+    Scalar, assignments, list_text, set_text,
 };
 pub use plan::{ConnectionPlan, GatePlan, Payload, Plan, Schema};
 pub use system::{KindPlan, SystemPlan};

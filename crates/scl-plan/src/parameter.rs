@@ -34,9 +34,15 @@ pub struct ParameterPlan {
     pub unit: Option<ConstText>,
     /// A sentence for people.
     pub doc: Option<ConstText>,
+    /// Whether its value can be changed while the program runs.
+    pub live: bool,
     /// Where it is declared: `topology.yaml:6:9`.
     pub declared_at: ConstText,
 }
+
+/// The last part of the name of the socket at which a running component can be asked to change its live parameters:
+/// `controller.set`.
+pub const SET_SOCKET: &str = "set";
 
 /// Which values a parameter can have.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -104,6 +110,16 @@ impl ParameterType {
     }
 }
 
+impl ParameterType {
+    /// For documentation: `` `f64` ``, ``one of `manual` and `auto` ``.
+    pub fn quoted(&self) -> String {
+        match self {
+            ParameterType::One(scalar) => format!("`{}`", scalar.word()),
+            kind => kind.to_string(),
+        }
+    }
+}
+
 /// For people: `f64`, `one of `manual` and `auto``, `list of 3 f64`.
 impl fmt::Display for ParameterType {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -123,6 +139,17 @@ impl ParameterPlan {
     /// Why it cannot be the value.
     pub fn default_value(&self) -> Option<Result<ParameterValue, String>> {
         self.default.as_ref().map(|default| self.read(default))
+    }
+
+    /// What its values are, for documentation: `` `f64` from `0` to `10`, in `1/s`, by default `0.8`, live ``.
+    pub fn described(&self) -> String {
+        let range = self.range.as_ref().map(|(least, largest)| format!(" from `{least}` to `{largest}`"));
+        let unit = self.unit.as_ref().map(|unit| format!(", in `{unit}`"));
+        let default = self.default.as_ref().map(|default| format!(", by default `{default}`"));
+        let default = default.unwrap_or_else(|| ", without a default".to_owned());
+        let live = if self.live { ", live" } else { "" };
+        let [range, unit] = [range, unit].map(Option::unwrap_or_default);
+        format!("{}{range}{unit}{default}{live}", self.kind.quoted())
     }
 
     /// Whether a range can bound its values.

@@ -109,6 +109,7 @@ pub(crate) mod tests {
             range: range.map(|(least, largest)| (least.into(), largest.into())),
             unit: None,
             doc: None,
+            live: false,
             declared_at: "topology.yaml:1:1".into(),
         }
     }

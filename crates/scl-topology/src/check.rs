@@ -249,7 +249,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     memory::check(&draft, problems);
     time::check(&draft, problems);
     island::check(&draft, problems);
-    path_length::check(&draft, &facts.sockets, &system, problems);
+    path_length::check(&draft, &parameters, &facts.sockets, &system, problems);
     let connection_room = facts.sockets.connection_room(&system);
     shared_socket::check(&draft, connection_room, problems);
 

@@ -6,7 +6,7 @@
 //! `everyone`, so that the checks see components, gates and pairs only. For a broken file, the macro still generates
 //! the structs that it can read from the model, so that completion in editors keeps working.
 
-use crate::grammar::parameter::{self, LIST, ONE_OF};
+use crate::grammar::parameter::{self, LIST, LIVE, ONE_OF};
 use crate::source::{FileId, Span, Spanned};
 use scl_plan::{ConstText, ParameterType, Scalar};
 
@@ -246,6 +246,11 @@ impl ParameterModel {
             (ONE_OF | LIST, _) => None,
             (scalar, _) => Scalar::of(scalar).map(ParameterType::One),
         }
+    }
+
+    /// Whether it can be changed while the program runs.
+    pub fn is_live(&self) -> bool {
+        self.key(LIVE).and_then(WrittenValue::text) == Some("true")
     }
 
     /// The value of a key beside the type.

@@ -15,7 +15,7 @@ use syn::Ident;
 
 /// The declaration of a parameter as a constant.
 pub(super) fn expand_plan(private: &TokenStream, parameter: &ParameterPlan) -> TokenStream {
-    let ParameterPlan { name, kind, default, range, unit, doc, declared_at } = parameter;
+    let ParameterPlan { name, kind, default, range, unit, doc, live, declared_at } = parameter;
     let text = |text: &ConstText| {
         let text: &str = text;
         quote!(#private::Cow::Borrowed(#text))
@@ -47,7 +47,7 @@ pub(super) fn expand_plan(private: &TokenStream, parameter: &ParameterPlan) -> T
     quote! {
         #private::ParameterPlan {
             name: #name, kind: #private::ParameterType::#kind, default: #default, range: #range, unit: #unit,
-            doc: #doc, declared_at: #declared_at,
+            doc: #doc, live: #live, declared_at: #declared_at,
         }
     }
 }
@@ -62,6 +62,7 @@ struct Field<'p> {
     name: &'p str,
     field: Ident,
     kind: ParameterType,
+    live: bool,
     doc: String,
 }
 
@@ -69,9 +70,9 @@ struct Field<'p> {
 pub(super) fn expand(context: &Context<'_>, owner: &str, parameters: &[Parameter]) -> Option<(TokenStream, GateField)> {
     let fields = parameters.iter().map(|parameter| {
         let declared = parameter.declared();
-        let doc = doc(declared, &context.location(parameter.span()));
+        let doc = documented(declared.doc.as_deref(), &declared.described(), &context.location(parameter.span()));
         let (name, kind) = (parameter.name(), declared.kind.clone());
-        Field { name, field: checked(&gate_field(name)), kind, doc }
+        Field { name, field: checked(&gate_field(name)), kind, live: declared.live, doc }
     });
     expand_fields(context, owner, &fields.collect::<Vec<_>>())
 }
@@ -83,8 +84,8 @@ pub(super) fn expand_unchecked(context: &Context<'_>, owner: &ComponentModel) ->
     let fields = fields.filter_map(|parameter| {
         let name = &parameter.name;
         let (kind, field) = (parameter.declared_type()?, identifier(&gate_field(&name.value), Span::call_site())?);
-        let doc = format!("{}\n\nDeclared at `{}`.", summary(&kind), context.location(name.span));
-        Some(Field { name: &name.value, field, kind, doc })
+        let doc = documented(None, &kind.quoted(), &context.location(name.span));
+        Some(Field { name: &name.value, field, kind, live: parameter.is_live(), doc })
     });
     expand_fields(context, &owner.name.value, &fields.collect::<Vec<_>>())
 }
@@ -105,8 +106,9 @@ fn expand_fields(context: &Context<'_>, owner: &str, fields: &[Field<'_>]) -> Op
         pub struct #name { #(#members)* }
         #(#enums)*
     };
-    let doc = "The values of the parameters when the component was opened.".to_owned();
-    Some((types, GateField { name: checked(PARAMETERS), doc, gate_type: quote!(#name) }))
+    let doc = "The values of the parameters when the component was opened. Those of the type `Live` follow later \
+               changes.";
+    Some((types, GateField { name: checked(PARAMETERS), doc: doc.to_owned(), gate_type: quote!(#name) }))
 }
 
 /// The value of the field with the parameters: each is read by its index in the specification.
@@ -117,7 +119,8 @@ pub(super) fn expand_values(context: &Context<'_>, owner: &str, parameters: &[Pa
     let (field, name) = (checked(PARAMETERS), checked(&parameters_name(owner)));
     let values = parameters.iter().enumerate().map(|(index, parameter)| {
         let field = checked(&gate_field(parameter.name()));
-        quote_spanned!(context.span => #field: __opener.parameter(#index)?)
+        let method = format_ident!("{}", if parameter.declared().live { "live" } else { "parameter" });
+        quote_spanned!(context.span => #field: __opener.#method(#index)?)
     });
     Some(quote_spanned!(context.span => #field: #name { #(#values),* }))
 }
@@ -132,7 +135,7 @@ fn expand_type(context: &Context<'_>, owner: &str, field: &Field<'_>) -> TokenSt
             quote!(::core::primitive::#word)
         }
     };
-    match field.kind {
+    let value = match field.kind {
         ParameterType::One(of) => scalar(of),
         ParameterType::OneOf(_) => checked(&choice_name(owner, field.name)).into_token_stream(),
         ParameterType::List(of, None) => {
@@ -143,7 +146,14 @@ fn expand_type(context: &Context<'_>, owner: &str, field: &Field<'_>) -> TokenSt
             let (of, length) = (scalar(of), length as usize);
             quote!([#of; #length])
         }
-    }
+    };
+    if field.live { quote!(#private::Live<#value>) } else { value }
+}
+
+/// The documentation of a field.
+fn documented(doc: Option<&str>, what: &str, location: &str) -> String {
+    let doc = doc.map_or(String::new(), |doc| format!("{doc}\n\n"));
+    format!("{doc}Parameter: {what}.\n\nDeclared at `{location}`.")
 }
 
 /// The enum of a parameter that is one of several words.
@@ -163,24 +173,4 @@ fn expand_choice(context: &Context<'_>, owner: &str, field: &Field<'_>) -> Optio
             #name { #(#variants)* }
         }
     })
-}
-
-/// The documentation of a field: the parameter's `doc`, its type, range, unit and default, and where it is declared.
-fn doc(declared: &ParameterPlan, location: &str) -> String {
-    let doc = declared.doc.as_ref().map(|doc| format!("{doc}\n\n")).unwrap_or_default();
-    let range = declared.range.as_ref().map(|(least, largest)| format!(" from {least} to {largest}"));
-    let unit = declared.unit.as_ref().map(|unit| format!(" in {unit}"));
-    let default = match &declared.default {
-        Some(default) => format!(" Default: `{default}`."),
-        None => " No default: a value must be given.".to_owned(),
-    };
-    let [range, unit] = [range, unit].map(Option::unwrap_or_default);
-    format!("{doc}{}{range}{unit}.{default}\n\nDeclared at `{location}`.", summary(&declared.kind))
-}
-
-fn summary(kind: &ParameterType) -> String {
-    match kind {
-        ParameterType::OneOf(_) => format!("Parameter: {kind}"),
-        _ => format!("Parameter: `{kind}`"),
-    }
 }

@@ -1,21 +1,24 @@
 //! Opening a component: its registration, then its gates one by one.
 
-use super::parameters::{self, FromParameter};
-use super::transports::Transports;
+use super::transports::{Transports, transport};
 use super::{ComponentHandle, expected, needs};
 use crate::codec::Codec;
 use crate::error::{GateName, OpenError};
 use crate::figures::FigureSource;
 use crate::gate::{Connection, GateTap, Incoming, Outgoing, Pub, Pull, Push, Rep, Req, Sub};
 use crate::options::OpenOptions;
-use crate::registration::{Registration, StatsWriter};
+#[cfg(feature = "zeromq")]
+use crate::parameters::Setter;
+use crate::parameters::{self, FromParameter, Live};
+use crate::registration::{Registration, StatsWriter, ValuesWriter};
 use crate::registry::{Registered, Unregistered};
 use crate::runtime_dir::{Announcement, ComponentStats, RuntimeDir};
 use crate::spec::{ComponentSpec, ConnectionSpec, GateSpec};
 use crate::state::{ComponentState, OwnedRuntime, Owner, stats_period};
 use crate::time::Watchdog;
 use crate::transport::{Endpoint, Receiver, Sender, Transport, TransportError};
-use scl_plan::ParameterValue;
+use crate::transport_kind::TransportKind;
+use crate::values::Value;
 use std::slice::from_ref;
 use std::sync::Arc;
 
@@ -23,8 +26,6 @@ use std::sync::Arc;
 pub struct Opener {
     state: Owner,
     transports: Transports,
-    /// In file order.
-    parameters: Vec<ParameterValue>,
 }
 
 impl Opener {
@@ -34,30 +35,40 @@ impl Opener {
         options: &OpenOptions,
         runtime: Option<Arc<OwnedRuntime>>,
     ) -> Result<Self, OpenError> {
-        let parameters = parameters::values(spec, options, &|name| options.variable(name))?;
-        let (registration, stats, transports) = match options.transport.clone() {
+        let values = parameters::given(spec, options, &|name| options.variable(name))?;
+        let registering = match options.transport.clone() {
             Some(transport) => {
                 let transports = Transports::Own(transport);
                 needs::check(spec, &transports)?;
-                (join(spec, options)?, None, transports)
+                Registering { registration: join(spec, options)?, stats: None, values: None, transports, setting: None }
             }
-            None => register(spec, options)?,
+            None => register(spec, options, &values)?,
         };
-        let state = Owner::new(ComponentState::new(spec, registration, stats, runtime, options.is_test));
+        let Registering { registration, stats, values: file, transports, setting } = registering;
+        let state = ComponentState::new(spec, registration, stats, runtime, options.is_test);
+        let state = Owner::new(state.with_parameters(values, file));
         state.start_reporting();
-        Ok(Self { state, transports, parameters })
+        #[cfg(feature = "zeromq")]
+        if let Some(transport) = setting {
+            state.keep_setter(Setter::open(&*transport, &state)?);
+        }
+        #[cfg(not(feature = "zeromq"))]
+        debug_assert!(setting.is_none(), "there is no transport for it");
+        Ok(Self { state, transports })
     }
 
     /// The value of the parameter at an index of the component's list.
     pub fn parameter<T: FromParameter>(&self, index: usize) -> Result<T, OpenError> {
         let (component, parameter) = (self.state.spec.name, &*self.state.spec.parameters[index].name);
         let wrong = || OpenError::WrongValue { component, parameter, reason: "it is of another type".to_owned() };
-        T::from_value(&self.parameters[index]).ok_or_else(wrong)
+        self.state.parameters.read(index, |value, _| T::from_value(value)).flatten().ok_or_else(wrong)
     }
 
-    /// The values of all parameters, in file order.
-    pub(crate) fn parameters(&self) -> &[ParameterValue] {
-        &self.parameters
+    /// The live parameter at an index of the component's list.
+    pub fn live<T: FromParameter>(&self, index: usize) -> Result<Live<T>, OpenError> {
+        let (component, parameter) = (self.state.spec.name, &*self.state.spec.parameters[index].name);
+        let wrong = || OpenError::WrongValue { component, parameter, reason: "it is of another type".to_owned() };
+        Live::of(self.state.clone(), index).ok_or_else(wrong)
     }
 
     /// Opens the `pub` gate at an index of the component's list.
@@ -211,11 +222,20 @@ fn join(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<Box<dyn R
     }
 }
 
-/// The registration of a component, its stats and their writer if it writes stats, and its transports.
-type Registering = (Box<dyn Registered>, Option<(ComponentStats, StatsWriter)>, Transports);
+/// A component that is registered, before it is open.
+struct Registering {
+    registration: Box<dyn Registered>,
+    /// Its stats and their writer, if it writes stats.
+    stats: Option<(ComponentStats, StatsWriter)>,
+    /// The writer of its parameters' values, if it has parameters.
+    values: Option<ValuesWriter>,
+    transports: Transports,
+    /// The transport over which live parameters are set, if it has any.
+    setting: Option<Arc<dyn Transport>>,
+}
 
-/// Registers the component in the runtime folder.
-fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<Registering, OpenError> {
+/// Registers the component in the runtime folder. `values` are those of its parameters.
+fn register(spec: &'static ComponentSpec, options: &OpenOptions, values: &[Value]) -> Result<Registering, OpenError> {
     let variables = &|name: &str| options.variable(name);
     expected::check(spec, variables)?;
     let (system, choice) = (options.system_name(variables, spec.system)?, options.transport_choice(variables)?);
@@ -225,10 +245,16 @@ fn register(spec: &'static ComponentSpec, options: &OpenOptions) -> Result<Regis
     let dir = runtime_dir.system(&system).map_err(failed)?;
     let transports = Transports::in_folder(spec, &dir, choice.clone())?;
     needs::check(spec, &transports)?;
+    let is_live = !values.is_empty() && spec.parameters.iter().any(|parameter| parameter.live);
+    // Only programs of this machine and user set parameters.
+    let setting = is_live.then(|| transport(spec, &dir, TransportKind::Ipc)).transpose()?;
     let announcement = Announcement::of(spec, &choice);
     let registration = Registration::announcing(spec, dir, announcement, stats).map_err(failed)?;
     let stats = registration.stats();
-    Ok((Box::new(registration), stats, transports))
+    let named =
+        spec.parameters.iter().zip(values).map(|(parameter, value)| (&*parameter.name, value.text().to_owned()));
+    let values = (!values.is_empty()).then(|| registration.write_values(&named.collect::<Vec<_>>()));
+    Ok(Registering { registration: Box::new(registration), stats, values, transports, setting })
 }
 
 /// Returns the length of the longest message at a gate that accepts messages of up to `max_size` bytes.

@@ -74,8 +74,13 @@ fn listening(spec: &'static ComponentSpec, choice: &TransportChoice) -> impl Ite
     })
 }
 
+/// The transport of a kind whose ends meet in a system's folder.
 #[cfg(feature = "zeromq")]
-fn transport(spec: &ComponentSpec, dir: &SystemDir, kind: TransportKind) -> Result<Arc<dyn Transport>, OpenError> {
+pub(super) fn transport(
+    spec: &ComponentSpec,
+    dir: &SystemDir,
+    kind: TransportKind,
+) -> Result<Arc<dyn Transport>, OpenError> {
     match kind {
         TransportKind::Shm if !cfg!(feature = "shm") => {
             Err(OpenError::TransportOff { component: spec.name, transport: kind.word() })
@@ -87,6 +92,10 @@ fn transport(spec: &ComponentSpec, dir: &SystemDir, kind: TransportKind) -> Resu
 }
 
 #[cfg(not(feature = "zeromq"))]
-fn transport(spec: &ComponentSpec, _dir: &SystemDir, _kind: TransportKind) -> Result<Arc<dyn Transport>, OpenError> {
+pub(super) fn transport(
+    spec: &ComponentSpec,
+    _dir: &SystemDir,
+    _kind: TransportKind,
+) -> Result<Arc<dyn Transport>, OpenError> {
     Err(OpenError::NoTransport { component: spec.name })
 }

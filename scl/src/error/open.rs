@@ -133,6 +133,14 @@ pub enum OpenError {
         /// Why.
         reason: String,
     },
+    /// The socket where live parameters are set could not be opened.
+    #[error("component `{component}` cannot open the socket where its parameters are set")]
+    SetSocket {
+        /// The component.
+        component: &'static str,
+        /// The reason.
+        source: TransportError,
+    },
     /// A parameter without a default is not set.
     #[error(
         "parameter `{component}.{parameter}` ({kind}) has no value: set it under `parameters` in the launch file, with \
@@ -226,6 +234,6 @@ impl fmt::Display for MissingGuarantee {
     }
 }
 
-fn suggestion(nearest: &Option<String>) -> String {
+pub(super) fn suggestion(nearest: &Option<String>) -> String {
     nearest.as_ref().map(|name| format!("; did you mean `{name}`?")).unwrap_or_default()
 }

@@ -19,7 +19,7 @@ use std::task::{Context, Poll};
 use std::time::SystemTime;
 
 /// The endings of SCL's own files. An endpoint with one of them would replace such a file.
-const RESERVED: [&str; 5] = [".lock", ".json", ".tcp", ".schema", ".stats"];
+const RESERVED: [&str; 6] = [".lock", ".json", ".tcp", ".schema", ".stats", ".values"];
 
 /// The runtime folder, which contains a folder for each system. It is verified to be safe from other users.
 #[derive(Debug, Clone, PartialEq, Eq)]

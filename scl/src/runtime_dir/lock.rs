@@ -78,7 +78,7 @@ impl ComponentLock {
         let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         let own = name.strip_prefix(&in_file_name(&self.component)).is_some_and(|rest| rest.starts_with('.'));
         let is_socket = || fs::symlink_metadata(path).is_ok_and(|found| found.file_type().is_socket());
-        own && ([".tcp", ".json", ".stats"].iter().any(|ending| name.ends_with(ending)) || is_socket())
+        own && ([".tcp", ".json", ".stats", ".values"].iter().any(|ending| name.ends_with(ending)) || is_socket())
     }
 }
 

@@ -17,6 +17,8 @@ pub struct OwnedPath {
     // can never become that of another file.
     opened: File,
     process: ProcessMark,
+    /// Whether it stays when this is dropped.
+    stays: bool,
 }
 
 impl OwnedPath {
@@ -24,7 +26,13 @@ impl OwnedPath {
     pub(super) fn open(now: &Path, path: &Path, access: OFlags) -> io::Result<Self> {
         let flags = access | OFlags::NOFOLLOW | OFlags::CLOEXEC;
         let opened = rustix::fs::open(now, flags, Mode::empty())?.into();
-        Ok(Self { path: path.to_owned(), opened, process: ProcessMark::new() })
+        Ok(Self { path: path.to_owned(), opened, process: ProcessMark::new(), stays: false })
+    }
+
+    /// Leaves the file where it is when this is dropped.
+    pub(super) fn stay(mut self) -> Self {
+        self.stays = true;
+        self
     }
 
     /// Returns the file, for reading its attributes, or for writing if it was opened with that access.
@@ -50,7 +58,7 @@ impl Drop for OwnedPath {
     fn drop(&mut self) {
         // Nobody can replace the file between the check and the removal: that takes the component's lock, which this
         // process still holds. A file that cannot be removed is replaced at the next start.
-        if self.process.is_own() && self.is_ours() {
+        if self.process.is_own() && !self.stays && self.is_ours() {
             let _ = fs::remove_file(&self.path);
         }
     }

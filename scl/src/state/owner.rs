@@ -2,15 +2,10 @@
 //! in a forked child, no owner does.
 
 use super::ComponentState;
+use crate::sync::await_other_users;
 use std::ops::Deref;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::thread;
-use std::time::{Duration, Instant};
-
-/// How long the last owner waits for tasks that use the component at this moment, each for no longer than one poll.
-const LAST_USE: Duration = Duration::from_secs(1);
-const PAUSE: Duration = Duration::from_micros(20);
 
 /// A reference to a component, held by its handle and by each gate.
 ///
@@ -55,15 +50,6 @@ impl Drop for Owner {
     }
 }
 
-/// Waits until this is the only strong reference to a value, so that dropping it drops the value, but at most
-/// [`LAST_USE`]. Tasks hold weak references, which they upgrade only for a moment.
-pub(super) fn await_other_users<T: ?Sized>(value: &Arc<T>) {
-    let started = Instant::now();
-    while Arc::strong_count(value) > 1 && started.elapsed() < LAST_USE {
-        thread::sleep(PAUSE);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -71,6 +57,7 @@ mod tests {
     use crate::spec::ComponentSpec;
     use crate::state::OwnedRuntime;
     use scl_fork::ProcessMark;
+    use std::thread;
 
     static SPEC: ComponentSpec = ComponentSpec {
         system: "nav",

@@ -104,6 +104,26 @@ static void wrong_calls_are_explained(void) {
     EXPECT(scl_parameter_f64(peer, "gain", 0, &number), SCL_NAME, "has no parameter `gain`");
 }
 
+static void live_parameters_are_taken_over(void) {
+    bool changed = true;
+    OK(scl_update_parameters(component, &changed));
+    ASSERT(!changed);
+    OK(scl_set_parameter(component, "gain", "1.25"));
+    OK(scl_set_parameter(component, "label", "hinten"));
+    ASSERT(number_of("gain", 0) == 0.8 && text_is("label", 0, "vorn, links"));
+    OK(scl_update_parameters(component, &changed));
+    ASSERT(changed && number_of("gain", 0) == 1.25 && text_is("label", 0, "hinten"));
+    OK(scl_update_parameters(component, &changed));
+    ASSERT(!changed && number_of("gain", 0) == 1.25);
+    EXPECT(scl_set_parameter(component, "gian", "1"), SCL_NAME, "no parameter `gian`; did you mean `gain`?");
+    EXPECT(scl_set_parameter(component, "pin", "1"), SCL_ARGUMENT, "is fixed while its program runs");
+    EXPECT(scl_set_parameter(component, "gain", "fast"), SCL_ARGUMENT, "expected a finite number, found `fast`");
+    EXPECT(scl_set_parameter(component, NULL, "1"), SCL_ARGUMENT, "`name`");
+    EXPECT(scl_set_parameter(component, "gain", NULL), SCL_ARGUMENT, "`value`");
+    EXPECT(scl_update_parameters(component, NULL), SCL_ARGUMENT, "`changed`");
+    ASSERT(number_of("gain", 0) == 1.25);
+}
+
 static void values_are_set_when_a_component_is_opened(const char *path) {
     OK(open_program(path, "{\"set\": {\"program.gain\": \"2.5\", \"program.names\": \"[]\"}}", &component));
     ASSERT(number_of("gain", 0) == 2.5 && unsigned_of("pin") == 7 && count_of("names") == 0);
@@ -126,8 +146,12 @@ int main(int count, char **arguments) {
     every_type_has_its_call();
     items_are_arrays();
     wrong_calls_are_explained();
+    live_parameters_are_taken_over();
     OK(scl_close(component, 0));
     double number;
+    bool changed = true;
+    EXPECT(scl_update_parameters(component, &changed), SCL_HANDLE, "it was closed");
+    ASSERT(!changed);
     EXPECT(scl_parameter_f64(component, "gain", 0, &number), SCL_HANDLE, "it was closed");
     OK(scl_close(peer, 0));
 

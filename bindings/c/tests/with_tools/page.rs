@@ -7,14 +7,14 @@ use std::process::Command;
 
 /// What the statements of the page take for granted.
 const BEFORE: &str = "\
-#include <scl.h>
+#include \"controls_scl.h\"
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/epoll.h>
-void statements(scl_component *component, scl_gate *gate, scl_gate *other);
-void statements(scl_component *component, scl_gate *gate, scl_gate *other)
+void statements(controls_controller *controller, scl_component *component, scl_gate *gate, scl_gate *other);
+void statements(controls_controller *controller, scl_component *component, scl_gate *gate, scl_gate *other)
 {
-(void)component, (void)gate, (void)other;
+(void)controller, (void)component, (void)gate, (void)other;
 ";
 
 #[test]

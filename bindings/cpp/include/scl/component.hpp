@@ -84,6 +84,14 @@ class Component {
         return detail::attempt(error, [&] { return finish(limit.nanoseconds()); });
     }
 
+    /// Sets a live parameter, as a text like in the topology file: `10ms`. For unit tests, and for programs that adapt
+    /// themselves; `update_parameters` takes it over. Throws `Error` if the component has no such parameter
+    /// (`Errc::name`), or it is not live or cannot have this value (`Errc::argument`).
+    void set_parameter(const std::string& name, const std::string& value) {
+        detail::check(require_open());
+        detail::check(scl_set_parameter(handle_, name.c_str(), value.c_str()));
+    }
+
     /// A file descriptor for `poll` and `epoll`, readable while a gate has something to receive or a stop is requested.
     /// It belongs to the component.
     int fd() const {

@@ -97,9 +97,16 @@ void read_choice(scl_component* component, const char* name, Enum& value, const 
     value = index_of<Enum>(word, words);
 }
 
+/// Takes over the live parameters that have changed. Returns whether any has.
+inline bool update_parameters(const Component& component) {
+    bool changed = false;
+    check(scl_update_parameters(component.handle(), &changed));
+    return changed;
+}
+
 } // namespace detail
 
-/// The value that a parameter had when the component was opened. `T` is `bool`, an integer, `float`, `double`,
+/// The value that a parameter had when the component was opened, or at the last `update_parameters`. `T` is `bool`, an integer, `float`, `double`,
 /// `std::string` for texts and words of a choice, `std::chrono::nanoseconds`, or a `std::vector` or `std::array` of
 /// them. Components that `scl generate --for cpp` writes have the member `parameters`.
 ///

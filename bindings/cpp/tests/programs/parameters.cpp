@@ -93,6 +93,24 @@ static void values_are_read_by_name() {
     CHECK(scl::parameter<std::vector<float>>(component, "offsets").back() == -1);
 }
 
+static void live_parameters_are_taken_over() {
+    auto [controller, peer] = Controller::test();
+    CHECK(!controller.update_parameters());
+    controller.set_parameter("gain", "2.5");
+    controller.set_parameter("names", "[\"a\"]");
+    CHECK(controller.parameters.gain == 0.8);
+    CHECK(controller.update_parameters() && !controller.update_parameters());
+    CHECK(controller.parameters.gain == 2.5 && controller.parameters.names == std::vector<std::string>{"a"});
+    CHECK(controller.parameters.mode == ControllerMode::Manual);
+    CHECK(scl::parameter<double>(controller, "gain") == 2.5);
+    auto set = [&component = controller](const char* name, const char* value) {
+        return error_of([&] { component.set_parameter(name, value); });
+    };
+    CHECK(has(set("gian", "1"), scl::Errc::name, "did you mean `gain`?"));
+    CHECK(has(set("u8", "1"), scl::Errc::argument, "is fixed while its program runs"));
+    CHECK(has(set("gain", "11"), scl::Errc::argument, "`11` is not from 0 to 10"));
+}
+
 static void wrong_reads_are_explained() {
     auto [controller, peer] = Controller::test();
     const scl::Component& component = controller;
@@ -113,5 +131,6 @@ int main() {
     a_unit_test_sets_values();
     values_are_read_by_name();
     wrong_reads_are_explained();
+    live_parameters_are_taken_over();
     std::cout << "done" << std::endl;
 }

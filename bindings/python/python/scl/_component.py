@@ -118,6 +118,24 @@ class Component:
         """All gates by name, in the order of the topology file."""
         return MappingProxyType(self._gates)
 
+    def update_parameters(self) -> bool:
+        """Takes over live parameters that have changed: `parameters` has their new values then.
+
+        Returns whether any has changed since the component was opened, or since the last call. It never waits.
+        """
+        changed = self._native.update_parameters()
+        if changed:
+            self._parameters = self._values(self._native.parameters)
+        return changed
+
+    def set_parameter(self, name: str, value: str) -> None:
+        """Sets a live parameter, as a text like in the topology file: `10ms`. `update_parameters` takes it over.
+
+        For unit tests, and for programs that adapt themselves. Raises `ValueError` if the component has no such live
+        parameter, or it cannot have this value.
+        """
+        self._native.set_parameter(name, value)
+
     def ready(self, timeout: float | None = None) -> None:
         """Waits until all required peers are connected. Raises `NotReady` after `timeout` seconds."""
         self._native.ready(timeout)

@@ -62,6 +62,6 @@ class ComponentWithParameters(GeneratedComponent, Generic[P]):
 
     @property
     def parameters(self) -> P:
-        """The values that the parameters had when the component was opened."""
+        """The values that the parameters had when the component was opened, or at the last `update_parameters`."""
         # A class variable cannot have the type of a type parameter.
         return cast("P", self._parameters)

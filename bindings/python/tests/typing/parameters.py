@@ -18,6 +18,10 @@ assert_type(Motor().parameters, MotorParameters)
 assert_type(Motor.test(set={"left_motor.pin": "1"})[0].parameters.pin, int)
 scl.open("topology.yaml", "controller", set={"controller.gain": "2"})
 
+assert_type(controller.update_parameters(), bool)
+controller.set_parameter("gain", "2")
+
+controller.set_parameter("gain", 2)  # error: str
 controller.parameters.gian  # error: gian
 controller.parameters.gain = 1.0  # error: gain
 controller.parameters = controller.parameters  # error: parameters

@@ -19,7 +19,7 @@ pub(super) fn component_facts(component: &Component) -> Vec<Fact> {
 
 /// The facts about a parameter.
 pub(super) fn parameter_facts(parameter: &ParameterPlan) -> Vec<Fact> {
-    let ParameterPlan { kind, default, range, unit, doc, .. } = parameter;
+    let ParameterPlan { kind, default, range, unit, doc, live, .. } = parameter;
     let text = |text: Option<&str>| text.unwrap_or("none").to_owned();
     let range = range.as_ref().map(|(least, largest)| format!("{least} to {largest}"));
     vec![
@@ -27,6 +27,7 @@ pub(super) fn parameter_facts(parameter: &ParameterPlan) -> Vec<Fact> {
         ("default", text(default.as_deref())),
         ("range", text(range.as_deref())),
         ("unit", text(unit.as_deref())),
+        ("live", live.to_string()),
         ("doc", self::doc(doc.as_deref())),
     ]
 }

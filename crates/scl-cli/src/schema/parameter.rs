@@ -32,7 +32,11 @@ fn long_schema(word: &str, value: Value) -> Value {
         "type": "object",
         "title": format!("{word} parameter"),
         "required": [word],
-        "properties": { word: value, "doc": { "type": "string", "description": "A sentence for people." } },
+        "properties": {
+            word: value,
+            "doc": { "type": "string", "description": "A sentence for people." },
+            "live": { "type": "boolean", "description": "Whether it can be changed while the program runs." },
+        },
         "additionalProperties": false,
     })
 }

@@ -37,6 +37,10 @@ pub(super) fn component_functions(system: &System, component: &Component) -> Vec
         let parameters = format!("{} *peer, const char *options_json", prefix(system, peer));
         function("test_with", doc, &parameters, test_with_body(&own, component))
     });
+    let update = component.has_live_parameters().then(|| {
+        let doc = "Takes over the live parameters that have changed, see scl_update_parameters.";
+        function("update_parameters", doc, "bool *changed", parameters::update_body(&own))
+    });
     let ready = function(
         "ready",
         "Waits until all required peers are connected, see scl_ready.",
@@ -45,7 +49,7 @@ pub(super) fn component_functions(system: &System, component: &Component) -> Vec
     );
     let doc = "Waits until running peers have taken all messages, then closes the component, see scl_close.";
     let close = function("close", doc, "int64_t timeout_ns", close_body());
-    open.into_iter().chain(open_as).chain(test).chain(test_with).chain([ready, close]).collect()
+    open.into_iter().chain(open_as).chain(test).chain(test_with).chain(update).chain([ready, close]).collect()
 }
 
 fn open_body(own: &str, component: &Component, enumeration: Option<&str>) -> String {

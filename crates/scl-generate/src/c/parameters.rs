@@ -2,6 +2,7 @@
 
 use super::comment::write_comment;
 use super::enumeration::{constant, write_enum, write_names};
+use super::gate::refuse_null;
 use super::literal::literal;
 use super::prefix;
 use crate::clash::{Declaration, Origin};
@@ -95,15 +96,19 @@ pub(super) fn declare(prefix: &str, component: &Component, out: &mut Writer) {
         let values = choice.values.iter().map(|it| it.snake_name.as_str());
         write_enum(&comment, &choice_name(prefix, parameter), values, out);
     }
+    let end = match component.has_live_parameters() {
+        true => "they are updated, or the component is closed",
+        false => "the component is closed",
+    };
     out.blank();
     write_comment(
-        &format!("The parameters of `{}`. Texts and lists are valid until the component is closed.", component.name),
+        &format!("The parameters of `{}`. Texts and lists are valid until {end}.", component.name),
         None,
         out,
     );
     out.block(format!("typedef struct {name} {{"), &format!("}} {name};"), |out| {
         for parameter in &component.parameters {
-            let headline = format!("Parameter ({}): {}", parameter.plan.declared_at, parameter.described());
+            let headline = format!("Parameter ({}): {}", parameter.plan.declared_at, parameter.plan.described());
             write_comment(&headline, parameter.plan.doc.as_deref(), out);
             out.line(format!("{};", declarator(prefix, parameter)));
             count_member(parameter).iter().for_each(|count| out.line(format!("size_t {count};")));
@@ -199,6 +204,16 @@ pub(super) fn once_open(prefix: &str, component: &Component) -> String {
         true => String::new(),
         false => format!("    status = {}(self);\n", reader(prefix)),
     }
+}
+
+/// The body of the function that takes over live parameters.
+pub(super) fn update_body(prefix: &str) -> String {
+    let (refuse, reader) = (refuse_null("self"), reader(prefix));
+    format!(
+        "{refuse}\n\
+         scl_status status = scl_update_parameters(self->component, changed);\n\
+         return status == SCL_OK && *changed ? {reader}(self) : status;"
+    )
 }
 
 /// Reads values into a member.

@@ -46,7 +46,7 @@ pub(super) fn write_all(system: &System, out: &mut Writer) {
         out.block(format!("struct {name} {{"), "};", |out| {
             for parameter in &component.parameters {
                 parameter.plan.doc.iter().for_each(|doc| write_comment(out, doc));
-                write_comment(out, &format!("Parameter: {}.", parameter.described()));
+                write_comment(out, &format!("Parameter: {}.", parameter.plan.described()));
                 out.line(format!("{} {}{{}};", member_type(parameter), member(parameter)));
             }
         });
@@ -71,8 +71,27 @@ pub(super) fn write_readers(system: &System, out: &mut Writer) {
 /// Writes the member of a component.
 pub(super) fn write_member(component: &Component, out: &mut Writer) {
     let Some(name) = component.parameters_class() else { return };
-    out.line("\n/// The values that its parameters had when the component was opened.");
+    let (doc, update) = match component.has_live_parameters() {
+        false => ("The values that its parameters had when the component was opened.", ""),
+        true => (
+            "The values that its parameters had when the component was opened, or at the last update.",
+            "\n\
+             /// Takes over the live parameters that have changed. Returns whether any has; if not, it costs next to\n\
+             /// nothing.\n\
+             bool update_parameters() {\n    \
+                 const bool changed = ::scl::detail::update_parameters(*this);\n    \
+                 if (changed) {\n        \
+                     parameters = scl_generated::read(handle(), ::std::move(parameters));\n    \
+                 }\n    \
+                 return changed;\n\
+             }",
+        ),
+    };
+    out.line(format!("\n/// {doc}"));
     out.line(format!("{name} parameters = scl_generated::read(handle(), {name}{{}});"));
+    if !update.is_empty() {
+        out.line(update);
+    }
 }
 
 fn read(parameter: &Parameter) -> String {

@@ -70,7 +70,7 @@ pub(super) fn of_gate(component: &Component, gate: &Gate, unsupported: Option<&s
 /// The docstring of a parameter's field: its `doc`, type, range, unit and default.
 pub(super) fn of_parameter(parameter: &Parameter) -> String {
     let doc = parameter.plan.doc.as_ref().map(|doc| doc.trim().to_owned());
-    let facts = format!("Parameter: {}.", parameter.described());
+    let facts = format!("Parameter: {}.", parameter.plan.described());
     let place = format!("Declared at `{}`.", parameter.plan.declared_at);
     doc.into_iter().chain([facts, place]).collect::<Vec<_>>().join("\n\n")
 }

@@ -12,8 +12,18 @@ pub(super) const OWN: &[&str] = &["TYPE_CHECKING", "annotations", "_PLAN", "_scl
 
 /// Attributes that every component has: gates of these names get a trailing underscore. The package has the same rule,
 /// and a test compares the two.
-pub(super) const OF_COMPONENTS: &[&str] =
-    &["close", "fileno", "gates", "name", "ready", "ready_async", "system", "wait"];
+pub(super) const OF_COMPONENTS: &[&str] = &[
+    "close",
+    "fileno",
+    "gates",
+    "name",
+    "ready",
+    "ready_async",
+    "set_parameter",
+    "system",
+    "update_parameters",
+    "wait",
+];
 
 /// Names of `google.protobuf.message.Message`: fields of these names are reached by `getattr` only.
 const OF_MESSAGES: &str = "ByteSize Clear ClearExtension ClearField CopyFrom DESCRIPTOR DiscardUnknownFields \

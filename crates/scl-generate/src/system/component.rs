@@ -94,6 +94,11 @@ impl Component {
     }
 
     /// The parameters that are one of several words, with their enums.
+    pub(crate) fn has_live_parameters(&self) -> bool {
+        self.parameters.iter().any(|parameter| parameter.plan.live)
+    }
+
+    /// Its parameters that are one of several words.
     pub(crate) fn choices(&self) -> impl Iterator<Item = (&Parameter, &Choice)> {
         self.parameters.iter().filter_map(|parameter| Some((parameter, parameter.choice.as_ref()?)))
     }

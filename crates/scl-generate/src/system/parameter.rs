@@ -4,7 +4,6 @@ use scl_plan::{ParameterPlan, ParameterType};
 use scl_topology::rust_name::{component_type, gate_field};
 use scl_topology::source::Span;
 use scl_topology::topology;
-use std::fmt::Write;
 
 /// A parameter with all that its program needs.
 #[derive(Debug, Clone)]
@@ -58,29 +57,6 @@ impl Parameter {
             plan: plan.clone(),
             choice,
         }
-    }
-
-    /// What its values are, for documentation: `` `f64` from `0` to `10`, in `1/s`, by default `0.8` ``.
-    pub(crate) fn described(&self) -> String {
-        let ParameterPlan { kind, default, range, unit, .. } = &self.plan;
-        let mut text = match kind {
-            ParameterType::One(scalar) => format!("`{}`", scalar.word()),
-            kind => kind.to_string(),
-        };
-        // Writing to a `String` cannot fail.
-        if let Some((least, largest)) = range {
-            let _written = write!(text, " from `{least}` to `{largest}`");
-        }
-        if let Some(unit) = unit {
-            let _written = write!(text, ", in `{unit}`");
-        }
-        match default {
-            Some(default) => {
-                let _written = write!(text, ", by default `{default}`");
-            }
-            None => text.push_str(", without a default"),
-        }
-        text
     }
 }
 

@@ -20,7 +20,7 @@ enum class ControllerMode {
 /// The parameters of `controller`.
 struct ControllerParameters {
     /// Proportional gain.
-    /// Parameter: `f64` from `0` to `10`, in `1/s`, by default `0.8`.
+    /// Parameter: `f64` from `0` to `10`, in `1/s`, by default `0.8`, live.
     double gain{};
     /// Parameter: `f32`, by default `0.5`.
     float ratio{};
@@ -31,11 +31,11 @@ struct ControllerParameters {
     /// Parameter: `bool`, by default `true`.
     bool enabled{};
     /// Who chooses the speed.
-    /// Parameter: one of `manual` and `auto`, by default `manual`.
+    /// Parameter: one of `manual` and `auto`, by default `manual`, live.
     ControllerMode mode{};
     /// Parameter: list of 3 f64, by default `[0, 0.5, -1]`.
     ::std::array<double, 3> offsets{};
-    /// Parameter: list of text, by default `[a, "b, c"]`.
+    /// Parameter: list of text, by default `[a, "b, c"]`, live.
     ::std::vector<::std::string> names{};
     /// Parameter: list of duration, by default `[1ms, 2s]`.
     ::std::vector<::std::chrono::nanoseconds> delays{};
@@ -87,22 +87,22 @@ namespace scl_generated {
 inline constexpr ::std::string_view plan = R"plan({"version": 1,"system": "controls","kinds": [{"name": "motor","components": ["left_motor",
 "right_motor"]}],"components": [{"name": "controller","declared_at": "controls.yaml:13:11",
 "schema": null,"parameters": [{"name": "gain","type": "f64","default": "0.8","range": ["0","10"],
-"unit": "1/s","doc": "Proportional gain.","declared_at": "controls.yaml:16:9"},{"name": "ratio",
-"type": "f32","default": "0.5","declared_at": "controls.yaml:17:9"},{"name": "period",
-"type": "duration","default": "10ms","range": ["1ms","1s"],"declared_at": "controls.yaml:18:9"},{
-"name": "label","type": "text","default": "left \"front\"","declared_at": "controls.yaml:19:9"},{
-"name": "enabled","type": "bool","default": "true","declared_at": "controls.yaml:20:9"},{
-"name": "mode","one_of": ["manual","auto"],"default": "manual","doc": "Who chooses the speed.",
-"declared_at": "controls.yaml:21:9"},{"name": "offsets","list": "f64","length": 3,
-"default": "[0, 0.5, -1]","declared_at": "controls.yaml:22:9"},{"name": "names","list": "text",
-"default": "[a, \"b, c\"]","declared_at": "controls.yaml:23:9"},{"name": "delays",
-"list": "duration","default": "[1ms, 2s]","declared_at": "controls.yaml:24:9"},{"name": "flags",
-"list": "bool","length": 2,"default": "[true, false]","declared_at": "controls.yaml:25:9"},{
-"name": "corners","list": "text","length": 2,"default": "[north, south]",
-"declared_at": "controls.yaml:26:9"},{"name": "limits","list": "i16","default": "[]",
-"declared_at": "controls.yaml:27:9"},{"name": "i8","type": "i8","default": "-8",
-"declared_at": "controls.yaml:28:9"},{"name": "i16","type": "i16","default": "-16",
-"declared_at": "controls.yaml:29:9"},{"name": "i32","type": "i32","default": "-32",
+"unit": "1/s","doc": "Proportional gain.","live": true,"declared_at": "controls.yaml:16:9"},{
+"name": "ratio","type": "f32","default": "0.5","declared_at": "controls.yaml:17:9"},{
+"name": "period","type": "duration","default": "10ms","range": ["1ms","1s"],
+"declared_at": "controls.yaml:18:9"},{"name": "label","type": "text","default": "left \"front\"",
+"declared_at": "controls.yaml:19:9"},{"name": "enabled","type": "bool","default": "true",
+"declared_at": "controls.yaml:20:9"},{"name": "mode","one_of": ["manual","auto"],
+"default": "manual","doc": "Who chooses the speed.","live": true,"declared_at": "controls.yaml:21:9"
+},{"name": "offsets","list": "f64","length": 3,"default": "[0, 0.5, -1]",
+"declared_at": "controls.yaml:22:9"},{"name": "names","list": "text","default": "[a, \"b, c\"]",
+"live": true,"declared_at": "controls.yaml:23:9"},{"name": "delays","list": "duration",
+"default": "[1ms, 2s]","declared_at": "controls.yaml:24:9"},{"name": "flags","list": "bool",
+"length": 2,"default": "[true, false]","declared_at": "controls.yaml:25:9"},{"name": "corners",
+"list": "text","length": 2,"default": "[north, south]","declared_at": "controls.yaml:26:9"},{
+"name": "limits","list": "i16","default": "[]","declared_at": "controls.yaml:27:9"},{"name": "i8",
+"type": "i8","default": "-8","declared_at": "controls.yaml:28:9"},{"name": "i16","type": "i16",
+"default": "-16","declared_at": "controls.yaml:29:9"},{"name": "i32","type": "i32","default": "-32",
 "declared_at": "controls.yaml:30:9"},{"name": "i64","type": "i64","default": "-9223372036854775808",
 "declared_at": "controls.yaml:31:9"},{"name": "u8","type": "u8","default": "8",
 "declared_at": "controls.yaml:32:9"},{"name": "u16","type": "u16","default": "16",
@@ -205,8 +205,18 @@ struct Controller : ::scl::Component {
     /// For `test`.
     explicit Controller(::scl::TestEnd&& end) : ::scl::Component(::std::move(end), "controller") {}
 
-    /// The values that its parameters had when the component was opened.
+    /// The values that its parameters had when the component was opened, or at the last update.
     ControllerParameters parameters = scl_generated::read(handle(), ControllerParameters{});
+
+    /// Takes over the live parameters that have changed. Returns whether any has; if not, it costs next to
+    /// nothing.
+    bool update_parameters() {
+        const bool changed = ::scl::detail::update_parameters(*this);
+        if (changed) {
+            parameters = scl_generated::read(handle(), ::std::move(parameters));
+        }
+        return changed;
+    }
 
     /// Not connected.
     ::scl::Pub<::scl::Bytes> log{*this, "log"};

@@ -13,22 +13,22 @@ static const char plan[] =
     "{\"version\": 1,\"system\": \"controls\",\"kinds\": [{\"name\": \"motor\",\"components\": [\"left_motor\","
     "\"right_motor\"]}],\"components\": [{\"name\": \"controller\",\"declared_at\": \"controls.yaml:13:11\","
     "\"schema\": null,\"parameters\": [{\"name\": \"gain\",\"type\": \"f64\",\"default\": \"0.8\",\"range\": [\"0\",\"10\"],"
-    "\"unit\": \"1/s\",\"doc\": \"Proportional gain.\",\"declared_at\": \"controls.yaml:16:9\"},{\"name\": \"ratio\","
-    "\"type\": \"f32\",\"default\": \"0.5\",\"declared_at\": \"controls.yaml:17:9\"},{\"name\": \"period\","
-    "\"type\": \"duration\",\"default\": \"10ms\",\"range\": [\"1ms\",\"1s\"],\"declared_at\": \"controls.yaml:18:9\"},{"
-    "\"name\": \"label\",\"type\": \"text\",\"default\": \"left \\\"front\\\"\",\"declared_at\": \"controls.yaml:19:9\"},{"
-    "\"name\": \"enabled\",\"type\": \"bool\",\"default\": \"true\",\"declared_at\": \"controls.yaml:20:9\"},{"
-    "\"name\": \"mode\",\"one_of\": [\"manual\",\"auto\"],\"default\": \"manual\",\"doc\": \"Who chooses the speed.\","
-    "\"declared_at\": \"controls.yaml:21:9\"},{\"name\": \"offsets\",\"list\": \"f64\",\"length\": 3,"
-    "\"default\": \"[0, 0.5, -1]\",\"declared_at\": \"controls.yaml:22:9\"},{\"name\": \"names\",\"list\": \"text\","
-    "\"default\": \"[a, \\\"b, c\\\"]\",\"declared_at\": \"controls.yaml:23:9\"},{\"name\": \"delays\","
-    "\"list\": \"duration\",\"default\": \"[1ms, 2s]\",\"declared_at\": \"controls.yaml:24:9\"},{\"name\": \"flags\","
-    "\"list\": \"bool\",\"length\": 2,\"default\": \"[true, false]\",\"declared_at\": \"controls.yaml:25:9\"},{"
-    "\"name\": \"corners\",\"list\": \"text\",\"length\": 2,\"default\": \"[north, south]\","
-    "\"declared_at\": \"controls.yaml:26:9\"},{\"name\": \"limits\",\"list\": \"i16\",\"default\": \"[]\","
-    "\"declared_at\": \"controls.yaml:27:9\"},{\"name\": \"i8\",\"type\": \"i8\",\"default\": \"-8\","
-    "\"declared_at\": \"controls.yaml:28:9\"},{\"name\": \"i16\",\"type\": \"i16\",\"default\": \"-16\","
-    "\"declared_at\": \"controls.yaml:29:9\"},{\"name\": \"i32\",\"type\": \"i32\",\"default\": \"-32\","
+    "\"unit\": \"1/s\",\"doc\": \"Proportional gain.\",\"live\": true,\"declared_at\": \"controls.yaml:16:9\"},{"
+    "\"name\": \"ratio\",\"type\": \"f32\",\"default\": \"0.5\",\"declared_at\": \"controls.yaml:17:9\"},{"
+    "\"name\": \"period\",\"type\": \"duration\",\"default\": \"10ms\",\"range\": [\"1ms\",\"1s\"],"
+    "\"declared_at\": \"controls.yaml:18:9\"},{\"name\": \"label\",\"type\": \"text\",\"default\": \"left \\\"front\\\"\","
+    "\"declared_at\": \"controls.yaml:19:9\"},{\"name\": \"enabled\",\"type\": \"bool\",\"default\": \"true\","
+    "\"declared_at\": \"controls.yaml:20:9\"},{\"name\": \"mode\",\"one_of\": [\"manual\",\"auto\"],"
+    "\"default\": \"manual\",\"doc\": \"Who chooses the speed.\",\"live\": true,\"declared_at\": \"controls.yaml:21:9\""
+    "},{\"name\": \"offsets\",\"list\": \"f64\",\"length\": 3,\"default\": \"[0, 0.5, -1]\","
+    "\"declared_at\": \"controls.yaml:22:9\"},{\"name\": \"names\",\"list\": \"text\",\"default\": \"[a, \\\"b, c\\\"]\","
+    "\"live\": true,\"declared_at\": \"controls.yaml:23:9\"},{\"name\": \"delays\",\"list\": \"duration\","
+    "\"default\": \"[1ms, 2s]\",\"declared_at\": \"controls.yaml:24:9\"},{\"name\": \"flags\",\"list\": \"bool\","
+    "\"length\": 2,\"default\": \"[true, false]\",\"declared_at\": \"controls.yaml:25:9\"},{\"name\": \"corners\","
+    "\"list\": \"text\",\"length\": 2,\"default\": \"[north, south]\",\"declared_at\": \"controls.yaml:26:9\"},{"
+    "\"name\": \"limits\",\"list\": \"i16\",\"default\": \"[]\",\"declared_at\": \"controls.yaml:27:9\"},{\"name\": \"i8\","
+    "\"type\": \"i8\",\"default\": \"-8\",\"declared_at\": \"controls.yaml:28:9\"},{\"name\": \"i16\",\"type\": \"i16\","
+    "\"default\": \"-16\",\"declared_at\": \"controls.yaml:29:9\"},{\"name\": \"i32\",\"type\": \"i32\",\"default\": \"-32\","
     "\"declared_at\": \"controls.yaml:30:9\"},{\"name\": \"i64\",\"type\": \"i64\",\"default\": \"-9223372036854775808\","
     "\"declared_at\": \"controls.yaml:31:9\"},{\"name\": \"u8\",\"type\": \"u8\",\"default\": \"8\","
     "\"declared_at\": \"controls.yaml:32:9\"},{\"name\": \"u16\",\"type\": \"u16\",\"default\": \"16\","
@@ -305,6 +305,15 @@ scl_status controls_controller_test_with(controls_controller *self,
         }
     }
     return status;
+}
+
+scl_status controls_controller_update_parameters(controls_controller *self, bool *changed)
+{
+    if (self == NULL) {
+        return scl_fail(SCL_ARGUMENT, "`self` is NULL");
+    }
+    scl_status status = scl_update_parameters(self->component, changed);
+    return status == SCL_OK && *changed ? read_controls_controller_parameters(self) : status;
 }
 
 scl_status controls_controller_ready(controls_controller *self, int64_t timeout_ns)

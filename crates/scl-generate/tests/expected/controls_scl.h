@@ -63,10 +63,10 @@ typedef enum controls_controller_mode {
     CONTROLS_CONTROLLER_MODE_AUTO
 } controls_controller_mode;
 
-/* The parameters of `controller`. Texts and lists are valid until the component is closed. */
+/* The parameters of `controller`. Texts and lists are valid until they are updated, or the component is closed. */
 typedef struct controls_controller_parameters {
     /*
-     * Parameter (controls.yaml:16:9): `f64` from `0` to `10`, in `1/s`, by default `0.8`
+     * Parameter (controls.yaml:16:9): `f64` from `0` to `10`, in `1/s`, by default `0.8`, live
      *
      * Proportional gain.
      */
@@ -80,14 +80,14 @@ typedef struct controls_controller_parameters {
     /* Parameter (controls.yaml:20:9): `bool`, by default `true` */
     bool enabled;
     /*
-     * Parameter (controls.yaml:21:9): one of `manual` and `auto`, by default `manual`
+     * Parameter (controls.yaml:21:9): one of `manual` and `auto`, by default `manual`, live
      *
      * Who chooses the speed.
      */
     controls_controller_mode mode;
     /* Parameter (controls.yaml:22:9): list of 3 f64, by default `[0, 0.5, -1]` */
     double offsets[3];
-    /* Parameter (controls.yaml:23:9): list of text, by default `[a, "b, c"]` */
+    /* Parameter (controls.yaml:23:9): list of text, by default `[a, "b, c"]`, live */
     const char *const *names;
     size_t names_count;
     /* Parameter (controls.yaml:24:9): list of duration, by default `[1ms, 2s]` */
@@ -144,6 +144,8 @@ scl_status controls_controller_test(controls_controller *self, controls_controll
 scl_status controls_controller_test_with(controls_controller *self,
                                          controls_controller_peer *peer,
                                          const char *options_json);
+/* Takes over the live parameters that have changed, see scl_update_parameters. */
+scl_status controls_controller_update_parameters(controls_controller *self, bool *changed);
 /* Waits until all required peers are connected, see scl_ready. */
 scl_status controls_controller_ready(controls_controller *self, int64_t timeout_ns);
 /* Waits until running peers have taken all messages, then closes the component, see scl_close. */
@@ -272,6 +274,8 @@ scl_status controls_plain_close(controls_plain *self, int64_t timeout_ns);
         SCL_POINTER(controls_controller, self), \
         SCL_POINTER(controls_controller_peer, peer), \
         (options_json))
+#define controls_controller_update_parameters(self, changed) \
+    controls_controller_update_parameters(SCL_POINTER(controls_controller, self), SCL_POINTER(bool, changed))
 #define controls_controller_ready(self, timeout_ns) \
     controls_controller_ready(SCL_POINTER(controls_controller, self), (timeout_ns))
 #define controls_controller_close(self, timeout_ns) \

@@ -57,9 +57,29 @@ static void values_are_set(void)
     OK(controls_motor_peer_close(&peer, 0));
 }
 
+static void live_parameters_are_taken_over(void)
+{
+    controls_controller controller;
+    controls_controller_peer peer;
+    bool changed = true;
+    OK(controls_controller_test(&controller, &peer));
+    OK(controls_controller_update_parameters(&controller, &changed));
+    CHECK(!changed);
+    OK(scl_set_parameter(controller.component, "mode", "auto"));
+    OK(scl_set_parameter(controller.component, "names", "[c]"));
+    CHECK(controller.parameters.mode == CONTROLS_CONTROLLER_MODE_MANUAL);
+    OK(controls_controller_update_parameters(&controller, &changed));
+    CHECK(changed && controller.parameters.mode == CONTROLS_CONTROLLER_MODE_AUTO && controller.parameters.gain == 0.8);
+    CHECK(controller.parameters.names_count == 1 && strcmp(controller.parameters.names[0], "c") == 0);
+    CHECK(controls_controller_update_parameters(NULL, &changed) == SCL_ARGUMENT);
+    OK(controls_controller_close(&controller, 0));
+    OK(controls_controller_peer_close(&peer, 0));
+}
+
 int main(void)
 {
     every_type_has_its_default();
+    live_parameters_are_taken_over();
     values_are_set();
     puts("done");
     return 0;

@@ -6,7 +6,7 @@ use crate::error::PlanError;
 use crate::parameter::{ParameterPlan, ParameterType, Scalar};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-const FIELDS: [&str; 9] = ["name", "type", "one_of", "list", "length", "default", "range", "unit", "doc"];
+const FIELDS: [&str; 10] = ["name", "type", "one_of", "list", "length", "default", "range", "unit", "doc", "live"];
 
 pub(super) fn parameter(at: &At<'_>) -> Result<ParameterPlan, PlanError> {
     let known: Vec<&str> = FIELDS.into_iter().chain(["declared_at"]).collect();
@@ -28,6 +28,7 @@ pub(super) fn parameter(at: &At<'_>) -> Result<ParameterPlan, PlanError> {
         range,
         unit: text("unit")?,
         doc: text("doc")?,
+        live: fields.has("live") && fields.field("live")?.flag()?,
         declared_at: fields.text("declared_at")?.into(),
     })
 }
@@ -50,7 +51,7 @@ fn kind(at: &At<'_>, fields: &Object<'_>) -> Result<ParameterType, PlanError> {
 
 impl Serialize for ParameterPlan {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { name, kind, default, range, unit, doc, declared_at } = self;
+        let Self { name, kind, default, range, unit, doc, live, declared_at } = self;
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("name", name)?;
         match kind {
@@ -65,6 +66,9 @@ impl Serialize for ParameterPlan {
         range.as_ref().map_or(Ok(()), |range| map.serialize_entry("range", range))?;
         unit.as_ref().map_or(Ok(()), |unit| map.serialize_entry("unit", unit))?;
         doc.as_ref().map_or(Ok(()), |doc| map.serialize_entry("doc", doc))?;
+        if *live {
+            map.serialize_entry("live", live)?;
+        }
         map.serialize_entry("declared_at", declared_at)?;
         map.end()
     }

@@ -11,6 +11,7 @@ fn parameter(kind: ParameterType, range: Option<(&str, &str)>) -> ParameterPlan 
         range: range.map(|(least, largest)| (least.to_owned().into(), largest.to_owned().into())),
         unit: None,
         doc: None,
+        live: false,
         declared_at: "".into(),
     }
 }
@@ -156,6 +157,7 @@ pub(crate) fn one_of_each_form() -> Vec<ParameterPlan> {
         range: Some(("0".into(), "10".into())),
         unit: Some("1/s".into()),
         doc: Some("Proportional gain.".into()),
+        live: true,
         declared_at: "rover.yaml:4:9".into(),
     };
     let choice = ParameterType::OneOf(["manual".into(), "auto".into()].to_vec().into());
@@ -166,6 +168,7 @@ pub(crate) fn one_of_each_form() -> Vec<ParameterPlan> {
         range: None,
         unit: None,
         doc: None,
+        live: false,
         declared_at: "rover.yaml:5:9".into(),
     };
     let lists = [("names", Scalar::Text, None), ("offsets", Scalar::F32, Some(3))];
@@ -207,6 +210,7 @@ fn parameters_stand_before_the_gates() {
                   ],
                   "unit": "1/s",
                   "doc": "Proportional gain.",
+                  "live": true,
                   "declared_at": "rover.yaml:4:9"
                 },
                 {

@@ -1,6 +1,7 @@
 //! The parameters of components: SCL1901 for entries that are none (most of it is found by the parser), SCL1902 for
 //! values, SCL1903 for keys without effect, SCL1904 for names, SCL1905 for components of a kind, SCL1906 for words.
 
+mod live;
 mod name;
 mod value;
 mod words;
@@ -26,7 +27,8 @@ pub(crate) const NO_EFFECT: Rule = Rule {
     title: "key that the type of a parameter does not have",
     explanation: "Numbers and durations can have a `range`, numbers a `unit`, and lists a `length`. The default of a \
                   single value stands behind its type, and that of a list or of one of several words behind \
-                  `default`. Anything else would have no effect. Remove the key, or choose another type.",
+                  `default`. A parameter that can have one value only cannot be changed by `live: true`. Anything else \
+                  would have no effect. Remove the key, or choose another type.",
     example: " components:
    - name: controller
      parameters:
@@ -109,6 +111,7 @@ fn plan(parameter: &ParameterModel, sources: &Sources, problems: &mut Diagnostic
     let behind = parameter.value.as_ref().filter(|_| matches!(kind, ParameterType::One(_)));
     let default = behind.or(parameter.key("default"));
     value::check_length(parameter, problems);
+    value::check_texts(parameter, sources, problems);
     report_without_effect(parameter, &kind, sources, problems);
     let mut declared = ParameterPlan {
         name: parameter.name.value.clone().into(),
@@ -117,9 +120,11 @@ fn plan(parameter: &ParameterModel, sources: &Sources, problems: &mut Diagnostic
         range: None,
         unit: text(parameter, "unit"),
         doc: text(parameter, "doc"),
+        live: live::is_live(parameter, problems),
         declared_at: ConstText::default(),
     };
     declared.range = value::range(parameter, &declared, problems);
+    live::report_constant(parameter, &declared, sources, problems);
     declared.default = default.and_then(|written| value::default(parameter, &declared, written, problems));
     Some(Parameter { declared, span: parameter.name.span })
 }

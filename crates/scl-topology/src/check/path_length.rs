@@ -3,10 +3,13 @@
 
 use super::draft::Draft;
 use super::named::{LONGEST_NAME, Noun};
+use super::parameter::Parameters;
 use crate::diagnostic::{Diagnostic, Diagnostics, Rule, Severity};
+use crate::model::ComponentModel;
 use crate::resolve::{CONTRACT_LENGTH, TAP};
 use crate::socket_paths::SocketPaths;
-use crate::topology::GateKind;
+use crate::topology::{GateKind, Parameter};
+use scl_plan::SET_SOCKET;
 
 /// SCL0801.
 pub(crate) const RULE: Rule = Rule {
@@ -24,8 +27,24 @@ pub(crate) const RULE: Rule = Rule {
 ",
 };
 
-pub(super) fn check(draft: &Draft<'_>, paths: &SocketPaths, system: &str, problems: &mut Diagnostics) {
+pub(super) fn check(
+    draft: &Draft<'_>,
+    parameters: &Parameters,
+    paths: &SocketPaths,
+    system: &str,
+    problems: &mut Diagnostics,
+) {
     let folder = paths.folder(system);
+    for (at, component) in draft.components.iter().map(|component| component.model).enumerate() {
+        let parameters = parameters.of(at, component.of);
+        let Some(parameter) = parameters.iter().find(|it| it.declared().live) else { continue };
+        let name = &component.name.value;
+        let length = folder.len() + name.len() + 1 + SET_SOCKET.len();
+        if name.len() <= LONGEST_NAME && Noun::Component.is_well_formed(name) && length > paths.limit {
+            let path = format!("{folder}{name}.{SET_SOCKET}");
+            problems.push(report_set(component, parameter, paths.limit, path));
+        }
+    }
     for (at, gate) in draft.gates.iter().enumerate() {
         let Some(ending) = gate.kind.and_then(longest_ending) else { continue };
         let names = [draft.component_name(at), &gate.model.name.value];
@@ -64,6 +83,17 @@ fn report(draft: &Draft<'_>, gate: usize, limit: usize, path: String) -> Diagnos
         .note("the folder is the longest usual one, so that the file works for every user of the machine")
 }
 
+/// The socket where the live parameters of a component can be changed.
+fn report_set(component: &ComponentModel, parameter: &Parameter, limit: usize, path: String) -> Diagnostic {
+    let (length, name) = (path.len(), &component.name);
+    let headline = format!("the socket path of the parameters has {length} bytes; the kernel allows {limit}");
+    RULE.at(headline, name.span, format!("{} bytes", name.value.len()))
+        .label(parameter.span(), "can be changed while the program runs, through this socket")
+        .help(format!("shorten the name by {} bytes, or that of the system", length - limit))
+        .note(format!("path: {path}"))
+        .note("the folder is the longest usual one, so that the file works for every user of the machine")
+}
+
 #[cfg(test)]
 mod tests {
     use super::RULE;
@@ -84,6 +114,27 @@ mod tests {
         let longest = |kind: &str| (1..=64).rev().find(|&length| !judged(kind, length));
         let kinds = ["pub: T", "rep: A -> B", "pull: T", "sub: T", "req: A -> B", "push: T"];
         assert_eq!(kinds.map(longest), [Some(48), Some(43), Some(43), Some(64), Some(64), Some(64)]);
+    }
+
+    #[test]
+    fn the_socket_of_live_parameters_fits_or_is_refused() {
+        let file = |kinds: bool, name: &str, live: &str| {
+            let parameters = format!("parameters: [{{gain: {{f64: 1{live}}}}}]");
+            match kinds {
+                false => {
+                    format!("system: {}\ncomponents:\n  - {{name: {name}, {parameters}, gates: []}}\n", "s".repeat(40))
+                }
+                true => format!(
+                    "system: {}\nkinds:\n  - {{name: motor, {parameters}, gates: []}}\ncomponents:\n  - {{name: {name}, kind: motor}}\n",
+                    "s".repeat(40)
+                ),
+            }
+        };
+        for kinds in [false, true] {
+            let is_told = |length: usize, live| advice(&file(kinds, &"c".repeat(length), live)).contains("SCL0801");
+            assert_eq!([37, 38].map(|length| is_told(length, ", live: true")), [false, true], "{kinds}");
+            assert!(!is_told(38, ""), "{kinds}");
+        }
     }
 
     #[test]

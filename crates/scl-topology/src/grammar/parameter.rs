@@ -23,8 +23,11 @@ pub const TYPES: [&str; Scalar::WORDS.len() + 2] = {
     types
 };
 
+/// The key of a parameter that can be changed while the program runs.
+pub const LIVE: &str = "live";
+
 /// The keys beside the type.
-pub const PARAMETER_KEYS: [&str; 5] = ["default", "range", "length", "unit", "doc"];
+pub const PARAMETER_KEYS: [&str; 6] = ["default", "range", "length", "unit", "doc", LIVE];
 
 /// The longest list of a fixed length.
 pub(crate) const LONGEST_LIST: u32 = 10_000;

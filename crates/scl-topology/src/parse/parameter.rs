@@ -19,7 +19,7 @@ pub(crate) const NO_PARAMETER: Rule = Rule {
     severity: Severity::Error,
     title: "not a parameter",
     explanation: "An entry of `parameters` is a name with a type: `gain: f64`. In braces, the value behind the type is \
-                  the default, and `range`, `unit` and `doc` may follow: `gain: {f64: 0.8, range: [0, 10]}`. One of \
+                  the default, and `range`, `unit`, `doc` and `live` may follow: `gain: {f64: 0.8, range: [0, 10]}`. One of \
                   several words is `mode: {one_of: [manual, auto], default: manual}`, and a list is \
                   `offsets: {list: f64, length: 3}`. Without a default, the launch file must give a value.",
     example: " components:

@@ -4,12 +4,12 @@ use expect_test::expect;
 use scl_plan::ParameterPlan;
 
 /// A component with these parameters.
-fn file(parameters: &str) -> String {
+pub(super) fn file(parameters: &str) -> String {
     let items: String = parameters.lines().map(|line| format!("      - {}\n", line.trim())).collect();
     format!("components:\n  - name: controller\n    parameters:\n{items}    gates: []\n")
 }
 
-fn declared(parameters: &str) -> Vec<ParameterPlan> {
+pub(super) fn declared(parameters: &str) -> Vec<ParameterPlan> {
     let topology = topology(&file(parameters));
     topology.components().flat_map(|(_, it)| it.parameters()).map(|it| it.declared().clone()).collect()
 }
@@ -147,6 +147,11 @@ fn wrong_values_are_told_with_the_reason() {
         "offsets: {list: f64, default: 1}",
         "offsets: {list: f64, default: [0, a]}",
         "offsets: {list: u8, default: [0, 9], range: [0, 5]}",
+        "gain: {f64: 1, unit: [m/s]}",
+        "gain: {f64: 1, doc: [a, b]}",
+        "gain: {f64: 1, live: yes}",
+        "gain: {f64: 1, live: sometimes}",
+        "gain: {f64: 1, live: [true]}",
     ];
     let told: String = cases.iter().map(|case| format!("{case}\n    {}\n", advice(&file(case)))).collect();
     expect![[r#"
@@ -161,7 +166,7 @@ fn wrong_values_are_told_with_the_reason() {
         gain: {f64: 11, range: [0, 10]}
             SCL1902 the default of parameter `gain` cannot be its value []
         gain: {f64: 1, range: [10, 0]}
-            SCL1902 the range of `gain` is empty [write the smaller end first]
+            SCL1902 the range of `gain` is empty [write the smaller end first: `[0, 10]`]
         gain: {f64: 1, range: 10}
             SCL1902 `range` has two ends [write `range: [0, 10]`]
         gain: {f64: 1, range: [0, 1, 2]}
@@ -184,6 +189,16 @@ fn wrong_values_are_told_with_the_reason() {
             SCL1902 the default of parameter `offsets` cannot be its value []
         offsets: {list: u8, default: [0, 9], range: [0, 5]}
             SCL1902 the default of parameter `offsets` cannot be its value []
+        gain: {f64: 1, unit: [m/s]}
+            SCL1902 `unit` is a text, not a list [write `unit: m/s`]
+        gain: {f64: 1, doc: [a, b]}
+            SCL1902 `doc` is a text, not a list [write one text: `doc: "..."`]
+        gain: {f64: 1, live: yes}
+            SCL1902 `live` is `true` or `false` [write `live: true`]
+        gain: {f64: 1, live: sometimes}
+            SCL1902 `live` is `true` or `false` [a parameter with `live: true` can be changed while its program runs]
+        gain: {f64: 1, live: [true]}
+            SCL1902 `live` is `true` or `false` [a parameter with `live: true` can be changed while its program runs]
     "#]]
     .assert_eq(&told);
 }

@@ -1,8 +1,9 @@
 //! SCL1902: defaults, ranges and lengths that a parameter cannot have.
 
-use crate::diagnostic::{Diagnostics, Rule, Severity};
+use crate::diagnostic::{Diagnostics, Edit, Rule, Severity};
 use crate::grammar::parameter::{LONGEST_LIST, length};
 use crate::model::{ParameterModel, WrittenValue};
+use crate::source::Sources;
 use scl_plan::{ConstText, ParameterPlan, ParameterType, list_text};
 
 /// SCL1902.
@@ -49,10 +50,28 @@ pub(super) fn range(
     let ordered = ParameterPlan { range: range.clone(), ..declared.clone() };
     if ordered.bounds().is_none() {
         let found = WRONG_VALUE.at(format!("the range of `{}` is empty", parameter.name.value), *span, "");
-        problems.push(found.help("write the smaller end first"));
+        let swapped = format!("[{}, {}]", largest.value, least.value);
+        let advice = format!("write the smaller end first: `{swapped}`");
+        problems.push(found.propose(advice, [Edit::new(*span, swapped)]));
         return None;
     }
     range
+}
+
+/// The texts for people.
+pub(super) fn check_texts(parameter: &ParameterModel, sources: &Sources, problems: &mut Diagnostics) {
+    for key in ["unit", "doc"] {
+        if let Some(WrittenValue::Many(items, span)) = parameter.key(key) {
+            let found = WRONG_VALUE.at(format!("`{key}` is a text, not a list"), *span, "");
+            problems.push(match items.as_slice() {
+                [one] => {
+                    let written = sources.snippet(one.span).to_owned();
+                    found.propose(format!("write `{key}: {written}`"), [Edit::new(*span, written)])
+                }
+                _ => found.help(format!("write one text: `{key}: \"...\"`")),
+            });
+        }
+    }
 }
 
 /// The default as text; `None` if the parameter cannot have it.

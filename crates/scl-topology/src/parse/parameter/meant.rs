@@ -55,6 +55,7 @@ pub(super) fn key_of_others(word: &str) -> Option<&'static str> {
         "bounds" | "limits" | "minmax" | "interval" => Some("range"),
         "size" | "count" | "len" | "items" => Some("length"),
         "units" => Some("unit"),
+        "dynamic" | "mutable" | "reconfigurable" | "tunable" | "runtime" => Some("live"),
         "description" | "desc" | "comment" | "help" | "summary" => Some("doc"),
         _ => None,
     }

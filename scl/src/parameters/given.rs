@@ -1,13 +1,13 @@
-//! The values of a component's parameters: those that are given, else the defaults.
+//! The values of a component's parameters at its start: those that are given, else the defaults.
 
 use crate::environment::Variables;
 use crate::error::OpenError;
 use crate::options::OpenOptions;
 use crate::set_variable;
 use crate::spec::ComponentSpec;
-use scl_plan::{Assignment, ParameterPlan, ParameterValue};
+use crate::values::Value;
+use scl_plan::{Assignment, ParameterPlan};
 use scl_text::suggest::closest_name;
-use std::time::Duration;
 
 /// The values of the parameters, in file order. A value of the options counts more than one of the environment, which
 /// has no effect in a unit test. None for a tool in the place of the program.
@@ -15,11 +15,11 @@ use std::time::Duration;
 /// # Errors
 /// A value is given to a parameter that the component does not have, a value cannot be that of its parameter, or a
 /// parameter has no value.
-pub(super) fn values(
+pub(crate) fn values(
     spec: &'static ComponentSpec,
     options: &OpenOptions,
     variables: Variables<'_>,
-) -> Result<Vec<ParameterValue>, OpenError> {
+) -> Result<Vec<Value>, OpenError> {
     if options.stands_in {
         return Ok(Vec::new());
     }
@@ -43,80 +43,22 @@ fn value(
     spec: &'static ComponentSpec,
     parameter: &'static ParameterPlan,
     given: &[Assignment],
-) -> Result<ParameterValue, OpenError> {
+) -> Result<Value, OpenError> {
     let (component, name) = (spec.name, &*parameter.name);
     // The last one counts.
     let given = given.iter().rfind(|assignment| assignment.parameter == name).map(|assignment| &*assignment.value);
     let Some(text) = given.or(parameter.default.as_deref()) else {
         return Err(OpenError::NoValue { component, parameter: name, kind: parameter.kind.to_string() });
     };
-    parameter.read(text).map_err(|reason| OpenError::WrongValue { component, parameter: name, reason })
-}
-
-/// The Rust type of a parameter.
-pub trait FromParameter: Sized {
-    /// The value as this type; `None` if it is of another type.
-    fn from_value(value: &ParameterValue) -> Option<Self>;
-}
-
-impl FromParameter for bool {
-    fn from_value(value: &ParameterValue) -> Option<Self> {
-        if let ParameterValue::Bool(value) = value { Some(*value) } else { None }
-    }
-}
-
-macro_rules! integers {
-    ($($integer:ty)+) => {$(
-        impl FromParameter for $integer {
-            fn from_value(value: &ParameterValue) -> Option<Self> {
-                if let ParameterValue::Integer(value) = value { (*value).try_into().ok() } else { None }
-            }
-        }
-    )+};
-}
-
-integers!(i8 i16 i32 i64 u8 u16 u32 u64);
-
-impl FromParameter for f64 {
-    fn from_value(value: &ParameterValue) -> Option<Self> {
-        if let ParameterValue::Float(value) = value { Some(*value) } else { None }
-    }
-}
-
-impl FromParameter for f32 {
-    fn from_value(value: &ParameterValue) -> Option<Self> {
-        f64::from_value(value).map(|value| value as f32)
-    }
-}
-
-impl FromParameter for String {
-    fn from_value(value: &ParameterValue) -> Option<Self> {
-        if let ParameterValue::Text(value) = value { Some(value.clone()) } else { None }
-    }
-}
-
-impl FromParameter for Duration {
-    fn from_value(value: &ParameterValue) -> Option<Self> {
-        if let ParameterValue::Duration(value) = value { Some(*value) } else { None }
-    }
-}
-
-impl<T: FromParameter> FromParameter for Vec<T> {
-    fn from_value(value: &ParameterValue) -> Option<Self> {
-        if let ParameterValue::List(values) = value { values.iter().map(T::from_value).collect() } else { None }
-    }
-}
-
-impl<T: FromParameter, const LENGTH: usize> FromParameter for [T; LENGTH] {
-    fn from_value(value: &ParameterValue) -> Option<Self> {
-        Vec::from_value(value)?.try_into().ok()
-    }
+    let value = parameter.read(text);
+    let value = value.map_err(|reason| OpenError::WrongValue { component, parameter: name, reason })?;
+    Ok(Value::new(text, value))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scl_plan::{ParameterType, Scalar};
+    use scl_plan::{ParameterType, ParameterValue, Scalar};
     use std::borrow::Cow;
     use std::ffi::OsString;
 
@@ -131,6 +73,7 @@ mod tests {
             range: None,
             unit: None,
             doc: None,
+            live: false,
             declared_at: Cow::Borrowed("rover.yaml:2:5"),
         }],
         gates: &[],
@@ -139,10 +82,10 @@ mod tests {
 
     fn gain(options: &OpenOptions, variable: &str) -> Result<i128, String> {
         let variables = |name: &str| (name == "SCL_SET").then(|| OsString::from(variable));
-        match values(SPEC, options, &variables).as_deref() {
-            Ok([ParameterValue::Integer(value)]) => Ok(*value),
-            Ok(others) => panic!("{others:?}"),
-            Err(error) => Err(error.to_string()),
+        let found = values(SPEC, options, &variables).map_err(|error| error.to_string())?;
+        match found.iter().map(Value::get).collect::<Vec<_>>().as_slice() {
+            [ParameterValue::Integer(value)] => Ok(*value),
+            others => panic!("{others:?}"),
         }
     }
 
