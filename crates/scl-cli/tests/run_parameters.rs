@@ -89,6 +89,53 @@ fn programs_find_their_values_in_a_variable_and_the_last_one_counts() {
     .assert_eq(&printed(&set, inherited));
 }
 
+/// The program writes its values as a component does, and fails twice.
+#[test]
+fn live_values_are_kept_when_a_component_is_started_again() {
+    const TOPOLOGY: &str = "\
+system: rover
+components:
+  - name: controller
+    parameters:
+      - gain: {f64: 0.8, live: true}
+      - names: {list: text, default: [], live: true}
+      - pin: {u8: 1}
+    gates: []
+  - {name: other, parameters: [{gain: {f64: 1, live: true}}], gates: []}
+";
+    let program = r#"echo "${SCL_SET-unset}"
+mkdir -p -m 700 "$SCL_RUNTIME_DIR/rover"
+echo x >> starts
+write() { printf '%s\n%s\n' "$1" "$1" > "$SCL_RUNTIME_DIR/rover/controller.values"; }
+case $(wc -l < starts) in
+1) write '{"gain": "2", "names": "[\"a, b\"]", "pin": "7"}'; exit 1;;
+2) write '{"gain": "3", "names": "[]", "pin": "7"}'; exit 1;;
+esac
+"#;
+    let launch = "components: {controller: {command: [sh, program.sh], restart: on_failure, restart_delay: 1ms, parameters: {gain: 1}}}";
+    let system = System::of_files(&[("launch.yaml", launch), ("topology.yaml", TOPOLOGY), ("program.sh", program)]);
+    // An earlier run has left values behind.
+    let runtime_dir = system.path("runtime");
+    std::fs::create_dir_all(runtime_dir.join("rover")).unwrap();
+    set_private(&runtime_dir);
+    set_private(&runtime_dir.join("rover"));
+    let stale = "{\"gain\": \"9\"}\n".repeat(2);
+    std::fs::write(runtime_dir.join("rover/controller.values"), stale).unwrap();
+    let output = system.run(&[]);
+    assert_eq!(output.status.code(), Some(0), "{}", without_times(&output.stderr));
+    expect![[r#"
+        controller | controller.gain=1
+        controller | controller.gain=1,controller.gain=2,controller.names=["a, b"]
+        controller | controller.gain=1,controller.gain=3,controller.names=[]
+    "#]]
+    .assert_eq(&String::from_utf8(output.stdout).unwrap());
+}
+
+fn set_private(folder: &std::path::Path) {
+    use std::os::unix::fs::PermissionsExt;
+    std::fs::set_permissions(folder, std::fs::Permissions::from_mode(0o700)).unwrap();
+}
+
 #[test]
 fn mistakes_in_values_are_found_before_the_start() {
     expect![[r#"

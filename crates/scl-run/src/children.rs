@@ -30,6 +30,8 @@ pub(crate) struct Start<'a> {
     pub(crate) notify: Option<&'a NotifySocket>,
     /// The terminal that it may read from.
     pub(crate) terminal: Option<Terminal>,
+    /// A variable in place of the program's own, with what is kept of its last process.
+    pub(crate) kept: Option<(String, String)>,
 }
 
 /// A running program. It is reaped when this value is dropped, so that its process group id is not reused
@@ -61,7 +63,7 @@ impl Running {
         events: &Sender<Event>,
     ) -> io::Result<Self> {
         let Member { program, label, role, policy, messages, .. } = member;
-        let Start { process: number, notify, terminal } = start;
+        let Start { process: number, notify, terminal, kept } = start;
         let mut command = bound_command(&program.command, &program.placement);
         // These variables are meant for this process: they were set by systemd or an outer `scl run`.
         for name in ["NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID", COMPONENT] {
@@ -72,6 +74,7 @@ impl Running {
             .current_dir(&program.folder)
             .envs(notify.iter().flat_map(|socket| socket.variables(policy.alive_within)))
             .envs(program.environment.iter().map(|(key, value)| (key, value)))
+            .envs(kept)
             .envs(mark.iter().map(|mark| (MARK, with_inherited(mark))))
             .process_group(0)
             .stdin(terminal.as_ref().map_or_else(Stdio::null, |_| Stdio::inherit()))

@@ -1,6 +1,7 @@
 //! The components of a run, and the programs that run them.
 
 use super::cargo::Target;
+use super::kept_values::KeptValues;
 use super::policy::Policy;
 use super::program::Program;
 use scl_terminal::Problem;
@@ -21,6 +22,8 @@ pub(crate) struct Component {
     pub(crate) made_by_cargo: Option<MadeByCargo>,
     /// The place of its entry in the launch file.
     pub(crate) entry: Option<String>,
+    /// What is kept when its program is started again.
+    pub(crate) kept: KeptValues,
 }
 
 /// A program that a build of cargo makes.

@@ -16,6 +16,7 @@ mod ending;
 mod event;
 mod family;
 mod gateway_program;
+mod kept_values;
 mod launch_file;
 mod lifecycle;
 mod lock;
@@ -59,6 +60,7 @@ pub use units::{Unit, UnitOptions, systemd_units};
 use component::Component;
 use ending::{Ending, name_of};
 use event::Event;
+use kept_values::KeptValues;
 use log_file::LogFile;
 use member::{Member, Messages, Role};
 use nix::sys::signal::SigSet;
@@ -194,7 +196,16 @@ fn run_builds(
         }
         let policy = Policy { stop_within: grace, ..Policy::default() };
         let (name, role, messages_of_member) = (build.label(), Role::Build, messages.clone());
-        let member = Member { name, label, role, program: &program, policy, messages: messages_of_member, entry: None };
+        let member = Member {
+            name,
+            label,
+            role,
+            program: &program,
+            policy,
+            messages: messages_of_member,
+            entry: None,
+            kept: KeptValues::default(),
+        };
         match supervisor.run(&[member], &[], None) {
             Outcome::InOrder => {}
             Outcome::Failed(ending) => return Err(failed_build(build, ending)),
@@ -209,8 +220,9 @@ fn run_builds(
 }
 
 fn member(component: &Component, role: Role, label: usize) -> Member<'_> {
-    let Component { name, program, policy, entry, .. } = component;
-    Member { name, label, role, program, policy: policy.clone(), messages: None, entry: entry.as_deref() }
+    let Component { name, program, policy, entry, kept, .. } = component;
+    let (policy, entry, kept) = (policy.clone(), entry.as_deref(), kept.clone());
+    Member { name, label, role, program, policy, messages: None, entry, kept }
 }
 
 /// Returns the problem that reports a failed build.

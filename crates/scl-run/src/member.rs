@@ -1,5 +1,6 @@
 //! The programs that the supervisor starts and watches.
 
+use super::kept_values::KeptValues;
 use super::lock::lock;
 use super::policy::Policy;
 use super::program::Program;
@@ -19,6 +20,8 @@ pub(crate) struct Member<'p> {
     pub(crate) messages: Option<Messages>,
     /// The place of its entry in the launch file.
     pub(crate) entry: Option<&'p str>,
+    /// What is kept when it is started again.
+    pub(crate) kept: KeptValues,
 }
 
 /// What a program is for.

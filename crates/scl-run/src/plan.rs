@@ -11,6 +11,7 @@ use super::Options;
 use super::cargo::{Artifact, CargoRun};
 use super::component::Component;
 use super::deployment::Deployment;
+use super::kept_values::KeptValues;
 use super::launch_file::{LaunchComponent, LaunchDocument, LaunchFile, Settings, Source};
 use super::orphan_guard::THIS_PROGRAM;
 use super::placement::Placement;
@@ -189,19 +190,19 @@ fn plan_from_launch_file(
     let mut builds = plan_builds(folder, &launch, &chosen);
     let named_after = topology.filter(|_| own_name.is_none());
     let named_after = named_after.zip(known.as_ref()).and_then(|(file, names)| named_after_file(&file, names));
+    let of_topology = || known.as_ref().map(|names| names.system.clone());
+    let system = own_name.or_else(system_of_environment).or_else(of_topology);
     let plan = |component: &LaunchComponent| {
         let mut planned = plan_component(folder, &launch, component, known.as_ref(), options.grace, &mut builds);
         planned.program.environment.extend(values.variable(component));
+        if matches!(component.source, Source::Command(_)) {
+            planned.kept =
+                KeptValues { system: system.clone(), live: values.live_of(&component.name, &component.opens) };
+        }
         planned
     };
     let components = chosen.iter().map(plan).collect();
-    Ok(RunPlan {
-        system: own_name.or_else(system_of_environment).or_else(|| known.map(|names| names.system)),
-        named_after,
-        builds,
-        components,
-        gateway,
-    })
+    Ok(RunPlan { system: system.clone(), named_after, builds, components, gateway })
 }
 
 fn read_text(launch_path: &Path) -> Result<String, Vec<Problem>> {
@@ -306,6 +307,7 @@ fn plan_component(
         recording,
         made_by_cargo,
         entry: Some(component.place.clone()),
+        kept: KeptValues::default(),
     }
 }
 

@@ -232,7 +232,8 @@ impl<'a> Supervisor<'a> {
         while let Some((index, action)) = actions.pop_front() {
             match action {
                 Action::Start if run.state.components()[index].state == State::Starting => {
-                    let input = match self.start(index, &run.members[index]) {
+                    let is_first = run.state.components()[index].starts == 0;
+                    let input = match self.start(index, &run.members[index], is_first) {
                         Ok(()) => Input::Started,
                         Err(error) => Input::CannotStart(error.to_string()),
                     };
@@ -263,7 +264,7 @@ impl<'a> Supervisor<'a> {
         }
     }
 
-    fn start(&mut self, index: usize, member: &Member<'_>) -> std::io::Result<()> {
+    fn start(&mut self, index: usize, member: &Member<'_>, is_first: bool) -> std::io::Result<()> {
         if let Some(process) = &mut self.processes[index] {
             assert!(process.ended.is_some(), "`{}` is started while it runs", member.name);
             let late = std::mem::take(&mut process.reports);
@@ -278,7 +279,13 @@ impl<'a> Supervisor<'a> {
                 .ok(),
         };
         let number = self.next_process;
-        let start = Start { process: number, notify, terminal };
+        let kept = if is_first {
+            member.kept.forget();
+            None
+        } else {
+            member.kept.variable(&member.program.environment)
+        };
+        let start = Start { process: number, notify, terminal, kept };
         let Surroundings { output, sender, .. } = &self.surroundings;
         let running = Running::start(member, start, &mut self.guard, output, sender)?;
         self.next_process += 1;

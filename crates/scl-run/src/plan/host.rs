@@ -4,6 +4,7 @@ use super::super::Options;
 use super::super::component::Component;
 use super::super::deployment::{Deployment, Host};
 use super::super::gateway_program;
+use super::super::kept_values::KeptValues;
 use super::super::launch_file::{LaunchDocument, LaunchFile};
 use super::super::policy::{Policy, Restart, RestartLimit};
 use super::super::program::Program;
@@ -101,6 +102,7 @@ pub(super) fn plan_gateway(
         recording: None,
         made_by_cargo: None,
         entry: None,
+        kept: KeptValues::default(),
     })
 }
 

@@ -3,6 +3,7 @@
 use super::super::Options;
 use super::super::cargo::{Target, cargo};
 use super::super::component::{Component, MadeByCargo};
+use super::super::kept_values::KeptValues;
 use super::super::launch_file::Opens;
 use super::super::policy::Policy;
 use super::super::program::{Build, Program};
@@ -36,6 +37,7 @@ pub(super) fn plan_from_package(folder: &Path, names: SystemNames, options: &Opt
     let release = options.release.then(|| OsString::from("--release"));
     let build = [cargo(), "build".into(), "--bins".into()].into_iter().chain(release).collect();
     let expected = |name: &String| (COMPONENT.to_owned(), format!("{}.{name}", names.system));
+    let system = system_of_environment().or(Some(names.system.clone()));
     let plan = |name: &&String| Component {
         name: (*name).clone(),
         kind: names.kind_of(name).map(str::to_owned),
@@ -50,9 +52,10 @@ pub(super) fn plan_from_package(folder: &Path, names: SystemNames, options: &Opt
             target: Target::OfComponent { name: (*name).clone(), kind: names.kind_of(name).map(str::to_owned) },
         }),
         entry: None,
+        kept: KeptValues { system: system.clone(), live: values.live_of(name, &Opens::Own) },
     };
     Ok(RunPlan {
-        system: system_of_environment().or(Some(names.system.clone())),
+        system: system.clone(),
         named_after: named_after_file(&folder.join(TOPOLOGY_FILE), &names),
         builds: vec![Build { components: Vec::new(), program: program(build), cargo_choices: Some(Vec::new()) }],
         components: started.iter().map(plan).collect(),

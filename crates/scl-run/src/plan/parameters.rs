@@ -107,6 +107,18 @@ impl<'n> Values<'n> {
         if text.is_empty() { self.cleared() } else { Some((SET_VARIABLE.to_owned(), text)) }
     }
 
+    /// The live parameters of each component that a program opens, if it has any.
+    pub(super) fn live_of(&self, component: &str, opens: &Opens) -> Vec<(String, Vec<String>)> {
+        let components = self.known.iter().flat_map(|known| &known.components);
+        let opened = components.filter(|name| *name == component || *opens == Opens::Any || opens.names(name));
+        let live = opened.map(|name| {
+            let parameters = self.known.map_or(&[][..], |known| known.parameters_of(name));
+            let live = parameters.iter().filter(|parameter| parameter.live).map(|parameter| parameter.name.to_string());
+            (name.clone(), live.collect::<Vec<_>>())
+        });
+        live.filter(|(_, live)| !live.is_empty()).collect()
+    }
+
     /// The variable for a program that gets no values: empty, if it would inherit others.
     pub(super) fn cleared(&self) -> Option<(String, String)> {
         self.is_inherited.then(|| (SET_VARIABLE.to_owned(), String::new()))
