@@ -74,6 +74,7 @@ fn a_recording_is_described_in_json() {
         "seconds": 7200.5,
         "system": "rover",
         "attachments": ["plan.json"],
+        "parameters": {},
         "gates": [
             gate("controller.commands request", "rep", 1, 2, None),
             gate("controller.commands reply", "rep", 1, 4, None),

@@ -23,6 +23,11 @@ pub const PROFILE: &str = "scl";
 /// started later, the file has several attachments with this name; the last one is complete.
 pub const PLAN: &str = "plan.json";
 
+/// Attachment: the values of all parameters, by component and name, as texts in JSON: `{"controller": {"gain": "2"}}`.
+/// Whenever values have changed, the file gets another attachment with this name, whose `log_time` is when the recorder
+/// has seen that. It looks twice a second.
+pub const PARAMETERS: &str = "parameters.json";
+
 /// Attachment: the topology file, if it was found.
 pub const TOPOLOGY: &str = "topology.yaml";
 

@@ -13,6 +13,7 @@ mod file_names;
 mod gate;
 mod losses;
 mod options;
+mod parameters;
 mod plans;
 mod queue;
 mod report;
@@ -35,6 +36,7 @@ use contents::Contents;
 use continuous::Continuous;
 use file_names::{FileNames, Numbering};
 use options::Notes;
+use parameters::Parameters;
 use plans::Plans;
 use queue::queue;
 use ring::Ring;
@@ -62,8 +64,14 @@ async fn record_async(system: &System, options: &Options) -> Result<Report, Prob
     let notes = Notes::new();
     let selection = Selection::new(system, &options.gates, &options.exclude, &options.topology)?;
     let (plans, plan) = Plans::of(system);
-    let contents =
-        Contents { system: system.name().to_owned(), attached: options.attached.clone(), plan, gates: Vec::new() };
+    let mut parameters = Parameters::default();
+    let contents = Contents {
+        system: system.name().to_owned(),
+        attached: options.attached.clone(),
+        plan,
+        parameters: parameters.update(system, &plans),
+        gates: Vec::new(),
+    };
     let (destination, trigger) = open_store(system, options, &contents, &notes)?;
     selection
         .waiting()
@@ -81,7 +89,8 @@ async fn record_async(system: &System, options: &Options) -> Result<Report, Prob
     let storage = storage.map_err(|error| Problem::new(format!("cannot start a thread: {error}")))?;
     let started = Instant::now();
     let (losses, initial) = (Vec::new(), taps.gates().len());
-    let collector = Collector { system, taps, queue, trigger, notes, losses, plans, initial, unconnected: initial };
+    let unconnected = initial;
+    let collector = Collector { system, taps, queue, trigger, notes, losses, plans, parameters, initial, unconnected };
     collector.run(signals, options.run_for, &progress, stopped).await;
     let duration = started.elapsed();
     let Outcome { files, deleted, totals, problem } =

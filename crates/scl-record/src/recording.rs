@@ -22,7 +22,7 @@ pub use overview::Attachment;
 pub(crate) use records::Records;
 pub use survey::{Survey, SurveyedTopic};
 
-use crate::format::{GateTotals, PLAN, Totals};
+use crate::format::{GateTotals, PARAMETERS, PLAN, Totals};
 use overview::Overview;
 use scl_plan::SystemPlan;
 use scl_terminal::Problem;
@@ -78,6 +78,12 @@ impl Recording {
                 .help("name the topology file with `--topology`")
         };
         plan.map(Some).map_err(unreadable)
+    }
+
+    /// The last values of the parameters of each component, by name; empty if the recording has none.
+    pub fn parameters(&self) -> BTreeMap<String, BTreeMap<String, String>> {
+        let values = self.attachment(PARAMETERS).map(|(_, values)| serde_json::from_slice(&values.data));
+        values.and_then(Result::ok).unwrap_or_default()
     }
 
     /// Wall-clock times of the first and the last message, in nanoseconds since 1970; `None` without messages.

@@ -41,8 +41,14 @@ fn to_text(recording: &Recording, survey: &Survey) -> String {
     if let Ok(Some(plan)) = recording.plan() {
         facts.row(["system", &plan.system]);
     }
-    let attachments: Vec<_> = recording.attachments().map(|attachment| attachment.name.as_str()).collect();
+    let attachments = attachments(recording);
     facts.row(["attachments", &if attachments.is_empty() { "none".to_owned() } else { attachments.join(", ") }]);
+    let parameters = recording.parameters();
+    let values = parameters.iter().flat_map(|(component, values)| values.iter().map(move |value| (component, value)));
+    for (index, (component, (name, value))) in values.enumerate() {
+        let label = if index == 0 { "parameters" } else { "" };
+        facts.row([label, &scl_terminal::escape(&format!("{component}.{name} = {value}"))]);
+    }
     let mut text = facts.text();
     let totals = recording.totals();
     if !survey.topics.is_empty() {
@@ -91,11 +97,23 @@ fn to_json(recording: &Recording, survey: &Survey) -> Value {
         "recorded": first_time(survey),
         "seconds": survey.length.as_secs_f64(),
         "system": recording.plan().ok().flatten().map(|plan| plan.system),
-        "attachments": recording.attachments().map(|attachment| &attachment.name).collect::<Vec<_>>(),
+        "attachments": attachments(recording),
+        "parameters": recording.parameters(),
         "gates": gates.collect::<Vec<_>>(),
         "others": others.collect::<Vec<_>>(),
         "notes": notes(recording, survey).collect::<Vec<_>>(),
     })
+}
+
+/// The names of its attachments, each once.
+fn attachments(recording: &Recording) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for attachment in recording.attachments() {
+        if !names.contains(&attachment.name.as_str()) {
+            names.push(&attachment.name);
+        }
+    }
+    names
 }
 
 fn notes(recording: &Recording, survey: &Survey) -> impl Iterator<Item = String> {

@@ -4,6 +4,7 @@ use super::contents::now_ns;
 use super::gate::Message;
 use super::losses::Losses;
 use super::options::Notes;
+use super::parameters::Parameters;
 use super::plans::Plans;
 use super::queue::QueueSender;
 use super::storage::{Command, Progress, SaveAnswer};
@@ -19,7 +20,7 @@ use tokio::signal::unix::Signal;
 use tokio::sync::oneshot;
 use tokio::time::{Instant, MissedTickBehavior, interval, sleep, timeout};
 
-/// Interval at which the figures on a terminal are updated.
+/// Interval at which the figures on a terminal are updated, and the values of parameters are read.
 const SHOW: Duration = Duration::from_millis(500);
 
 /// At the end of recording: after how long without a message no more are expected, and how long to wait in any case.
@@ -37,6 +38,7 @@ pub(crate) struct Collector<'a> {
     pub(crate) notes: Notes,
     pub(crate) losses: Vec<Losses>,
     pub(crate) plans: Plans,
+    pub(crate) parameters: Parameters,
     /// Number of gates that were running at the beginning, and of those that are not connected yet.
     pub(crate) initial: usize,
     pub(crate) unconnected: usize,
@@ -71,12 +73,16 @@ impl Collector<'_> {
                     let saved = self.save();
                     tokio::spawn(async move { answer(stream, &result_of(saved).await).await });
                 }
-                _ = show.tick() => self.notes.show(progress),
+                _ = show.tick() => {
+                    self.look_at_parameters();
+                    self.notes.show(progress);
+                }
                 event = self.taps.next() => self.handle(event),
             }
         };
         if is_stored {
             self.take_arrived().await;
+            self.look_at_parameters();
         }
         for (gate, losses) in self.losses.iter_mut().enumerate() {
             let lost = losses.take();
@@ -97,6 +103,12 @@ impl Collector<'_> {
                 TapsEvent::Event { event: TapEvent::Observed(observation), .. } if observation.sent_ns > now => {}
                 event => self.handle(event),
             }
+        }
+    }
+
+    fn look_at_parameters(&mut self) {
+        if let Some(values) = self.parameters.update(self.system, &self.plans) {
+            self.queue.command(Command::Parameters(values));
         }
     }
 

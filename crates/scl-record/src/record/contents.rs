@@ -2,7 +2,7 @@
 
 use super::file::RecordingFile;
 use super::write_error::WriteError;
-use crate::format::PLAN;
+use crate::format::{PARAMETERS, PLAN};
 use bytes::Bytes;
 use scl_observe::ObservedGate;
 use std::fs::{self, File};
@@ -25,6 +25,8 @@ pub(crate) struct Contents {
     pub(crate) attached: Vec<AttachedFile>,
     /// The plans of all components that were seen, as JSON.
     pub(crate) plan: Bytes,
+    /// The values of the parameters, as JSON, if there are any.
+    pub(crate) parameters: Option<Bytes>,
     /// The gates by their numbers.
     pub(crate) gates: Vec<ObservedGate>,
 }
@@ -46,6 +48,9 @@ impl Contents {
             recording.attach(attached.name, "application/yaml", &attached.data, now_ns())?;
         }
         attach_plan(&mut recording, &self.plan)?;
+        if let Some(parameters) = &self.parameters {
+            attach_parameters(&mut recording, parameters)?;
+        }
         for (number, gate) in self.gates.iter().enumerate() {
             recording.add_gate(number, gate)?;
         }
@@ -58,6 +63,11 @@ impl Contents {
 /// Adds the plans to a recording; the last ones in a file count.
 pub(crate) fn attach_plan(recording: &mut RecordingFile, plan: &[u8]) -> Result<(), WriteError> {
     recording.attach(PLAN, "application/json", plan, now_ns())
+}
+
+/// Adds the values of the parameters to a recording.
+pub(crate) fn attach_parameters(recording: &mut RecordingFile, values: &[u8]) -> Result<(), WriteError> {
+    recording.attach(PARAMETERS, "application/json", values, now_ns())
 }
 
 /// Returns the current time in nanoseconds since 1970 by `CLOCK_REALTIME`, the clock of the taps.

@@ -1,6 +1,6 @@
 //! Recording into one file, or into several files one after the other.
 
-use super::contents::{Contents, attach_plan};
+use super::contents::{Contents, attach_parameters, attach_plan};
 use super::file::{RecordingFile, WrittenFile};
 use super::file_names::FileNames;
 use super::gate::Message;
@@ -95,6 +95,10 @@ impl Continuous {
 
     pub(crate) fn attach_plan(&mut self, contents: &Contents) -> Result<(), Problem> {
         self.with_file(|file| attach_plan(file, &contents.plan))
+    }
+
+    pub(crate) fn attach_parameters(&mut self, values: &[u8]) -> Result<(), Problem> {
+        self.with_file(|file| attach_parameters(file, values))
     }
 
     pub(crate) fn count_lost(&mut self, gate: usize, lost: u64) {

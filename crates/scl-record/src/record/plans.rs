@@ -25,6 +25,12 @@ impl Plans {
         self.read(system).then(|| self.text(system))
     }
 
+    /// The components that have parameters.
+    pub(crate) fn with_parameters(&self) -> impl Iterator<Item = &str> {
+        let plans = self.by_component.iter().filter(|(_, plan)| !plan.parameters.is_empty());
+        plans.map(|(component, _)| component.as_str())
+    }
+
     fn read(&mut self, system: &System) -> bool {
         let mut changed = false;
         for component in system.components() {

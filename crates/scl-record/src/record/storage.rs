@@ -24,6 +24,8 @@ pub(crate) enum Command {
     Gate(ObservedGate),
     /// The plans of all components that were seen.
     Plan(Bytes),
+    /// The values of the parameters.
+    Parameters(Bytes),
     /// The number of a gate, and of its messages lost after the last recorded one.
     Lost(usize, u64),
     /// Write the ring to a file and send the result; without a ring, flush the current file.
@@ -140,6 +142,14 @@ fn handle(store: &mut Store, contents: &mut Contents, command: Command, totals: 
                 Store::Continuous(continuous) => continuous.attach_plan(contents),
                 Store::Ring(_) => Ok(()),
             }
+        }
+        Command::Parameters(values) => {
+            let attached = match store {
+                Store::Continuous(continuous) => continuous.attach_parameters(&values),
+                Store::Ring(_) => Ok(()),
+            };
+            contents.parameters = Some(values);
+            attached
         }
         Command::Lost(gate, lost) => {
             totals_of(totals, contents, gate).lost += lost;
