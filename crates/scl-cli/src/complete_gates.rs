@@ -1,4 +1,4 @@
-//! `scl complete-gates`: the names that a shell offers where a gate or a component is expected.
+//! `scl complete-gates`: the names that a shell offers where a gate, a component or a parameter is expected.
 
 use clap::Args;
 use scl_observe::System;
@@ -11,6 +11,9 @@ pub(crate) struct CompleteGatesArguments {
     /// Names of components instead.
     #[arg(long)]
     components: bool,
+    /// Names of parameters instead.
+    #[arg(long, conflicts_with = "components")]
+    parameters: bool,
     /// The system.
     #[arg(long)]
     system: Option<String>,
@@ -23,19 +26,23 @@ pub(crate) struct CompleteGatesArguments {
 pub(crate) fn complete_gates(arguments: &CompleteGatesArguments) -> ExitCode {
     let system = arguments.system.as_deref().filter(|name| !name.is_empty());
     if let Ok(system) = System::find(system) {
-        let names = names(&system, arguments.components).into_iter();
+        let names = names(&system, arguments).into_iter();
         let fitting = names.filter(|name| name.starts_with(&arguments.prefix));
         print_out(&fitting.map(|name| name + "\n").collect::<String>());
     }
     ExitCode::SUCCESS
 }
 
-fn names(system: &System, of_components: bool) -> Vec<String> {
+fn names(system: &System, arguments: &CompleteGatesArguments) -> Vec<String> {
     let components = system.components();
-    if of_components {
+    if arguments.components {
         return components.into_iter().map(|component| component.name).collect();
     }
     let running = components.iter().filter(|component| component.is_running());
+    if arguments.parameters {
+        let named = running.flat_map(|it| it.parameters().map(|(plan, _)| format!("{}.{}", it.name, plan.name)));
+        return named.collect();
+    }
     let gates = running.flat_map(|it| it.gates().iter().map(|gate| format!("{}.{}", it.name, gate.name)));
     gates.collect()
 }

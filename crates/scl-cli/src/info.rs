@@ -90,6 +90,7 @@ impl Reading {
             return value;
         }
         let mut value = component;
+        value["parameters"] = self.component.parameters_to_json();
         value["gates"] = (0..self.component.gates().len()).map(gate_to_json).collect();
         value
     }

@@ -42,6 +42,8 @@ mod meters;
 mod new;
 #[cfg(feature = "observe")]
 mod observed;
+#[cfg(feature = "observe")]
+mod parameters;
 mod plan;
 #[cfg(feature = "observe")]
 mod play;
@@ -141,6 +143,8 @@ commands! {
     Explain(explain::ExplainArguments) => explain::explain;
     #[cfg(feature = "generate")]
     Generate(generate::GenerateArguments) => generate::generate;
+    #[cfg(feature = "observe")]
+    Get(parameters::GetArguments) => parameters::get;
     Graph(graph::GraphArguments) => graph::graph;
     #[cfg(feature = "observe")]
     Hz(meters::HzArguments) => meters::hz;
@@ -166,6 +170,8 @@ commands! {
     #[cfg(feature = "run")]
     Run(run::RunArguments) => run::run;
     Schema(schema::SchemaArguments) => schema::schema;
+    #[cfg(feature = "observe")]
+    Set(parameters::SetArguments) => parameters::set;
     #[cfg(feature = "run")]
     Stop(request::StopArguments) => request::stop;
     #[cfg(feature = "observe")]

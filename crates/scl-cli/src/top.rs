@@ -13,7 +13,9 @@ mod view;
 use crate::format::{FormatArgument, print_json};
 use crate::observed::SystemArgument;
 use clap::{Args, ValueEnum};
-use rows::{COMPONENT_COLUMNS, GATE_COLUMNS, TEXT_COLUMNS, component_cells, gate_cells, sort, to_json};
+use rows::{
+    COMPONENT_COLUMNS, GATE_COLUMNS, TEXT_COLUMNS, component_cells, gate_cells, parameter_cells, sort, to_json,
+};
 use scl_observe::{Snapshot, System, Watch};
 use scl_terminal::{Problem, Table, escape, parse_duration, print_out};
 use serde_json::json;
@@ -28,7 +30,7 @@ const SHORTEST_PERIOD: Duration = Duration::from_millis(100);
 ///
 /// Everything is read from the files that components write twice a second, and from /proc, so watching costs them
 /// nothing. If several systems run, all are shown. Keys: q ends, arrows choose a gate, Enter shows its connections, s
-/// changes the order, space pauses.
+/// changes the order, space pauses. Live parameters are shown with the connections.
 #[derive(Args)]
 #[command(after_help = "\
 Columns: CPU is the share of one processor, MEM the resident memory, RATE the messages per second (each counted once
@@ -126,6 +128,12 @@ fn table(snapshot: &Snapshot) -> String {
     if !gates.is_empty() {
         text.push('\n');
         text.push_str(&gates.text());
+    }
+    let mut parameters = empty_table(&["PARAMETER", "VALUE"]);
+    snapshot.components.iter().flat_map(parameter_cells).for_each(|row| parameters.row(row));
+    if !parameters.is_empty() {
+        text.push('\n');
+        text.push_str(&parameters.text());
     }
     text
 }

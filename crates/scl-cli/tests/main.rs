@@ -54,6 +54,8 @@ mod log;
 mod new;
 #[cfg(feature = "record")]
 mod output;
+#[cfg(feature = "observe")]
+mod parameters;
 mod plan;
 #[cfg(feature = "observe")]
 mod publish;

@@ -25,6 +25,7 @@ const COMMANDS: &[(&[&str], i32)] = &[
     (&["explain", "queue"], 0),
     (&["generate", "--for", "zmq"], 0),
     (&["generate", "--for", "python", "-o", "generated"], 0),
+    (&["get"], 0),
     (&["graph"], 0),
     (&["hz", "sensor.measurements", "--once"], 0),
     (&["hz", "sensor.measurements", "--for", "2s", "--format", "json"], 0),
@@ -50,7 +51,7 @@ const COMMANDS: &[(&[&str], i32)] = &[
 ];
 
 /// Commands that are tried elsewhere, or print nothing to standard output.
-const OTHERS: [&str; 9] = ["deploy", "gateway", "help", "new", "pub", "replay", "restart", "run", "stop"];
+const OTHERS: [&str; 10] = ["deploy", "gateway", "help", "new", "pub", "replay", "restart", "run", "set", "stop"];
 
 const FULL: &str = "error: cannot write to standard output: No space left on device (os error 28)\n";
 

@@ -1,7 +1,8 @@
 //! A component of a system: whether it runs, what it announces, and its figures.
 
 use scl::runtime_dir::{Announcement, ComponentState, ComponentStats, SystemDir};
-use scl_plan::{GatePlan, Plan};
+use scl_plan::{GatePlan, ParameterPlan, Plan};
+use serde_json::{Map, Value, json};
 use std::time::{Duration, SystemTime};
 
 /// How many periods a running component may miss before its figures count as old: a busy machine delays a write now and
@@ -22,6 +23,8 @@ pub struct Component {
     pub announcement: Option<Announcement>,
     /// Its latest figures; `None` if it writes none (`SCL_STATS=off`).
     pub stats: Option<ComponentStats>,
+    /// The values of its parameters, by name and as texts like in the topology file.
+    pub values: Vec<(String, String)>,
 }
 
 impl Component {
@@ -29,12 +32,22 @@ impl Component {
         let state = dir.state(name);
         let announcement = Announcement::read(dir, name);
         let stats = ComponentStats::read(dir, name);
-        Self { name: name.to_owned(), state, announcement, stats }
+        let mut component = Self { name: name.to_owned(), state, announcement, stats, values: Vec::new() };
+        if component.plan().is_some_and(|plan| !plan.parameters.is_empty()) {
+            component.values = scl::parameters::values(dir, name).unwrap_or_default();
+        }
+        component
     }
 
     /// A component known only from its peers' plans.
     pub(crate) fn stopped(name: &str) -> Self {
-        Self { name: name.to_owned(), state: ComponentState::Stopped, announcement: None, stats: None }
+        Self {
+            name: name.to_owned(),
+            state: ComponentState::Stopped,
+            announcement: None,
+            stats: None,
+            values: Vec::new(),
+        }
     }
 
     /// Whether a process runs it.
@@ -45,6 +58,18 @@ impl Component {
     /// Its plan, if it runs or was killed.
     pub fn plan(&self) -> Option<&Plan> {
         self.announcement.as_ref()?.plan.as_ref()
+    }
+
+    /// Its parameters, each with its value, in the order of the topology file. Those of a component of another host, or
+    /// that a tool plays, have no values here.
+    pub fn parameters(&self) -> impl Iterator<Item = (&ParameterPlan, Option<&str>)> {
+        let value = |name: &str| self.values.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str());
+        self.plan().into_iter().flat_map(|plan| &plan.parameters).map(move |plan| (plan, value(&plan.name)))
+    }
+
+    /// The values of its parameters as JSON, by name.
+    pub fn parameters_to_json(&self) -> Value {
+        self.parameters().map(|(plan, value)| (plan.name.to_string(), json!(value))).collect::<Map<_, _>>().into()
     }
 
     /// Its gates, in the order of the topology file.

@@ -50,6 +50,8 @@ pub struct ComponentRow {
     pub memory: Option<u64>,
     /// For how long it has been running.
     pub since: Option<Duration>,
+    /// Its live parameters with their values, if it runs.
+    pub parameters: Vec<(String, String)>,
 }
 
 /// One gate.
@@ -145,8 +147,14 @@ fn component_row(
         processor,
         memory: process.map(|process| process.memory),
         since: started.and_then(|started| time.duration_since(started).ok()),
+        parameters: if component.is_running() { live_parameters(component) } else { Vec::new() },
     };
     (row, measured)
+}
+
+fn live_parameters(component: &Component) -> Vec<(String, String)> {
+    let live = component.parameters().filter(|(plan, _)| plan.live);
+    live.filter_map(|(plan, value)| Some((plan.name.to_string(), value?.to_owned()))).collect()
 }
 
 fn gate_rows(component: &Component, rates: &[Option<f64>]) -> Vec<GateRow> {

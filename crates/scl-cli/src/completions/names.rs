@@ -1,4 +1,5 @@
-//! The part of the completion scripts that asks the running system for the names of its gates and components.
+//! The part of the completion scripts that asks the running system for the names of its gates, components and
+//! parameters.
 
 use clap::{Arg, Command};
 use clap_complete::Shell;
@@ -9,7 +10,7 @@ struct Place {
     command: String,
     /// `--option`, or `None` for positional arguments.
     option: Option<String>,
-    /// `gates`, `components` or both.
+    /// Any of `gates`, `components` and `parameters`.
     wanted: Vec<&'static str>,
 }
 
@@ -28,18 +29,18 @@ pub(super) fn add_names(shell: Shell, command_line: &Command, script: String) ->
     }
 }
 
-/// The arguments whose values are called GATE or COMPONENT in the help.
+/// The arguments whose values are called GATE, COMPONENT or PARAMETER in the help.
 fn places(command_line: &Command) -> Vec<Place> {
     let place = |command: &Command, argument: &Arg| {
         // Without a value name, the help shows the argument's id in capitals.
         let called = argument.get_value_names().map(|names| names.iter().map(|name| name.to_string()).collect());
         let called: Vec<String> = called.unwrap_or_else(|| vec![argument.get_id().as_str().to_uppercase()]);
         let is_called = |word: &str| {
-            let words = called.iter().flat_map(|name| name.split(['|', ',', '.']));
+            let words = called.iter().flat_map(|name| name.split(['|', ',', '.', '=']));
             words.into_iter().any(|part| part.trim_end_matches('S') == word)
         };
         let option = argument.get_long().map(|long| format!("--{long}"));
-        let wanted = [("GATE", "gates"), ("COMPONENT", "components")].into_iter();
+        let wanted = [("GATE", "gates"), ("COMPONENT", "components"), ("PARAMETER", "parameters")].into_iter();
         let wanted: Vec<&str> = wanted.filter(|(word, _)| is_called(word)).map(|(_, wanted)| wanted).collect();
         (!wanted.is_empty()).then(|| Place { command: command.get_name().to_owned(), option, wanted })
     };
@@ -61,7 +62,7 @@ fn cases(places: &[Place], indent: &str) -> String {
 fn bash(places: &[Place]) -> String {
     format!(
         r#"
-# Names of gates and components, from the running system.
+# Names of gates, components and parameters, from the running system.
 _scl_with_names() {{
     _scl "$@"
     local current=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} wanted="" system="" names="" index
@@ -75,6 +76,8 @@ _scl_with_names() {{
     [[ $wanted == *gates* ]] && names+=" $("${{COMP_WORDS[0]}}" complete-gates --system "$system" -- "$current" 2>/dev/null)"
     [[ $wanted == *components* ]] &&
         names+=" $("${{COMP_WORDS[0]}}" complete-gates --components --system "$system" -- "$current" 2>/dev/null)"
+    [[ $wanted == *parameters* ]] &&
+        names+=" $("${{COMP_WORDS[0]}}" complete-gates --parameters --system "$system" -- "$current" 2>/dev/null)"
     [[ -n $wanted ]] && COMPREPLY=($(compgen -W "$names" -- "$current"))
 }}
 complete -F _scl_with_names -o bashdefault -o default scl
@@ -88,7 +91,7 @@ complete -F _scl_with_names -o bashdefault -o default scl
 fn zsh(places: &[Place], script: &str) -> String {
     let Some((functions, _)) = script.rsplit_once("if [ \"$funcstack[1]\"") else { return script.to_owned() };
     format!(
-        r#"{functions}# Names of gates and components, from the running system.
+        r#"{functions}# Names of gates, components and parameters, from the running system.
 _scl_with_names() {{
     local wanted="" before=""
     [[ $words[CURRENT-1] == --* ]] && before=$words[CURRENT-1]
@@ -105,6 +108,8 @@ _scl_with_names() {{
     [[ $wanted == *gates* ]] && names+=(${{(f)"$("$words[1]" complete-gates $system -- "$PREFIX" 2>/dev/null)"}})
     [[ $wanted == *components* ]] &&
         names+=(${{(f)"$("$words[1]" complete-gates --components $system -- "$PREFIX" 2>/dev/null)"}})
+    [[ $wanted == *parameters* ]] &&
+        names+=(${{(f)"$("$words[1]" complete-gates --parameters $system -- "$PREFIX" 2>/dev/null)"}})
     compadd -- $names
 }}
 
@@ -122,7 +127,7 @@ fi
 fn fish(places: &[Place]) -> String {
     let mut text = String::from(
         r#"
-# Names of gates and components, from the running system.
+# Names of gates, components and parameters, from the running system.
 function __fish_scl_names
     set -l words (commandline -opc)
     set -l system
@@ -137,7 +142,10 @@ end
         let condition = format!("__fish_seen_subcommand_from {}", place.command);
         let option = place.option.as_deref().map(|option| format!(" -r -l {}", option.trim_start_matches('-')));
         for wanted in &place.wanted {
-            let list = if *wanted == "gates" { "__fish_scl_names" } else { "__fish_scl_names --components" };
+            let list = match *wanted {
+                "gates" => "__fish_scl_names".to_owned(),
+                other => format!("__fish_scl_names --{other}"),
+            };
             // Writing to a string cannot fail.
             let option = option.as_deref().unwrap_or_default();
             let _ = writeln!(text, "complete -c scl -n \"{condition}\"{option} -f -a \"({list})\"");

@@ -39,6 +39,13 @@ impl Reading {
             facts.row(["declared", &plan.declared_at]);
         }
         facts.row(["figures", &self.figures_text()]);
+        for (index, (plan, value)) in component.parameters().enumerate() {
+            let unit = plan.unit.as_ref().map_or(String::new(), |unit| format!(" {unit}"));
+            let live = if plan.live { ", live" } else { "" };
+            let value = scl_terminal::escape(value.unwrap_or("?"));
+            let label = if index == 0 { "parameters" } else { "" };
+            facts.row([label, &format!("{} = {value}{unit}{live}", plan.name)]);
+        }
         let mut gates = Table::with_headings(&["GATE", "KIND", "TYPE", "CODEC"], &["MSG/S", "DROPS", "PEERS"]);
         for (index, gate) in component.gates().iter().enumerate() {
             let figures = component.figures(index);

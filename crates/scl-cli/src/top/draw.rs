@@ -24,7 +24,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, view: &View) {
     let components = u16::try_from(view.snapshot.components.len()).unwrap_or(u16::MAX);
     // Gates keep at least half of the terminal.
     let components = components.saturating_add(1).min((frame.area().height / 2).max(2));
-    let details = view.detailed().map_or(0, |gate| details_height(gate, frame.area().height));
+    let details = view.detailed().map_or(0, |gate| details_height(gate, view, frame.area().height));
     let heights = [1, components, 1].map(Constraint::Length).into_iter();
     let heights = heights.chain([Constraint::Min(0), Constraint::Length(details), Constraint::Length(1)]);
     let [head, components, _, gates, details, foot] = Layout::vertical(heights).areas(frame.area());
@@ -99,8 +99,17 @@ fn draw_gates(frame: &mut Frame<'_>, area: Rect, view: &View) {
     frame.render_stateful_widget(table, area, &mut state);
 }
 
-fn details_height(gate: &GateRow, height: u16) -> u16 {
-    u16::try_from(gate.connections.len() + 2).unwrap_or(u16::MAX).min(height / 3)
+fn details_height(gate: &GateRow, view: &View, height: u16) -> u16 {
+    let lines = gate.connections.len() + 2 + usize::from(parameters(gate, view).is_some());
+    u16::try_from(lines).unwrap_or(u16::MAX).min(height / 3)
+}
+
+/// The live parameters of a gate's component, in a line: `gain = 2  mode = auto`; `None` if it has none.
+fn parameters(gate: &GateRow, view: &View) -> Option<Line<'static>> {
+    let component = view.snapshot.components.iter().find(|row| row.name == gate.component)?;
+    let values: Vec<String> =
+        component.parameters.iter().map(|(name, value)| format!("{name} = {}", escape(value))).collect();
+    (!values.is_empty()).then(|| Line::raw(format!("  {}", values.join("  "))))
 }
 
 fn draw_details(frame: &mut Frame<'_>, area: Rect, gate: &GateRow, view: &View) {
@@ -139,7 +148,9 @@ fn draw_details(frame: &mut Frame<'_>, area: Rect, gate: &GateRow, view: &View) 
         Line::from(vec![Span::raw(peer), Span::styled(word, coloured(colour, view.colours)), Span::raw(figures)])
     });
     frame.render_widget(
-        Paragraph::new([Line::default(), about].into_iter().chain(connections).collect::<Vec<_>>()),
+        Paragraph::new(
+            [Line::default(), about].into_iter().chain(parameters(gate, view)).chain(connections).collect::<Vec<_>>(),
+        ),
         area,
     );
 }

@@ -2,9 +2,10 @@
 
 use super::Order;
 use scl_observe::{ComponentRow, GateRow, Snapshot};
-use scl_terminal::{age_text, bytes_text, three_digits};
+use scl_terminal::{age_text, bytes_text, escape, three_digits};
 use serde_json::{Value, json};
 use std::cmp::Reverse;
+use std::collections::BTreeMap;
 
 pub(super) const COMPONENT_COLUMNS: [&str; 6] = ["COMPONENT", "STATE", "PID", "CPU", "MEM", "SINCE"];
 
@@ -43,6 +44,11 @@ pub(super) fn gate_cells(row: &GateRow) -> [String; 9] {
         count(figures.map(|it| it.lost)),
         format!("{}/{}", count(figures.map(|it| it.peers)), row.connections.len()),
     ]
+}
+
+/// A live parameter of a component, and its value.
+pub(super) fn parameter_cells(row: &ComponentRow) -> impl Iterator<Item = [String; 2]> {
+    row.parameters.iter().map(|(name, value)| [format!("{}.{name}", row.name), escape(value).into_owned()])
 }
 
 /// A count of at most seven characters.
@@ -85,6 +91,7 @@ fn component_json(row: &ComponentRow) -> Value {
         "cpu_percent": row.processor.map(|part| part * 100.0),
         "memory_bytes": row.memory,
         "since_seconds": row.since.map(|since| since.as_secs_f64()),
+        "parameters": row.parameters.iter().cloned().collect::<BTreeMap<_, _>>(),
     })
 }
 

@@ -7,6 +7,7 @@ mod latched;
 mod messages;
 mod mistakes;
 mod moved;
+mod parameters;
 mod recorder;
 mod ring;
 mod source;

@@ -15,7 +15,15 @@ use std::time::Duration;
 fn component(name: &str, activity: Activity, pid: u32, processor: f64) -> ComponentRow {
     let since = Some(Duration::from_secs(3 * u64::from(pid)));
     let memory = Some(u64::from(pid) << 15);
-    ComponentRow { name: name.to_owned(), activity, pid: Some(pid), processor: Some(processor), memory, since }
+    ComponentRow {
+        name: name.to_owned(),
+        activity,
+        pid: Some(pid),
+        processor: Some(processor),
+        memory,
+        since,
+        parameters: Vec::new(),
+    }
 }
 
 fn gate(component: &str, gate: &str, kind: GateKind, rate: f64, peers: &[(&str, bool)]) -> GateRow {
