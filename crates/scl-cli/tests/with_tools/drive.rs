@@ -41,6 +41,30 @@ fn a_wheel_is_replaced_in_each_language_recorded_and_replayed() {
     stop(chassis);
 }
 
+#[test]
+fn the_speed_is_set_while_it_drives_and_kept_over_a_restart() {
+    let _build_folder = BuildFolder::lock();
+    let system = System::of_files(&[]);
+    let run = run(&system, &["--only", "chassis,logger", "--set", "chassis.speed=0.5"]);
+    let scl = |arguments: &[&str]| {
+        let output = system.scl(arguments).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap())
+    };
+    let done = |text: &str| (Some(0), text.to_owned(), String::new());
+    let wait_for_speed = |speed: &str| {
+        scl_tests::wait_for(speed, || (scl(&["get", "chassis.speed"]) == done(speed)).then_some(()));
+    };
+    wait_for_speed("0.5\n");
+    assert_eq!(scl(&["set", "chassis.speed=2"]), done("chassis.speed: 0.5 -> 2\n"));
+    let (code, _, told) = scl(&["set", "chassis.speed=9"]);
+    assert_eq!(code, Some(2));
+    assert!(told.starts_with("error: wrong value of `chassis.speed`: `9` is not from 0 to 5\n"), "{told}");
+    let (code, _, told) = scl(&["restart", "chassis", "--no-build"]);
+    assert_eq!(code, Some(0), "{told}");
+    wait_for_speed("2\n");
+    stop(run);
+}
+
 /// What `docs/larger-systems.md` and the readme say of the file.
 #[test]
 fn the_topology_is_as_long_as_its_readme_says() {

@@ -36,7 +36,8 @@ async fn main(mut chassis: Chassis) -> scl::Result<()> {
             }
             ticked = tick.tick() => {
                 ticked?;
-                chassis.wheels.send(&Setpoint { speed: if drives { chassis.parameters.speed } else { 0.0 } }).await?;
+                let speed = if drives { chassis.parameters.speed.get() } else { 0.0 };
+                chassis.wheels.send(&Setpoint { speed }).await?;
             }
         }
     }

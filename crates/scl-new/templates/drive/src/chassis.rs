@@ -3,17 +3,17 @@
 use std::collections::HashSet;
 use std::time::Duration;
 
-use scl::{Pub, Sub};
+use scl::{Live, Pub, Sub};
 use tracing::{info, warn};
 
 use crate::WheelInstance;
 use crate::rover::{Setpoint, WheelState};
 
-/// Drives at a speed, in m/s, while all wheels report, and stops them when one does not.
+/// Drives at the speed that is set, in m/s, while all wheels report, and stops them when one does not.
 pub async fn run(
     mut setpoints: Pub<Setpoint>,
     mut states: Sub<WheelState, WheelInstance>,
-    speed: f64,
+    speed: Live<f64>,
 ) -> scl::Result<()> {
     let mut tick = scl::time::interval(Duration::from_millis(50))?;
     let mut reports = Reports::default();
@@ -33,7 +33,7 @@ pub async fn run(
             }
             ticked = tick.tick() => {
                 ticked?;
-                let speed = if reports.are_complete() { speed } else { 0.0 };
+                let speed = if reports.are_complete() { speed.get() } else { 0.0 };
                 setpoints.send(&Setpoint { speed }).await?;
             }
         }
