@@ -11,6 +11,7 @@ pub use yaml::{ReadError, read_yaml, to_yaml};
 
 use crate::error::Mismatch;
 use crate::value::{Value, key_text};
+use scl_text::excerpt::excerpt;
 
 /// Returns the bytes of an opaque message, which is given as bytes, or as a map with `hex` or `text`, whose values are
 /// taken as they were written.
@@ -28,7 +29,7 @@ pub(crate) fn opaque_bytes(value: &Value) -> Result<Vec<u8>, Mismatch> {
     if hex.ends_with("...") {
         return Err(wrong("the hexadecimal text is not complete"));
     }
-    from_hex(&hex).ok_or_else(|| wrong(&format!("expected pairs of hexadecimal digits, found `{}`", shortened(&hex))))
+    from_hex(&hex).ok_or_else(|| wrong(&format!("expected pairs of hexadecimal digits, found `{}`", excerpt(&hex))))
 }
 
 /// A scalar as it was written; `None` for null, and for a value that is not a scalar.
@@ -59,13 +60,4 @@ pub(crate) fn from_hex(text: &str) -> Option<Vec<u8>> {
 
 fn digit(byte: u8) -> Option<u8> {
     char::from(byte).to_digit(16).and_then(|digit| u8::try_from(digit).ok())
-}
-
-/// The text, or its start if it is long.
-fn shortened(text: &str) -> String {
-    const LONGEST: usize = 40;
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}...", &text[..end]),
-        None => text.to_owned(),
-    }
 }

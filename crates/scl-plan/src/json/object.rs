@@ -1,13 +1,11 @@
 //! Reads JSON values. Errors say what was expected, and where.
 
 use crate::error::PlanError;
+use scl_text::excerpt::excerpt;
 use scl_text::list::quoted_list;
 use scl_text::suggest::closest_name;
 use serde_json::{Map, Value};
 use std::fmt::Display;
-
-/// Maximum number of characters of a wrong value that an error quotes.
-const SHOWN: usize = 40;
 
 /// A value, and its path in the document.
 pub(super) struct At<'v> {
@@ -41,7 +39,7 @@ impl<'v> At<'v> {
         match object.fields.keys().find(|key| !known.contains(&key.as_str())) {
             Some(field) => Err(PlanError::UnknownField {
                 at: object.shown_path(),
-                field: shortened(field),
+                field: excerpt(field),
                 nearest: closest_name(field, known.iter().copied()),
             }),
             None => Ok(object),
@@ -51,7 +49,7 @@ impl<'v> At<'v> {
     /// The value of a field whose name is not known beforehand.
     pub(super) fn entry(&self, field: &str) -> Result<At<'v>, PlanError> {
         let value = self.fields()?.get(field).unwrap_or(&Value::Null);
-        Ok(At { value, path: joined(&self.path, &shortened(field)) })
+        Ok(At { value, path: joined(&self.path, &excerpt(field)) })
     }
 
     pub(super) fn text(&self) -> Result<&'v str, PlanError> {
@@ -83,7 +81,7 @@ impl<'v> At<'v> {
     /// The error that this value is not what it must be.
     pub(super) fn wrong(&self, expected: &str) -> PlanError {
         let at = if self.path.is_empty() { "the document" } else { &self.path };
-        PlanError::Value { at: at.to_owned(), expected: expected.to_owned(), found: shortened(&self.value.to_string()) }
+        PlanError::Value { at: at.to_owned(), expected: expected.to_owned(), found: excerpt(&self.value.to_string()) }
     }
 }
 
@@ -122,11 +120,4 @@ impl<'v> Object<'v> {
 
 fn joined(path: &str, field: &str) -> String {
     if path.is_empty() { field.to_owned() } else { format!("{path}.{field}") }
-}
-
-fn shortened(text: &str) -> String {
-    match text.char_indices().nth(SHOWN) {
-        Some((end, _)) => format!("{}...", &text[..end]),
-        None => text.to_owned(),
-    }
 }

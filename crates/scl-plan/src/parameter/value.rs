@@ -3,6 +3,7 @@
 use super::items::items;
 use super::{ParameterPlan, ParameterType, Scalar};
 use scl_text::duration::parse_duration;
+use scl_text::excerpt::excerpt;
 use scl_text::list::either;
 use scl_text::suggest::closest_name;
 use std::cmp::Ordering;
@@ -47,7 +48,7 @@ impl ParameterPlan {
         let (least, largest) = self.range.as_ref().map_or(("", ""), |(least, largest)| (least, largest));
         match is_within {
             true => Ok(value),
-            false => Err(format!("`{}` is not from {least} to {largest}", shown(text))),
+            false => Err(format!("`{}` is not from {least} to {largest}", excerpt(text))),
         }
     }
 
@@ -104,7 +105,7 @@ impl Scalar {
             Scalar::Bool => match word {
                 "true" => Ok(ParameterValue::Bool(true)),
                 "false" => Ok(ParameterValue::Bool(false)),
-                _ => Err(format!("expected `true` or `false`, found `{}`", shown(word))),
+                _ => Err(format!("expected `true` or `false`, found `{}`", excerpt(word))),
             },
             Scalar::F32 => float(word, word.parse::<f32>().ok().filter(|it| it.is_finite()).map(f64::from)),
             Scalar::F64 => float(word, word.parse::<f64>().ok().filter(|it| it.is_finite())),
@@ -114,7 +115,8 @@ impl Scalar {
             integer => {
                 let (least, largest) = integer.limits();
                 let number = word.parse::<i128>().ok().filter(|it| (least..=largest).contains(it));
-                let expected = || format!("expected a whole number from {least} to {largest}, found `{}`", shown(word));
+                let expected =
+                    || format!("expected a whole number from {least} to {largest}, found `{}`", excerpt(word));
                 number.map(ParameterValue::Integer).ok_or_else(expected)
             }
         }
@@ -137,7 +139,7 @@ impl Scalar {
 }
 
 fn float(word: &str, number: Option<f64>) -> Result<ParameterValue, String> {
-    number.map(ParameterValue::Float).ok_or_else(|| format!("expected a finite number, found `{}`", shown(word)))
+    number.map(ParameterValue::Float).ok_or_else(|| format!("expected a finite number, found `{}`", excerpt(word)))
 }
 
 /// The order of two values of the same type that can have a range.
@@ -147,14 +149,5 @@ fn order(a: &ParameterValue, b: &ParameterValue) -> Option<Ordering> {
         (ParameterValue::Float(a), ParameterValue::Float(b)) => a.partial_cmp(b),
         (ParameterValue::Duration(a), ParameterValue::Duration(b)) => Some(a.cmp(b)),
         _ => None,
-    }
-}
-
-/// At most so much of a wrong value that a line can hold it.
-fn shown(text: &str) -> String {
-    const MOST: usize = 40;
-    match text.char_indices().nth(MOST) {
-        Some((end, _)) => format!("{}...", &text[..end]),
-        None => text.to_owned(),
     }
 }
