@@ -65,6 +65,7 @@ use crate::plan::Plan;
 use crate::spec::{ComponentSpec, GateKind};
 use crate::state::{ComponentHandle, Flush, OwnedRuntime};
 use crate::stop;
+use crate::values::index_of;
 use bytes::Bytes;
 use scl_plan::ParameterValue;
 use std::io;
@@ -157,7 +158,7 @@ impl Component {
     /// Returns the value that a parameter has now; `None` if there is no parameter of this name. Only those that are
     /// live ([`ParameterPlan::live`](crate::plan::ParameterPlan::live)) have other values later.
     pub fn parameter(&self, name: &str) -> Option<ParameterValue> {
-        let index = self.spec.parameters.iter().position(|parameter| parameter.name == name)?;
+        let index = index_of(self.spec, name).ok()?;
         self.handle.0.parameters.read(index, |value, _| value.clone())
     }
 

@@ -104,13 +104,20 @@ impl Values {
     }
 }
 
+/// The index of a parameter in the component's list.
+///
+/// # Errors
+/// There is none of this name: the name that was probably meant, if there is one.
+pub(crate) fn index_of(spec: &ComponentSpec, name: &str) -> Result<usize, Option<String>> {
+    let index = spec.parameters.iter().position(|parameter| parameter.name == name);
+    index.ok_or_else(|| closest_name(name, spec.parameters.iter().map(|it| &*it.name)).map(str::to_owned))
+}
+
 /// The new value of a live parameter, and its index.
 fn read(spec: &'static ComponentSpec, name: &str, text: &str) -> Result<(usize, Value), SetError> {
     let component = spec.name;
-    let Some(index) = spec.parameters.iter().position(|parameter| parameter.name == name) else {
-        let nearest = closest_name(name, spec.parameters.iter().map(|it| &*it.name)).map(str::to_owned);
-        return Err(SetError::NoSuchParameter { component, parameter: name.to_owned(), nearest });
-    };
+    let unknown = |nearest| SetError::NoSuchParameter { component, parameter: name.to_owned(), nearest };
+    let index = index_of(spec, name).map_err(unknown)?;
     let parameter = &spec.parameters[index];
     let name = &*parameter.name;
     if !parameter.live {

@@ -5,9 +5,8 @@ use crate::error::OpenError;
 use crate::options::OpenOptions;
 use crate::set_variable;
 use crate::spec::ComponentSpec;
-use crate::values::Value;
+use crate::values::{Value, index_of};
 use scl_plan::{Assignment, ParameterPlan};
-use scl_text::suggest::closest_name;
 
 /// The values of the parameters, in file order. A value of the options counts more than one of the environment, which
 /// has no effect in a unit test. None for a tool in the place of the program.
@@ -30,11 +29,10 @@ pub(crate) fn values(
         let assignment = assignment.map_err(|reason| OpenError::Set { component: spec.name, reason })?;
         given.extend(Some(assignment).filter(|assignment| assignment.component == spec.name));
     }
-    let is_known = |name: &str| spec.parameters.iter().any(|parameter| parameter.name == name);
-    if let Some(unknown) = given.iter().find(|assignment| !is_known(&assignment.parameter)) {
-        let nearest = closest_name(&unknown.parameter, spec.parameters.iter().map(|it| &*it.name)).map(str::to_owned);
-        let parameter = unknown.parameter.clone();
-        return Err(OpenError::NoSuchParameter { component: spec.name, parameter, nearest });
+    for Assignment { parameter, .. } in &given {
+        let unknown =
+            |nearest| OpenError::NoSuchParameter { component: spec.name, parameter: parameter.clone(), nearest };
+        index_of(spec, parameter).map_err(unknown)?;
     }
     spec.parameters.iter().map(|parameter| value(spec, parameter, &given)).collect()
 }
