@@ -108,9 +108,7 @@ impl ParameterType {
             ParameterType::OneOf(_) => None,
         }
     }
-}
 
-impl ParameterType {
     /// For documentation: `` `f64` ``, ``one of `manual` and `auto` ``.
     pub fn quoted(&self) -> String {
         match self {

@@ -202,7 +202,7 @@ fn plan_from_launch_file(
         planned
     };
     let components = chosen.iter().map(plan).collect();
-    Ok(RunPlan { system: system.clone(), named_after, builds, components, gateway })
+    Ok(RunPlan { system, named_after, builds, components, gateway })
 }
 
 fn read_text(launch_path: &Path) -> Result<String, Vec<Problem>> {

@@ -6,11 +6,11 @@ use crate::error::PlanError;
 use crate::parameter::{ParameterPlan, ParameterType, Scalar};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-const FIELDS: [&str; 10] = ["name", "type", "one_of", "list", "length", "default", "range", "unit", "doc", "live"];
+const FIELDS: [&str; 11] =
+    ["name", "type", "one_of", "list", "length", "default", "range", "unit", "doc", "live", "declared_at"];
 
 pub(super) fn parameter(at: &At<'_>) -> Result<ParameterPlan, PlanError> {
-    let known: Vec<&str> = FIELDS.into_iter().chain(["declared_at"]).collect();
-    let fields = at.object(&known)?;
+    let fields = at.object(&FIELDS)?;
     let text = |field| if fields.has(field) { fields.text(field).map(|text| Some(text.into())) } else { Ok(None) };
     let range = match fields.has("range") {
         true => {
