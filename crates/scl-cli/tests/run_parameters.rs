@@ -112,7 +112,7 @@ case $(wc -l < starts) in
 2) write '{"gain": "3", "names": "[]", "pin": "7"}'; exit 1;;
 esac
 "#;
-    let launch = "components: {controller: {command: [sh, program.sh], restart: on_failure, restart_delay: 1ms, parameters: {gain: 1}}}";
+    let launch = "components: {controller: {command: [sh, program.sh], restart: on_failure, restart_delay: 1ms, parameters: {gain: 1, pin: 4}}}";
     let system = System::of_files(&[("launch.yaml", launch), ("topology.yaml", TOPOLOGY), ("program.sh", program)]);
     // An earlier run has left values behind.
     let runtime_dir = system.path("runtime");
@@ -124,11 +124,38 @@ esac
     let output = system.run(&[]);
     assert_eq!(output.status.code(), Some(0), "{}", without_times(&output.stderr));
     expect![[r#"
-        controller | controller.gain=1
-        controller | controller.gain=1,controller.gain=2,controller.names=["a, b"]
-        controller | controller.gain=1,controller.gain=3,controller.names=[]
+        controller | controller.gain=1,controller.pin=4
+        controller | controller.pin=4,controller.gain=2,controller.names=["a, b"]
+        controller | controller.pin=4,controller.gain=3,controller.names=[]
     "#]]
     .assert_eq(&String::from_utf8(output.stdout).unwrap());
+}
+
+#[test]
+fn values_that_no_program_can_be_given_are_told_before_the_start() {
+    let long = "x".repeat(60_000);
+    let topology = "\
+system: rover
+components:
+  - {name: controller, parameters: [{a: {text: \"\"}}, {b: {text: \"\"}}, {c: {text: \"\"}}], gates: []}
+";
+    let launch =
+        format!("components: {{controller: {{command: echo, parameters: {{a: {long}, b: {long}, c: {long}}}}}}}");
+    expect![[r#"
+        error: the variable `SCL_SET` of component `controller` has 180050 bytes
+          = help: it has the values of the parameters: put long ones into a file, and give its path
+          = note: the operating system passes at most 131072 to a program
+
+    "#]]
+    .assert_eq(&printed_of(&[("launch.yaml", &launch), ("topology.yaml", topology)], &[], None));
+    let launch = format!("components: {{controller: {{command: echo, environment: {{NAMES: {long}{long}{long}}}}}}}");
+    expect![[r#"
+        error: the variable `NAMES` of component `controller` has 180007 bytes
+          = help: put the value into a file, and give its path
+          = note: the operating system passes at most 131072 to a program
+
+    "#]]
+    .assert_eq(&printed_of(&[("launch.yaml", &launch)], &[], None));
 }
 
 fn set_private(folder: &std::path::Path) {

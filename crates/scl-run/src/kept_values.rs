@@ -3,7 +3,7 @@
 
 use scl::parameters::{forget_values, values};
 use scl::runtime_dir::{RuntimeDir, SystemDir};
-use scl_plan::{Assignment, SET_VARIABLE, set_text};
+use scl_plan::{Assignment, SET_VARIABLE, assignments, set_text};
 
 /// The live parameters of the components that a program opens.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -33,10 +33,12 @@ impl KeptValues {
         if kept.is_empty() {
             return None;
         }
-        let given = environment.iter().rfind(|(name, _)| name == SET_VARIABLE).map_or("", |(_, given)| given.trim());
-        // The last value of a parameter counts.
-        let comma = if given.is_empty() { "" } else { "," };
-        Some((SET_VARIABLE.to_owned(), format!("{given}{comma}{}", set_text(&kept))))
+        let given = environment.iter().rfind(|(name, _)| name == SET_VARIABLE).map_or("", |(_, given)| given);
+        // It was written by us.
+        let mut all = assignments(given).unwrap_or_default();
+        all.retain(|given| !kept.iter().any(|it| it.path() == given.path()));
+        all.extend(kept);
+        Some((SET_VARIABLE.to_owned(), set_text(&all)))
     }
 
     fn dir(&self) -> Option<SystemDir> {

@@ -3,10 +3,14 @@
 use super::command_line::shell_text;
 use super::placement::Placement;
 use super::terminal::StandardInput;
+use scl_plan::SET_VARIABLE;
 use scl_terminal::{Problem, quoted_list};
 use std::ffi::{OsStr, OsString};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
+
+/// The longest variable that Linux passes to a program, `NAME=value` with its end, in bytes.
+const LONGEST_VARIABLE: usize = 128 << 10;
 
 /// A program to start.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -122,8 +126,10 @@ impl Program {
         files.find(|file| is_executable(file))
     }
 
-    /// As [`check`](Self::check), but only whether a program without a path is installed.
+    /// As [`check`](Self::check), but only what no build can change: its variables, and whether a program without a
+    /// path is installed.
     pub(crate) fn check_installed(&self, what: &str, owner: &str) -> Result<(), Problem> {
+        self.check_variables(owner)?;
         let Some(name) = self.command.first().filter(|name| !is_path(name)) else { return Ok(()) };
         if self.find_installed(name).is_some() {
             return Ok(());
@@ -131,6 +137,21 @@ impl Program {
         let name = name.display();
         Err(Problem::new(format!("the {what} `{name}` of {owner} is not in the search path"))
             .help(format!("install it, or write its path: `./{name}` is looked up in the component's folder")))
+    }
+
+    /// A variable that is too long would end in an error of the operating system that names none.
+    fn check_variables(&self, owner: &str) -> Result<(), Problem> {
+        let length = |(name, value): &(String, String)| name.len() + "=".len() + value.len() + "\0".len();
+        let Some(variable) = self.environment.iter().find(|variable| length(variable) > LONGEST_VARIABLE) else {
+            return Ok(());
+        };
+        let (name, length) = (&variable.0, length(variable));
+        let problem = Problem::new(format!("the variable `{name}` of {owner} has {length} bytes"))
+            .note(format!("the operating system passes at most {LONGEST_VARIABLE} to a program"));
+        Err(match name == SET_VARIABLE {
+            true => problem.help("it has the values of the parameters: put long ones into a file, and give its path"),
+            false => problem.help("put the value into a file, and give its path"),
+        })
     }
 }
 
