@@ -75,6 +75,7 @@ fn a_recording_is_described_in_json() {
         "system": "rover",
         "attachments": ["plan.json"],
         "parameters": {},
+        "missed": [],
         "gates": [
             gate("controller.commands request", "rep", 1, 2, None),
             gate("controller.commands reply", "rep", 1, 4, None),

@@ -8,11 +8,13 @@
 
 mod channel_metadata;
 mod encoding;
+mod missed;
 mod topic;
 mod totals;
 
 pub use channel_metadata::ChannelMetadata;
 pub use encoding::Encoding;
+pub use missed::{MissedGate, MissedPeer};
 pub use topic::{Part, Topic};
 pub use totals::{GateTotals, Totals};
 
@@ -27,6 +29,10 @@ pub const PLAN: &str = "plan.json";
 /// Whenever values have changed, the file gets another attachment with this name, whose `log_time` is when the recorder
 /// has seen that. It looks twice a second.
 pub const PARAMETERS: &str = "parameters.json";
+
+/// Attachment: the gates that have missed messages since the recording began, as JSON: a list of [`MissedGate`]s. Like
+/// the values of parameters, it is attached again whenever a count has risen.
+pub const MISSED: &str = "missed.json";
 
 /// Attachment: the topology file, if it was found.
 pub const TOPOLOGY: &str = "topology.yaml";

@@ -12,6 +12,7 @@ mod file;
 mod file_names;
 mod gate;
 mod losses;
+mod missed;
 mod options;
 mod parameters;
 mod plans;
@@ -31,10 +32,12 @@ pub use report::Report;
 pub use trigger::trigger;
 pub(crate) use write_error::text_of;
 
+use crate::format::PARAMETERS;
 use collector::Collector;
 use contents::Contents;
 use continuous::Continuous;
 use file_names::{FileNames, Numbering};
+use missed::Missed;
 use options::Notes;
 use parameters::Parameters;
 use plans::Plans;
@@ -69,7 +72,7 @@ async fn record_async(system: &System, options: &Options) -> Result<Report, Prob
         system: system.name().to_owned(),
         attached: options.attached.clone(),
         plan,
-        parameters: parameters.update(system, &plans),
+        latest: parameters.update(system, &plans).map(|values| (PARAMETERS, values)).into_iter().collect(),
         gates: Vec::new(),
     };
     let (destination, trigger) = open_store(system, options, &contents, &notes)?;
@@ -89,8 +92,9 @@ async fn record_async(system: &System, options: &Options) -> Result<Report, Prob
     let storage = storage.map_err(|error| Problem::new(format!("cannot start a thread: {error}")))?;
     let started = Instant::now();
     let (losses, initial) = (Vec::new(), taps.gates().len());
-    let unconnected = initial;
-    let collector = Collector { system, taps, queue, trigger, notes, losses, plans, parameters, initial, unconnected };
+    let (missed, unconnected) = (Missed::start(system, &plans), initial);
+    let collector =
+        Collector { system, taps, queue, trigger, notes, losses, plans, parameters, missed, initial, unconnected };
     collector.run(signals, options.run_for, &progress, stopped).await;
     let duration = started.elapsed();
     let Outcome { files, deleted, totals, problem } =

@@ -22,7 +22,7 @@ pub use overview::Attachment;
 pub(crate) use records::Records;
 pub use survey::{Survey, SurveyedTopic};
 
-use crate::format::{GateTotals, PARAMETERS, PLAN, Totals};
+use crate::format::{GateTotals, MISSED, MissedGate, PARAMETERS, PLAN, Totals};
 use overview::Overview;
 use scl_plan::SystemPlan;
 use scl_terminal::Problem;
@@ -84,6 +84,13 @@ impl Recording {
     pub fn parameters(&self) -> BTreeMap<String, BTreeMap<String, String>> {
         let values = self.attachment(PARAMETERS).map(|(_, values)| serde_json::from_slice(&values.data));
         values.and_then(Result::ok).unwrap_or_default()
+    }
+
+    /// The gates that have missed messages during the recording, sorted by name; empty if there are none, or the
+    /// recording does not tell.
+    pub fn missed(&self) -> Vec<MissedGate> {
+        let missed = self.attachment(MISSED).map(|(_, missed)| serde_json::from_slice(&missed.data));
+        missed.and_then(Result::ok).unwrap_or_default()
     }
 
     /// Wall-clock times of the first and the last message, in nanoseconds since 1970; `None` without messages.

@@ -1,7 +1,7 @@
 //! What is in a recording.
 
 use crate::format::{FormatArgument, print_json};
-use scl_record::format::{GateTotals, Topic};
+use scl_record::format::{GateTotals, MissedGate, Topic};
 use scl_record::recording::{Recording, Survey, SurveyedTopic, find_files};
 use scl_terminal::{Problem, Table, bytes_text, print_err, print_out, timestamp};
 use serde_json::{Value, json};
@@ -48,6 +48,9 @@ fn to_text(recording: &Recording, survey: &Survey) -> String {
     for (index, (component, (name, value))) in values.enumerate() {
         let label = if index == 0 { "parameters" } else { "" };
         facts.row([label, &scl_terminal::escape(&format!("{component}.{name} = {value}"))]);
+    }
+    for (index, gate) in recording.missed().iter().enumerate() {
+        facts.row([if index == 0 { "missed" } else { "" }, &missed_text(gate)]);
     }
     let mut text = facts.text();
     let totals = recording.totals();
@@ -99,10 +102,19 @@ fn to_json(recording: &Recording, survey: &Survey) -> Value {
         "system": recording.plan().ok().flatten().map(|plan| plan.system),
         "attachments": attachments(recording),
         "parameters": recording.parameters(),
+        "missed": recording.missed(),
         "gates": gates.collect::<Vec<_>>(),
         "others": others.collect::<Vec<_>>(),
         "notes": notes(recording, survey).collect::<Vec<_>>(),
     })
+}
+
+/// `controller.sensor 4, of sensor.measurements 4`
+fn missed_text(missed: &MissedGate) -> String {
+    let peers = missed.peers.iter().filter(|peer| peer.missed > 0);
+    let peers: Vec<String> = peers.map(|peer| format!("{} {}", peer.gate, peer.missed)).collect();
+    let peers = if peers.is_empty() { String::new() } else { format!(", of {}", peers.join(", ")) };
+    scl_terminal::escape(&format!("{} {}{peers}", missed.gate, missed.missed)).into_owned()
 }
 
 /// The names of its attachments, each once.

@@ -5,6 +5,7 @@ mod disk;
 mod hostile;
 mod latched;
 mod messages;
+mod missed;
 mod mistakes;
 mod moved;
 mod parameters;

@@ -3,13 +3,14 @@
 use super::contents::now_ns;
 use super::gate::Message;
 use super::losses::Losses;
+use super::missed::Missed;
 use super::options::Notes;
 use super::parameters::Parameters;
 use super::plans::Plans;
 use super::queue::QueueSender;
 use super::storage::{Command, Progress, SaveAnswer};
 use super::trigger::{TriggerListener, answer};
-use crate::format::{Part, sequence};
+use crate::format::{MISSED, PARAMETERS, Part, sequence};
 use crate::record::file::WrittenFile;
 use scl::tap::{Observation, ObservedKind, TapEvent};
 use scl_observe::{ObservedGate, StopSignals, System, Taps, TapsEvent};
@@ -20,7 +21,7 @@ use tokio::signal::unix::Signal;
 use tokio::sync::oneshot;
 use tokio::time::{Instant, MissedTickBehavior, interval, sleep, timeout};
 
-/// Interval at which the figures on a terminal are updated, and the values of parameters are read.
+/// Interval at which the figures on a terminal are updated, and the files of the components are read.
 const SHOW: Duration = Duration::from_millis(500);
 
 /// At the end of recording: after how long without a message no more are expected, and how long to wait in any case.
@@ -39,6 +40,7 @@ pub(crate) struct Collector<'a> {
     pub(crate) losses: Vec<Losses>,
     pub(crate) plans: Plans,
     pub(crate) parameters: Parameters,
+    pub(crate) missed: Missed,
     /// Number of gates that were running at the beginning, and of those that are not connected yet.
     pub(crate) initial: usize,
     pub(crate) unconnected: usize,
@@ -74,7 +76,7 @@ impl Collector<'_> {
                     tokio::spawn(async move { answer(stream, &result_of(saved).await).await });
                 }
                 _ = show.tick() => {
-                    self.look_at_parameters();
+                    self.look_at_files();
                     self.notes.show(progress);
                 }
                 event = self.taps.next() => self.handle(event),
@@ -82,7 +84,7 @@ impl Collector<'_> {
         };
         if is_stored {
             self.take_arrived().await;
-            self.look_at_parameters();
+            self.look_at_files();
         }
         for (gate, losses) in self.losses.iter_mut().enumerate() {
             let lost = losses.take();
@@ -106,9 +108,12 @@ impl Collector<'_> {
         }
     }
 
-    fn look_at_parameters(&mut self) {
-        if let Some(values) = self.parameters.update(self.system, &self.plans) {
-            self.queue.command(Command::Parameters(values));
+    /// Looks at what the components write into files.
+    fn look_at_files(&mut self) {
+        let parameters = self.parameters.update(self.system, &self.plans).map(|values| (PARAMETERS, values));
+        let missed = self.missed.update(self.system, &self.plans).map(|missed| (MISSED, missed));
+        for (name, latest) in [parameters, missed].into_iter().flatten() {
+            self.queue.command(Command::Latest(name, latest));
         }
     }
 

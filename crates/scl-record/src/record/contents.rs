@@ -2,9 +2,10 @@
 
 use super::file::RecordingFile;
 use super::write_error::WriteError;
-use crate::format::{PARAMETERS, PLAN};
+use crate::format::PLAN;
 use bytes::Bytes;
 use scl_observe::ObservedGate;
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
@@ -25,8 +26,8 @@ pub(crate) struct Contents {
     pub(crate) attached: Vec<AttachedFile>,
     /// The plans of all components that were seen, as JSON.
     pub(crate) plan: Bytes,
-    /// The values of the parameters, as JSON, if there are any.
-    pub(crate) parameters: Option<Bytes>,
+    /// What changes during the recording, as JSON by the name of its attachment.
+    pub(crate) latest: BTreeMap<&'static str, Bytes>,
     /// The gates by their numbers.
     pub(crate) gates: Vec<ObservedGate>,
 }
@@ -48,8 +49,8 @@ impl Contents {
             recording.attach(attached.name, "application/yaml", &attached.data, now_ns())?;
         }
         attach_plan(&mut recording, &self.plan)?;
-        if let Some(parameters) = &self.parameters {
-            attach_parameters(&mut recording, parameters)?;
+        for (name, latest) in &self.latest {
+            attach_latest(&mut recording, name, latest)?;
         }
         for (number, gate) in self.gates.iter().enumerate() {
             recording.add_gate(number, gate)?;
@@ -65,9 +66,9 @@ pub(crate) fn attach_plan(recording: &mut RecordingFile, plan: &[u8]) -> Result<
     recording.attach(PLAN, "application/json", plan, now_ns())
 }
 
-/// Adds the values of the parameters to a recording.
-pub(crate) fn attach_parameters(recording: &mut RecordingFile, values: &[u8]) -> Result<(), WriteError> {
-    recording.attach(PARAMETERS, "application/json", values, now_ns())
+/// Adds what has changed to a recording.
+pub(crate) fn attach_latest(recording: &mut RecordingFile, name: &str, latest: &[u8]) -> Result<(), WriteError> {
+    recording.attach(name, "application/json", latest, now_ns())
 }
 
 /// Returns the current time in nanoseconds since 1970 by `CLOCK_REALTIME`, the clock of the taps.

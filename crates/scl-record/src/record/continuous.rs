@@ -1,6 +1,6 @@
 //! Recording into one file, or into several files one after the other.
 
-use super::contents::{Contents, attach_parameters, attach_plan};
+use super::contents::{Contents, attach_latest, attach_plan};
 use super::file::{RecordingFile, WrittenFile};
 use super::file_names::FileNames;
 use super::gate::Message;
@@ -97,8 +97,8 @@ impl Continuous {
         self.with_file(|file| attach_plan(file, &contents.plan))
     }
 
-    pub(crate) fn attach_parameters(&mut self, values: &[u8]) -> Result<(), Problem> {
-        self.with_file(|file| attach_parameters(file, values))
+    pub(crate) fn attach_latest(&mut self, name: &str, latest: &[u8]) -> Result<(), Problem> {
+        self.with_file(|file| attach_latest(file, name, latest))
     }
 
     pub(crate) fn count_lost(&mut self, gate: usize, lost: u64) {

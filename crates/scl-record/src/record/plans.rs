@@ -31,6 +31,14 @@ impl Plans {
         plans.map(|(component, _)| component.as_str())
     }
 
+    /// The components with gates whose messages must come in time.
+    pub(crate) fn with_time(&self) -> impl Iterator<Item = &Plan> {
+        let is_timed = |plan: &&Plan| {
+            plan.gates.iter().any(|gate| gate.options.period.is_some() || gate.options.deadline.is_some())
+        };
+        self.by_component.values().filter(is_timed)
+    }
+
     fn read(&mut self, system: &System) -> bool {
         let mut changed = false;
         for component in system.components() {

@@ -24,8 +24,8 @@ pub(crate) enum Command {
     Gate(ObservedGate),
     /// The plans of all components that were seen.
     Plan(Bytes),
-    /// The values of the parameters.
-    Parameters(Bytes),
+    /// What has changed, and the name of its attachment.
+    Latest(&'static str, Bytes),
     /// The number of a gate, and of its messages lost after the last recorded one.
     Lost(usize, u64),
     /// Write the ring to a file and send the result; without a ring, flush the current file.
@@ -143,12 +143,12 @@ fn handle(store: &mut Store, contents: &mut Contents, command: Command, totals: 
                 Store::Ring(_) => Ok(()),
             }
         }
-        Command::Parameters(values) => {
+        Command::Latest(name, latest) => {
             let attached = match store {
-                Store::Continuous(continuous) => continuous.attach_parameters(&values),
+                Store::Continuous(continuous) => continuous.attach_latest(name, &latest),
                 Store::Ring(_) => Ok(()),
             };
-            contents.parameters = Some(values);
+            contents.latest.insert(name, latest);
             attached
         }
         Command::Lost(gate, lost) => {
