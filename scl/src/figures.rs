@@ -67,10 +67,10 @@ impl GateFigures {
     pub(crate) fn share(&mut self) {
         let all = self.connections.len() as u64;
         let of_each = |count: u64| if all == 1 { count } else { 0 };
-        let (taken, missed) = (of_each(self.received), of_each(self.missed));
+        let (taken, missed, expired) = (of_each(self.received), of_each(self.missed), of_each(self.expired));
         for connection in &mut self.connections {
             connection.connected = self.peers >= all;
-            (connection.taken, connection.missed) = (taken, missed);
+            (connection.taken, connection.missed, connection.expired) = (taken, missed, expired);
         }
     }
 

@@ -93,6 +93,7 @@ fn link_spec(connection: &ConnectionPlan) -> ConnectionSpec {
         queue: connection.queue,
         when_full: connection.when_full,
         max_size: connection.max_size,
+        max_age: connection.max_age,
     }
 }
 

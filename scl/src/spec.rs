@@ -2,6 +2,8 @@
 
 mod plan;
 
+use std::time::Duration;
+
 pub use scl_plan::{GateKind, GateOptions, ParameterPlan, Undecodable, WhenFull};
 
 /// A component: its name and its gates.
@@ -107,4 +109,7 @@ pub struct ConnectionSpec {
     pub when_full: WhenFull,
     /// The longest message that the peer accepts from this gate, in bytes.
     pub max_size: u64,
+    /// How old a message may be when the receiving gate's program receives it. If it is given, the sender says when it
+    /// has sent each.
+    pub max_age: Option<Duration>,
 }

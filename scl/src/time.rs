@@ -2,10 +2,14 @@
 
 mod clock;
 mod rounded;
+#[cfg(feature = "zeromq")]
+mod stamp;
 mod timer;
 mod watchdog;
 
 pub(crate) use rounded::Rounded;
+#[cfg(feature = "zeromq")]
+pub(crate) use stamp::{stamp_of, time_of};
 #[doc(hidden)]
 pub use timer::Timer;
 pub(crate) use watchdog::Watchdog;

@@ -1,5 +1,7 @@
 //! The integration tests of the crate, in one binary.
 
+#[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]
+mod age;
 #[cfg(all(feature = "json", feature = "memory"))]
 mod auto_traits;
 #[cfg(all(feature = "json", feature = "memory", feature = "protobuf", feature = "zeromq"))]

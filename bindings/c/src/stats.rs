@@ -12,8 +12,8 @@ use std::time::Instant;
 /// with NUL, and stores its length without the NUL in `*len`:
 ///
 ///     {"sent": 2, "received": 0, "replaced": 0, "dropped_oldest": 0, "dropped_newest": 0, "dropped_for_observers": 0,
-///      "lost": 0, "rejected": 0, "undecodable": 0, "missed": 0, "bytes": 12, "waiting": 0, "peers": 1,
-///      "idle_ns": 1500000,
+///      "lost": 0, "rejected": 0, "undecodable": 0, "missed": 0, "expired": 0, "bytes": 12, "waiting": 0,
+///      "peers": 1, "idle_ns": 1500000,
 ///      "connections": [{"peer": "controller.sensor", "connected": true, "published": 2, "taken": 2, "replaced": 0,
 ///      "dropped_oldest": 0, "dropped_newest": 0, "lost": 0, "waiting": 0}]}
 ///
@@ -57,6 +57,7 @@ fn counts(open: &OpenGate) -> Value {
         "rejected": stats.rejected,
         "undecodable": stats.undecodable,
         "missed": stats.missed,
+        "expired": stats.expired,
         "bytes": stats.bytes,
         "waiting": stats.waiting + usize::from(open.kept.is_some()),
         "peers": stats.peers,

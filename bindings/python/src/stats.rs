@@ -24,7 +24,7 @@ macro_rules! set_fields {
 fn counts(dict: &Bound<'_, PyDict>, stats: &GateStats) -> PyResult<()> {
     let idle = stats.last_activity.map(|last| Instant::now().saturating_duration_since(last).as_secs_f64());
     set_fields!(dict, stats: sent, received, replaced, dropped_oldest, dropped_newest, dropped_for_observers, lost);
-    set_fields!(dict, stats: rejected, undecodable, missed, bytes, waiting, peers);
+    set_fields!(dict, stats: rejected, undecodable, missed, expired, bytes, waiting, peers);
     dict.set_item("idle_seconds", idle)
 }
 

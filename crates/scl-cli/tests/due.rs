@@ -1,4 +1,4 @@
-//! `rate` and `deadline`: what a sender that is too slow looks like.
+//! `rate`, `deadline` and `max_age`: what senders and receivers that are too slow look like.
 
 use crate::rover::{COMPONENTS, Rover, TOPOLOGY};
 use crate::system::kill;
@@ -43,4 +43,35 @@ fn a_sender_that_is_too_slow_is_shown_at_both_ends() {
     }
     // Gates without such options miss nothing.
     assert_eq!(missed(&rover.json(&["info", "controller.position", "--format", "json"])), 0);
+}
+
+#[test]
+fn a_receiver_that_is_too_slow_is_shown() {
+    let newest_only = "sensor: {sub: rover.Measurement, queue: 1}";
+    let topology = TOPOLOGY.replace(newest_only, "sensor: {sub: rover.Measurement, queue: 200, max_age: 150ms}");
+    let mut rover = Rover::of(&topology);
+    rover.play(&COMPONENTS, |_| {});
+    let count = |info: &Value, name: &str| info["figures"][name].as_u64().unwrap();
+
+    // What is sent while the receiver is stopped waits for it, and is sent at 50 Hz.
+    let before = count(&rover.json(&["info", "sensor.measurements", "--format", "json"]), "sent");
+    kill("-STOP", rover.process_id("controller"));
+    rover.wait_for(&["info", "sensor.measurements"], |info| (count(info, "sent") > before + 100).then_some(()));
+    kill("-CONT", rover.process_id("controller"));
+    let receiver =
+        rover.wait_for(&["info", "controller.sensor"], |info| (count(info, "expired") >= 10).then(|| info.clone()));
+    assert!(count(&receiver, "received") >= count(&receiver, "expired"), "{receiver:#}");
+    assert_eq!(receiver["options"]["max_age_s"], json!(0.15));
+    assert_eq!(receiver["peers"][0]["figures"]["expired"], receiver["figures"]["expired"]);
+    let text = rover.text(&["info", "controller.sensor"]);
+    for shown in ["\n  max_age    150ms\n", "\n  expired    ", " LOST  EXPIRED\n"] {
+        assert!(text.contains(shown), "{shown}: {text}");
+    }
+    let top = rover.json(&["top", "--once", "--format", "json"]);
+    let gates = top["gates"].as_array().unwrap();
+    let shown = gates.iter().find(|gate| gate["gate"] == "controller.sensor").unwrap_or_else(|| panic!("{top:#}"));
+    assert!(shown["expired"].as_u64().unwrap() >= 10, "{shown:#}");
+    let (found, finding) =
+        (rover.text(&["doctor"]), "warning  time: `controller.sensor` of system `rover` has dropped ");
+    assert!(found.contains(finding), "{found}");
 }

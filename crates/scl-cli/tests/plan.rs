@@ -200,7 +200,7 @@ fn the_format_is_documented() {
     );
     let yaml = yaml
         .replace("codec: json}", "codec: json, rate: 100Hz}")
-        .replace("codec: json, queue: 1}", "codec: json, queue: 1, deadline: 1s}")
+        .replace("codec: json, queue: 1}", "codec: json, queue: 1, deadline: 1s, max_age: 1s}")
         .replace(
             "components:\n",
             "kinds:\n  - {name: lamp, parameters: PARAMETERS, gates: []}\ncomponents:\n  - {name: red, kind: lamp}\n",

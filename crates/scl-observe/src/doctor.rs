@@ -6,10 +6,10 @@ mod descriptors;
 mod environment;
 mod folder;
 mod limits;
-mod missed;
 mod peers;
 mod processors;
 mod real_time;
+mod time;
 mod undecodable;
 
 use crate::{Component, System};
@@ -78,7 +78,7 @@ pub fn examine(
         components::check,
         peers::check,
         undecodable::check,
-        missed::check,
+        time::check,
         descriptors::check,
         limits::check,
         real_time::check,

@@ -100,6 +100,7 @@ fn options_to_json(plan: &GatePlan) -> Value {
         "timeout_s": options.timeout.as_secs_f64(),
         "period_s": options.period.map(|period| period.as_secs_f64()),
         "deadline_s": options.deadline.map(|deadline| deadline.as_secs_f64()),
+        "max_age_s": options.max_age.map(|max_age| max_age.as_secs_f64()),
     })
 }
 
@@ -121,6 +122,7 @@ fn connection_to_json(figures: &ConnectionFigures) -> Value {
         "taken": figures.taken,
         "latched": figures.latched,
         "missed": figures.missed,
+        "expired": figures.expired,
         "replaced": figures.replaced,
         "dropped": figures.dropped,
         "lost": figures.lost,
@@ -144,6 +146,7 @@ fn figures_to_json(plan: &GatePlan, figures: &GateFigures) -> Value {
         "rejected": figures.rejected,
         "undecodable": figures.undecodable,
         "missed": figures.missed,
+        "expired": figures.expired,
         "last_activity": figures.last_activity.map(timestamp),
     })
 }

@@ -68,6 +68,7 @@ fn opposite_gate(component: &str, peer: &str, gate: &GatePlan, connection: &Conn
     let options = GateOptions {
         queue: if receives_only { connection.queue } else { GateOptions::DEFAULT.queue },
         when_full: connection.when_full,
+        max_age: if kind.is_source() { None } else { connection.max_age },
         ..GateOptions::DEFAULT
     };
     GatePlan {
@@ -89,6 +90,7 @@ fn opposite_gate(component: &str, peer: &str, gate: &GatePlan, connection: &Conn
             queue: connection.queue,
             when_full: connection.when_full,
             max_size: if receives_only { options.max_size } else { gate.options.max_size },
+            max_age: connection.max_age,
         }],
         options,
     }

@@ -56,5 +56,6 @@ fn connection(owner: &str, gate: &GatePlan, endpoint: String, contract: String) 
         queue: gate.options.queue,
         when_full: gate.options.when_full,
         max_size: if receives { u64::MAX } else { gate.options.max_size },
+        max_age: if receives { None } else { gate.options.max_age },
     }
 }

@@ -50,6 +50,9 @@ gate_options! {
     period "period_ns": Interval(Option<Duration>) = None,
     /// How often the gate needs a message of each peer, in the same range. It has an effect for `sub` and `pull`.
     deadline "deadline_ns": Interval(Option<Duration>) = None,
+    /// How old a message may be when the program receives it, in the same range; older ones are dropped. It has an
+    /// effect for `sub` and `pull`.
+    max_age "max_age_ns": Interval(Option<Duration>) = None,
 }
 
 impl GateOptions {

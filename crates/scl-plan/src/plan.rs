@@ -5,6 +5,7 @@ use crate::options::GateOptions;
 use crate::parameter::ParameterPlan;
 use std::fmt;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Everything a program needs to run one component.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -87,6 +88,19 @@ pub struct ConnectionPlan {
     /// The longest message that the peer accepts from this gate, in bytes. For a gate that only receives, its own
     /// limit.
     pub max_size: u64,
+    /// How old a message may be when the receiving gate's program receives it. If it is given, the sender says when it
+    /// has sent each.
+    #[cfg_attr(
+        feature = "json",
+        serde(rename = "max_age_ns", skip_serializing_if = "Option::is_none", serialize_with = "nanoseconds")
+    )]
+    pub max_age: Option<Duration>,
+}
+
+#[cfg(feature = "json")]
+fn nanoseconds<S: serde::Serializer>(duration: &Option<Duration>, serializer: S) -> Result<S::Ok, S::Error> {
+    let nanoseconds = duration.map(|duration| u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX));
+    serde::Serialize::serialize(&nanoseconds, serializer)
 }
 
 /// What a gate carries.

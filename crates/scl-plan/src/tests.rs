@@ -18,6 +18,7 @@ fn connection(peer_component: &str, peer_gate: &str, endpoint: &str) -> Connecti
         queue: 1,
         when_full: WhenFull::Wait,
         max_size: 67_108_864,
+        max_age: None,
     }
 }
 
@@ -283,8 +284,8 @@ fn errors_say_what_is_wrong_and_where() {
         gate `controller.pub_gate` allows no call to be in progress
         gate `controller.pub_gate` has a timeout of zero or of more than a day
         gate `controller.pub_gate` has a timeout of zero or of more than a day
-        gate `controller.pub_gate` has a period or a deadline of zero or of more than a day
-        gate `controller.pub_gate` has a period or a deadline of zero or of more than a day
+        gate `controller.pub_gate` has a period, a deadline or a greatest age of zero or of more than a day
+        gate `controller.pub_gate` has a period, a deadline or a greatest age of zero or of more than a day
         `components[0].schema` refers to `1a2c`, which is not in `schemas`
         `schemas.1a2b` must be bytes in Base64, but it is "AP8HCg="
         gate `controller.pub_gate` is declared twice

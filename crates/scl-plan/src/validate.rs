@@ -126,11 +126,11 @@ fn validate_gate(part: &str, gate: &GatePlan) -> Result<(), PlanError> {
         part,
         "has a timeout of zero or of more than a day",
     )?;
-    let mut intervals = gate.options.period.iter().chain(&gate.options.deadline);
+    let mut intervals = gate.options.period.iter().chain(&gate.options.deadline).chain(&gate.options.max_age);
     ensure(
         intervals.all(|interval| !interval.is_zero() && *interval <= LONGEST),
         part,
-        "has a period or a deadline of zero or of more than a day",
+        "has a period, a deadline or a greatest age of zero or of more than a day",
     )?;
     let one_replier = kind != GateKind::Req || gate.connections.len() <= 1;
     ensure(one_replier, part, "is a `req` gate with several repliers")?;

@@ -1,5 +1,6 @@
 //! The checks: a [`Model`] becomes a [`Topology`], or every reason why it cannot is reported.
 
+mod age;
 mod all_rules;
 mod backpressure;
 mod circles;
@@ -153,6 +154,7 @@ pub(crate) const RULES: &[&Rule] = &[
     &time::TOO_SHORT,
     &time::NO_PROMISE,
     &time::TWICE,
+    &age::TOO_OLD,
     &parameter::NO_PARAMETER,
     &parameter::WRONG_VALUE,
     &parameter::NO_EFFECT,
@@ -248,6 +250,7 @@ pub fn check(model: &Model, facts: &Facts, sources: &Sources, problems: &mut Dia
     short_timeout::check(&draft, problems);
     memory::check(&draft, problems);
     time::check(&draft, problems);
+    age::check(&draft, problems);
     island::check(&draft, problems);
     path_length::check(&draft, &parameters, &facts.sockets, &system, problems);
     let connection_room = facts.sockets.connection_room(&system);

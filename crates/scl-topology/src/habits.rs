@@ -211,6 +211,11 @@ pub(crate) static GATE: Table = Table::new(&[
     habit("frequency hz ratehz fps publishrate samplerate", &["rate"], ""),
     habit("interval cycle cycletime every periodms publishperiod", &["period"], ""),
     habit("maxperiod maxinterval", &["deadline"], ""),
+    habit(
+        "age maxage lifespan ttl lifetime expiry expires expiration stale staleafter freshness validity",
+        &["max_age"],
+        "",
+    ),
     habit("retries retry maxretries attempts backoff", &[], "there is no option for retries: the program calls again"),
     habit(
         "type msgtype msg message messagetype schema datatype payload interface",
@@ -222,11 +227,7 @@ pub(crate) static GATE: Table = Table::new(&[
         &[],
         "the kind is a key, with the type as its value, as in `pub: package.Message`",
     ),
-    habit(
-        "priority lifespan ttl expiry security encryption auth partition ordering unit",
-        &[],
-        "there is no such option",
-    ),
+    habit("priority security encryption auth partition ordering unit", &[], "there is no such option"),
     habit(
         "transport protocol shm ipc tcp udp",
         &[],

@@ -76,6 +76,7 @@ fn resolve_connection(topology: &Topology, gate: GateId, id: ConnectionId) -> Co
         queue: receiver.queue,
         when_full: receiver.when_full,
         max_size: max_size(topology, gate, id),
+        max_age: receiver.max_age,
     }
 }
 

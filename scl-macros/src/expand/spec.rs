@@ -78,13 +78,21 @@ fn expand_option(private: &TokenStream, options: &GateOptions, access: OptionAcc
 }
 
 fn expand_connection(private: &TokenStream, connection: &ConnectionPlan) -> TokenStream {
-    let ConnectionPlan { peer_component, peer_gate, endpoint, contract, required, queue, when_full, max_size } =
+    let ConnectionPlan { peer_component, peer_gate, endpoint, contract, required, queue, when_full, max_size, max_age } =
         connection;
+    let max_age = match max_age {
+        Some(max_age) => {
+            let max_age = expand_duration(private, *max_age);
+            quote!(Some(#max_age))
+        }
+        None => quote!(None),
+    };
     let when_full = variant(when_full);
     quote! {
         #private::ConnectionSpec {
             peer_component: #peer_component, peer_gate: #peer_gate, endpoint: #endpoint, contract: #contract,
             required: #required, queue: #queue, when_full: #private::WhenFull::#when_full, max_size: #max_size,
+            max_age: ::core::option::Option::#max_age,
         }
     }
 }

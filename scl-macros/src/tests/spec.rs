@@ -64,7 +64,7 @@ connections:
         name : "measurements" , kind : scl :: private :: GateKind :: Pub , payload : "rover.Measurement" , codec : "protobuf" , declared_at : "t.yaml:5:9" , endpoint : "" , tap : "sensor.measurements.tap" , contract : "hl75aqsl" , options : scl :: private :: GateOptions {
         .. scl :: private :: GateOptions :: DEFAULT }
         , connections : & [scl :: private :: ConnectionSpec {
-        peer_component : "controller" , peer_gate : "sensor" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "hl75aqsl" , required : true , queue : 1u32 , when_full : scl :: private :: WhenFull :: DropOldest , max_size : 67108864u64 , }] , }] , schema : :: core :: option :: Option :: None , }
+        peer_component : "controller" , peer_gate : "sensor" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "hl75aqsl" , required : true , queue : 1u32 , when_full : scl :: private :: WhenFull :: DropOldest , max_size : 67108864u64 , max_age : :: core :: option :: Option :: None , }] , }] , schema : :: core :: option :: Option :: None , }
         ;
         fn assemble (__opener : & mut scl :: private :: Opener) -> :: core :: result :: Result < Self , scl :: private :: OpenError > {
         :: core :: result :: Result :: Ok (Self {
@@ -82,7 +82,7 @@ connections:
         name : "measurements" , kind : scl :: private :: GateKind :: Sub , payload : "rover.Measurement" , codec : "protobuf" , declared_at : "t.yaml:5:9" , endpoint : "" , tap : "" , contract : "hl75aqsl" , options : scl :: private :: GateOptions {
         max_size : 18446744073709551615u64 , queue : 4294967295u32 , when_full : scl :: private :: WhenFull :: Wait , backpressure : true , timeout : scl :: private :: Duration :: new (10u64 , 0u32) , in_flight : 64u32 , undecodable : scl :: private :: Undecodable :: Fail , .. scl :: private :: GateOptions :: DEFAULT }
         , connections : & [scl :: private :: ConnectionSpec {
-        peer_component : "sensor" , peer_gate : "measurements" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "hl75aqsl" , required : true , queue : 100u32 , when_full : scl :: private :: WhenFull :: DropOldest , max_size : 18446744073709551615u64 , }] , }] , schema : :: core :: option :: Option :: None , }
+        peer_component : "sensor" , peer_gate : "measurements" , endpoint : "sensor.measurements--controller.sensor.hl75aqsl" , contract : "hl75aqsl" , required : true , queue : 100u32 , when_full : scl :: private :: WhenFull :: DropOldest , max_size : 18446744073709551615u64 , max_age : :: core :: option :: Option :: None , }] , }] , schema : :: core :: option :: Option :: None , }
         ;
         fn assemble (__opener : & mut scl :: private :: Opener) -> :: core :: result :: Result < Self , scl :: private :: OpenError > {
         :: core :: result :: Result :: Ok (Self {

@@ -25,7 +25,7 @@ use crate::transport::{Disconnected, Driven, Frame, Link, Loan, Peer, PeerKind, 
 use account::Account;
 use std::collections::VecDeque;
 use std::task::{Context, Poll, Waker};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// One connection at its sending end.
 pub(crate) struct Connection {
@@ -70,10 +70,11 @@ impl Connection {
         component_changes: Changes,
         has_ended: Option<EndCheck>,
     ) -> Self {
+        let queue = Queue::new(policy(spec, link));
         Self {
             sender,
             peer: None,
-            queue: Queue::new(policy(spec, link)),
+            queue: if link.max_age.is_some() { queue.timed() } else { queue },
             foreign: Vec::new(),
             foreign_left: Counts::default(),
             task: Waker::noop().clone(),
@@ -125,7 +126,12 @@ impl Connection {
         match &mut self.peer {
             Some(link) if self.queue.is_empty() => {
                 let length = message.len();
-                match link.send(&mut Context::from_waker(&self.task), message) {
+                let cx = &mut Context::from_waker(&self.task);
+                let sent = match self.link.max_age {
+                    None => link.send(cx, message),
+                    Some(_) => link.send_timed(cx, message, Instant::now()),
+                };
+                match sent {
                     Sent::Sent => self.account.hand(length),
                     Sent::Full(message) | Sent::Deferred(message) | Sent::Gone(message) => self.keep(message),
                 }
@@ -234,7 +240,7 @@ impl Connection {
             // The queued messages must stay for the component, which may still connect, so a foreign peer gets copies.
             let copy = |frame: &mut Frame| Frame::from(frame.make_bytes().clone());
             let mut waiting = match self.peer {
-                None => self.queue.items_mut().iter_mut().map(copy).collect(),
+                None => self.queue.parts_mut().0.iter_mut().map(copy).collect(),
                 Some(_) => VecDeque::new(),
             };
             self.latch.iter().for_each(|latch| latch.join_foreign(&mut waiting));
@@ -265,7 +271,11 @@ impl Connection {
         let account = &mut self.account;
         if let Some(link) = &mut self.peer {
             let joined = self.latch.as_ref().and_then(|latch| latch.take_joined(&mut self.queue));
-            link.send_all(&mut cx, driven, self.queue.items_mut(), &mut |length| account.hand(length));
+            let mut sent = |length| account.hand(length);
+            match self.queue.parts_mut() {
+                (items, None) => link.send_all(&mut cx, driven, items, &mut sent),
+                (items, Some(times)) => link.send_all_timed(&mut cx, driven, items, times, &mut sent),
+            }
             if let (Some(joined), Some(latch)) = (joined, &mut self.latch) {
                 send_joined(&mut **link, latch, &mut self.queue, account, joined, &mut cx);
             }
@@ -339,7 +349,7 @@ fn send_joined(
             account.hand(length);
             latch.note_sent();
         }
-        Some(message) => queue.items_mut().push_back(message),
+        Some(message) => queue.push_back(message),
     }
 }
 

@@ -279,7 +279,7 @@ impl Inbox {
         let gone = if !self.queue.is_full() {
             self.queue.push(arrived);
             None
-        } else if arrived.latched.is_some() && self.queue.policy.when_full == WhenFull::DropNewest {
+        } else if arrived.is_latched && self.queue.policy.when_full == WhenFull::DropNewest {
             // A latched message is the current state, so it must not be dropped in favour of older messages.
             self.queue.push_over_newest(arrived).map(|newest| newest.link)
         } else {
@@ -331,6 +331,7 @@ impl Inbox {
             rejected: undecodable + self.links.malformed(),
             undecodable,
             missed: self.links.missed(now),
+            expired: self.links.expired(),
             replaced: self.queue.replaced,
             dropped_oldest: self.queue.dropped_oldest,
             dropped_newest: self.queue.dropped_newest,

@@ -87,7 +87,7 @@ impl<T> Incoming<T> {
                 let arrived = self.inbox.io.call(polled).await;
                 let Some(arrived) = arrived else { return self.refuse() };
                 caller = Caller::NewCall;
-                if let Some(decoded) = unless_skipped(self.spec, decode(self, arrived)) {
+                if let Some(decoded) = self.usable(arrived, &decode) {
                     return decoded;
                 }
             }
@@ -101,7 +101,7 @@ impl<T> Incoming<T> {
         state.may_block().map_err(blocking)?;
         let caller = match self.wait_directly(Duration::MAX) {
             Err(caller) => caller,
-            Ok(arrived) => match unless_skipped(self.spec, decode(self, arrived)) {
+            Ok(arrived) => match self.usable(arrived, &decode) {
                 Some(decoded) => return decoded,
                 None => Caller::NewCall,
             },
@@ -116,7 +116,7 @@ impl<T> Incoming<T> {
         let started = Instant::now();
         let caller = match self.wait_directly(timeout) {
             Err(caller) => caller,
-            Ok(arrived) => match unless_skipped(self.spec, self.decode(arrived)) {
+            Ok(arrived) => match self.usable(arrived, Self::decode) {
                 Some(decoded) => return Ok(decoded?),
                 None => Caller::NewCall,
             },
@@ -146,7 +146,7 @@ impl<T> Incoming<T> {
             let Some(arrived) = ready!(self.poll_arrived(cx, Caller::Stream)) else {
                 return Poll::Ready(self.refuse());
             };
-            if let Some(decoded) = unless_skipped(self.spec, self.decode(arrived)) {
+            if let Some(decoded) = self.usable(arrived, Self::decode) {
                 return Poll::Ready(decoded);
             }
         }
@@ -200,7 +200,7 @@ impl<T> Incoming<T> {
         let mut limit = SkipLimit::default();
         loop {
             let Some(arrived) = self.inbox.lock().try_next() else { return Ok(None) };
-            if let Some(decoded) = unless_skipped(self.spec, decode(self, arrived)) {
+            if let Some(decoded) = self.usable(arrived, &decode) {
                 return decoded.map(Some);
             }
             if limit.is_over() {
@@ -221,11 +221,22 @@ impl<T> Incoming<T> {
 
     fn newest_of(&mut self, arrived: &mut VecDeque<Arrived>) -> Result<Option<T>, RecvError> {
         while let Some(newest) = arrived.pop_back() {
-            if let Some(decoded) = unless_skipped(self.spec, self.decode(newest)) {
+            if let Some(decoded) = self.usable(newest, Self::decode) {
                 return decoded.map(Some);
             }
         }
         Ok(None)
+    }
+
+    /// Decodes a message; `None` for one that the program does not get, because it is too old or cannot be read.
+    fn usable<R>(&mut self, arrived: Arrived, decode: impl Decode<T, R>) -> Option<Result<R, RecvError>> {
+        if let (Some(most), Some(sent)) = (self.spec.options.max_age, arrived.sent)
+            && sent.elapsed() > most
+        {
+            self.inbox.lock().links.count_expired(arrived.link);
+            return None;
+        }
+        unless_skipped(self.spec, decode(self, arrived))
     }
 
     fn take_turn(&mut self) -> Result<(), RecvError> {
@@ -238,8 +249,8 @@ impl<T> Incoming<T> {
         RecvError::Blocking { gate: self.name, source }
     }
 
-    fn decode(&mut self, Arrived { link, frame, latched }: Arrived) -> Result<T, RecvError> {
-        (self.last, self.latched) = (Some(link), latched);
+    fn decode(&mut self, Arrived { link, frame, sent, is_latched }: Arrived) -> Result<T, RecvError> {
+        (self.last, self.latched) = (Some(link), sent.filter(|_| is_latched));
         self.decoder.decode(frame).map_err(|source| self.undecodable(link, source))
     }
 
@@ -360,8 +371,8 @@ impl<T: FromBytes + KnownLayout + Immutable> Incoming<T> {
         Err(RecvError::NoViews { gate: self.name, codec: self.spec.codec })
     }
 
-    fn view(&mut self, Arrived { link, frame, latched }: Arrived) -> Result<View<T>, RecvError> {
-        (self.last, self.latched) = (Some(link), latched);
+    fn view(&mut self, Arrived { link, frame, sent, is_latched }: Arrived) -> Result<View<T>, RecvError> {
+        (self.last, self.latched) = (Some(link), sent.filter(|_| is_latched));
         let received = frame.len();
         View::new(frame).ok_or_else(|| self.undecodable(link, Raw::wrong_length::<T>(received)))
     }

@@ -45,7 +45,7 @@ impl Latch {
         self.is_queued &= !queue.is_empty();
         let is_missing = !self.is_queued && (self.is_dropped || peer.is_none() || peer != before);
         if is_missing {
-            queue.items_mut().push_back(last.clone().into());
+            queue.push_back(last.clone().into());
             (self.is_queued, self.is_dropped) = (true, false);
         }
         self.has_joined = self.is_queued;
@@ -72,7 +72,7 @@ impl Latch {
     /// Takes the last message from the back of the queue, with its age, if the subscriber is to be told that it is old.
     pub(super) fn take_joined(&self, queue: &mut Queue<Frame>) -> Option<(Frame, Duration)> {
         let (_, sent) = self.last.as_ref().filter(|_| self.has_joined)?;
-        Some((queue.items_mut().pop_back()?, sent.elapsed()))
+        Some((queue.pop_back()?, sent.elapsed()))
     }
 
     /// Called when the last message was sent to the subscriber that has joined.

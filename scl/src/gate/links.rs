@@ -20,6 +20,8 @@ pub(super) struct Links {
     drained: Drained,
     waker: Waker,
     changes: Changes,
+    /// Whether the program gets only messages that are not too old.
+    is_timed: bool,
 }
 
 struct Link {
@@ -38,14 +40,19 @@ struct Link {
     due: Option<Due>,
     /// Whether nothing is due while no peer is connected.
     is_optional: bool,
+    /// Number of messages that were too old when the program was to receive them.
+    expired: u64,
 }
 
 /// A message and the link that it came from.
 pub(super) struct Arrived {
     pub(super) link: usize,
     pub(super) frame: Bytes,
-    /// When it was sent, if that was before this gate had joined.
-    pub(super) latched: Option<Instant>,
+    /// When it was sent, if that was before this gate had joined, or if the gate has a greatest age. A sender that does
+    /// not tell has sent it when it arrived.
+    pub(super) sent: Option<Instant>,
+    /// Whether it was sent before this gate had joined.
+    pub(super) is_latched: bool,
 }
 
 impl Links {
@@ -60,6 +67,7 @@ impl Links {
             waiting: 0,
             is_awaited: false,
             due: spec.options.deadline.map(Due::needed),
+            expired: 0,
             is_optional: match listens {
                 true => spec.connections.iter().all(|connection| !connection.required),
                 false => spec.connections.get(number).is_some_and(|connection| !connection.required),
@@ -67,7 +75,8 @@ impl Links {
         };
         let links = ends.into_iter().enumerate().map(to_link).collect();
         let waker = Waker::from(Arc::clone(&io));
-        Self { links, next: 0, drained: Drained::new(io), waker, changes }
+        let is_timed = spec.options.max_age.is_some();
+        Self { links, next: 0, drained: Drained::new(io), waker, changes, is_timed }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -108,7 +117,11 @@ impl Links {
                     due.add(Instant::now());
                 }
                 let latched = if link.is_latched { link.end.take_latched() } else { None };
-                return Poll::Ready(Arrived { link: number, frame, latched });
+                let sent = match latched {
+                    None if self.is_timed => Some(link.end.take_sent().unwrap_or_else(Instant::now)),
+                    latched => latched,
+                };
+                return Poll::Ready(Arrived { link: number, frame, sent, is_latched: latched.is_some() });
             }
         }
         self.drained.set();
@@ -213,6 +226,16 @@ impl Links {
         self.links.iter().map(|link| link.end.malformed()).sum()
     }
 
+    /// Counts a message that was too old when the program was to receive it.
+    pub(super) fn count_expired(&mut self, link: usize) {
+        self.links[link].expired += 1;
+    }
+
+    /// Number of such messages.
+    pub(super) fn expired(&self) -> u64 {
+        self.links.iter().map(|link| link.expired).sum()
+    }
+
     /// How many messages did not come within the gate's deadline.
     pub(super) fn missed(&self, now: Instant) -> u64 {
         self.links.iter().map(|link| link.missed(now)).sum()
@@ -239,7 +262,7 @@ impl Links {
     pub(super) fn add_to_figures(&self, figures: &mut GateFigures, now: Instant) {
         for (connection, link) in figures.connections.iter_mut().zip(&self.links) {
             (connection.connected, connection.taken) = (link.end.peers() > 0, link.received);
-            connection.missed = link.missed(now);
+            (connection.missed, connection.expired) = (link.missed(now), link.expired);
         }
     }
 }

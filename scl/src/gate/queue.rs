@@ -3,6 +3,7 @@
 
 use crate::spec::WhenFull;
 use std::collections::VecDeque;
+use std::time::Instant;
 
 /// How many messages may wait, and what happens to one more.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,6 +17,8 @@ pub(crate) struct QueuePolicy {
 /// Messages that wait, oldest first.
 pub(crate) struct Queue<T> {
     items: VecDeque<T>,
+    /// When each of them was put here, if somebody wants to know.
+    times: Option<VecDeque<Instant>>,
     pub(crate) policy: QueuePolicy,
     /// Messages replaced by a newer one in a queue where only the newest counts; not counted as dropped.
     pub(crate) replaced: u64,
@@ -42,7 +45,12 @@ impl QueuePolicy {
 
 impl<T> Queue<T> {
     pub(crate) fn new(policy: QueuePolicy) -> Self {
-        Self { items: VecDeque::new(), policy, replaced: 0, dropped_oldest: 0, dropped_newest: 0 }
+        Self { items: VecDeque::new(), times: None, policy, replaced: 0, dropped_oldest: 0, dropped_newest: 0 }
+    }
+
+    /// A queue that keeps the times of its messages.
+    pub(crate) fn timed(self) -> Self {
+        Self { times: Some(VecDeque::new()), ..self }
     }
 
     pub(crate) fn push(&mut self, item: T) -> Pushed {
@@ -60,36 +68,61 @@ impl<T> Queue<T> {
     /// already received the messages.
     pub(crate) fn replace(&mut self, item: T) -> Pushed {
         if !self.is_full() {
-            self.items.push_back(item);
+            self.push_back(item);
             return Pushed::Stored;
         }
         if self.policy.when_full == WhenFull::DropNewest {
             return Pushed::Dropped;
         }
-        self.items.pop_front();
-        self.items.push_back(item);
+        self.pop();
+        self.push_back(item);
         Pushed::ReplacedOldest
     }
 
     /// Stores a message that must not be dropped. If the queue is full, drops its newest message instead and returns
     /// it.
     pub(crate) fn push_over_newest(&mut self, item: T) -> Option<T> {
-        let newest = if self.is_full() { self.items.pop_back() } else { None };
+        let newest = if self.is_full() { self.pop_back() } else { None };
         self.dropped_newest += u64::from(newest.is_some());
-        self.items.push_back(item);
+        self.push_back(item);
         newest
     }
 
     pub(crate) fn pop(&mut self) -> Option<T> {
+        if let Some(times) = &mut self.times {
+            times.pop_front();
+        }
         self.items.pop_front()
+    }
+
+    /// Adds a message, whether there is room or not.
+    pub(crate) fn push_back(&mut self, item: T) {
+        if let Some(times) = &mut self.times {
+            times.push_back(Instant::now());
+        }
+        self.items.push_back(item);
+    }
+
+    /// Takes the newest message.
+    pub(crate) fn pop_back(&mut self) -> Option<T> {
+        if let Some(times) = &mut self.times {
+            times.pop_back();
+        }
+        self.items.pop_back()
+    }
+
+    /// Returns the waiting messages, for a link that takes several at once, and their times, if this queue keeps them.
+    pub(crate) fn parts_mut(&mut self) -> (&mut VecDeque<T>, Option<&mut VecDeque<Instant>>) {
+        (&mut self.items, self.times.as_mut())
     }
 
     pub(crate) fn front(&self) -> Option<&T> {
         self.items.front()
     }
 
-    /// Returns the waiting messages, for a link that takes several at once.
+    /// Returns the waiting messages of a queue without times.
     pub(crate) fn items_mut(&mut self) -> &mut VecDeque<T> {
+        debug_assert!(self.times.is_none(), "each message has its time");
         &mut self.items
     }
 

@@ -30,6 +30,9 @@ pub struct GateStats {
     /// Messages that did not come when they were due: those that a sending gate did not send in the `rate` or `period`
     /// that it promises, those that a receiving gate did not get within its `deadline`, each sender counted.
     pub missed: u64,
+    /// Of `received`, those that the program did not get, because they were older than the `max_age` of the gate by
+    /// then.
+    pub expired: u64,
     /// Bytes of the messages sent or received.
     pub bytes: u64,
     /// Messages that wait in this program for a peer or for a receiving call.
@@ -89,6 +92,7 @@ impl GateStats {
             rejected: figures.rejected,
             undecodable: figures.undecodable,
             missed: figures.missed,
+            expired: figures.expired,
             bytes: figures.bytes,
             waiting: figures.waiting as usize,
             peers: figures.peers as usize,

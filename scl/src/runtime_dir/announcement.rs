@@ -220,6 +220,7 @@ mod tests {
             queue: 1,
             when_full: WhenFull::Wait,
             max_size: 1,
+            max_age: None,
         }
     }
 
@@ -294,6 +295,7 @@ mod tests {
             queue: 100,
             when_full: WhenFull::DropOldest,
             max_size: 1 << 26,
+            max_age: None,
         }
     }
 

@@ -62,6 +62,8 @@ pub struct GateFigures {
     pub undecodable: u64,
     /// Messages that were not sent in the promised period, or not received within the deadline.
     pub missed: u64,
+    /// Messages that were too old when the program would have received them, and were dropped.
+    pub expired: u64,
     /// Bytes of the messages sent or received.
     pub bytes: u64,
     /// Messages that wait in the program's queues.
@@ -104,6 +106,8 @@ pub struct ConnectionFigures {
     /// Messages that a gate that receives did not get from this peer within its deadline, or 0 if that is not known
     /// because several peers share an endpoint.
     pub missed: u64,
+    /// Messages of this peer that were too old when the program would have received them, or 0 if that is not known.
+    pub expired: u64,
 }
 
 impl ConnectionFigures {

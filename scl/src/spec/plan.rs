@@ -51,6 +51,7 @@ fn connection_plan(connection: &ConnectionSpec) -> ConnectionPlan {
         queue: connection.queue,
         when_full: connection.when_full,
         max_size: connection.max_size,
+        max_age: connection.max_age,
     }
 }
 

@@ -59,6 +59,12 @@ pub trait Receiver: Send {
         None
     }
 
+    /// Returns when the message returned last was sent, if its sender has told that, see
+    /// [`Link::send_timed`](super::Link::send_timed). Call it right after [`poll_recv`](Self::poll_recv).
+    fn take_sent(&mut self) -> Option<Instant> {
+        None
+    }
+
     /// Number of messages skipped because they did not consist of exactly one frame.
     fn malformed(&self) -> u64 {
         0

@@ -4,7 +4,7 @@ use super::{Frame, Loan};
 use std::collections::VecDeque;
 use std::hash::{BuildHasher, RandomState};
 use std::task::{Context, Poll};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A sending end: the listening end of a `pub` connection, or a connecting `push` end.
 pub trait Sender: Send {
@@ -76,6 +76,28 @@ pub trait Link: Send {
                 Some(message) => return queue.push_front(message),
             }
         }
+    }
+
+    /// [`send`](Self::send) for a receiver that wants to know how old messages are: also tells it when this one was
+    /// sent, if the peer understands that. The default sends only the message.
+    fn send_timed(&mut self, cx: &mut Context<'_>, message: Frame, sent: Instant) -> Sent {
+        let _the_peer_does_not_learn_it = sent;
+        self.send(cx, message)
+    }
+
+    /// [`send_all`](Self::send_all) for such a receiver: `times` says when each message of the queue was sent, and
+    /// loses those of the messages that leave it.
+    fn send_all_timed(
+        &mut self,
+        cx: &mut Context<'_>,
+        driven: Option<Driven>,
+        queue: &mut VecDeque<Frame>,
+        times: &mut VecDeque<Instant>,
+        sent: &mut dyn FnMut(usize),
+    ) {
+        debug_assert_eq!(queue.len(), times.len(), "each message has its time");
+        self.send_all(cx, driven, queue, sent);
+        times.drain(..times.len() - queue.len());
     }
 
     /// Sends a message that was published `age` ago, before the peer joined, and tells the peer its age, if the peer

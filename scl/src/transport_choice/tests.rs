@@ -14,6 +14,7 @@ const fn connection(peer_component: &'static str, peer_gate: &'static str) -> Co
         queue: 10,
         when_full: WhenFull::DropOldest,
         max_size: 1 << 20,
+        max_age: None,
     }
 }
 

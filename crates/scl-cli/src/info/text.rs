@@ -2,9 +2,9 @@
 
 use super::Reading;
 use crate::list::state_text;
-use scl::runtime_dir::GateFigures;
+use scl::runtime_dir::{ConnectionFigures, GateFigures};
 use scl_observe::{Component, Peer, connected_peers, message_count, peers};
-use scl_plan::{GateKind, GatePlan};
+use scl_plan::{GateKind, GateOptions, GatePlan};
 use scl_terminal::{Table, age_text, bytes_text, three_digits};
 use scl_text::duration;
 use std::time::SystemTime;
@@ -88,8 +88,7 @@ impl Reading {
             None => facts.row(["figures", &self.figures_text()]),
         }
         let peers = peers(plan, figures);
-        let has_deadline = plan.options.deadline.is_some();
-        let peers = if peers.is_empty() { "  peers    none\n".to_owned() } else { peer_table(&peers, has_deadline) };
+        let peers = if peers.is_empty() { "  peers    none\n".to_owned() } else { peer_table(&peers, &plan.options) };
         format!("{}.{}\n{}\n{peers}", component.name, plan.name, facts.text())
     }
 
@@ -110,6 +109,7 @@ impl Reading {
             ("rejected", figures.rejected),
             ("undecodable", figures.undecodable),
             ("missed", figures.missed),
+            ("expired", figures.expired),
             ("tap drops", figures.tap_dropped),
         ] {
             if count > 0 {
@@ -157,17 +157,29 @@ fn options(plan: &GatePlan) -> Vec<(&'static str, String)> {
     if kind == GateKind::Req {
         rows.push(("timeout", duration::text(options.timeout)));
     }
-    for (label, interval) in [("period", options.period), ("deadline", options.deadline)] {
+    for (label, interval) in [("period", options.period), ("deadline", options.deadline), ("max_age", options.max_age)]
+    {
         rows.extend(interval.map(|interval| (label, duration::text(interval))));
     }
     rows.push(("max_size", bytes_text(options.max_size as f64)));
     rows
 }
 
-fn peer_table(peers: &[Peer<'_>], has_deadline: bool) -> String {
-    let counts = ["QUEUE", "WAITING", "TAKEN", "REPLACED", "DROPPED", "LOST", "MISSED"];
-    let shown = if has_deadline { counts.len() } else { counts.len() - 1 };
-    let mut table = Table::with_headings(&["PEER", "CONNECTED"], &counts[..shown]).indented(2);
+/// A column of figures of a connection.
+type Column = (&'static str, fn(&ConnectionFigures) -> u64);
+
+fn peer_table(peers: &[Peer<'_>], options: &GateOptions) -> String {
+    let mut columns: Vec<Column> = vec![
+        ("WAITING", |it| it.waiting),
+        ("TAKEN", |it| it.taken),
+        ("REPLACED", |it| it.replaced),
+        ("DROPPED", |it| it.dropped),
+        ("LOST", |it| it.lost),
+    ];
+    columns.extend(options.deadline.map(|_| -> Column { ("MISSED", |it| it.missed) }));
+    columns.extend(options.max_age.map(|_| -> Column { ("EXPIRED", |it| it.expired) }));
+    let headings: Vec<_> = ["QUEUE"].into_iter().chain(columns.iter().map(|(heading, _)| *heading)).collect();
+    let mut table = Table::with_headings(&["PEER", "CONNECTED"], &headings).indented(2);
     for peer in peers {
         let connected = match peer.connected {
             Some(true) => "yes",
@@ -175,11 +187,9 @@ fn peer_table(peers: &[Peer<'_>], has_deadline: bool) -> String {
             Some(false) => "no (optional)",
             None => "?",
         };
-        let counts = peer.figures.map(|it| [it.waiting, it.taken, it.replaced, it.dropped, it.lost, it.missed]);
-        let figures =
-            counts.map_or_else(|| ["?"; 6].map(str::to_owned), |counts| counts.map(|count| count.to_string()));
+        let count = |of: &fn(&ConnectionFigures) -> u64| peer.figures.map_or("?".to_owned(), |it| of(it).to_string());
         let start = [peer.name(), connected.to_owned(), peer.plan.queue.to_string()];
-        table.row(start.into_iter().chain(figures.into_iter().take(shown - 1)));
+        table.row(start.into_iter().chain(columns.iter().map(|(_, of)| count(of))));
     }
     table.text()
 }

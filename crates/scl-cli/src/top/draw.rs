@@ -118,10 +118,15 @@ fn draw_details(frame: &mut Frame<'_>, area: Rect, gate: &GateRow, view: &View) 
         .figures
         .as_ref()
         .map_or("rejected -".to_owned(), |it| format!("rejected {}  undecodable {}", it.rejected, it.undecodable));
-    // Only gates that declare a time miss messages.
-    let missed = gate.figures.as_ref().map(|it| it.missed).filter(|missed| *missed > 0);
-    let missed = missed.map_or(String::new(), |missed| format!("  missed {missed}"));
-    let about = format!("{}  {}  {}  {bytes}  {counts}{missed}", gate.name(), gate.payload, gate.codec);
+    // Only gates that declare a time have these.
+    let timed = gate.figures.as_ref().map_or([0; 2], |it| [it.missed, it.expired]);
+    let timed: String = ["missed", "expired"]
+        .into_iter()
+        .zip(timed)
+        .filter(|(_, count)| *count > 0)
+        .map(|(word, count)| format!("  {word} {count}"))
+        .collect();
+    let about = format!("{}  {}  {}  {bytes}  {counts}{timed}", gate.name(), gate.payload, gate.codec);
     let about = Line::styled(escape(&about).into_owned(), Modifier::BOLD);
     let connections = gate.connections.iter().enumerate().map(|(index, connection)| {
         let (word, colour) = match connection.connected {
@@ -138,9 +143,10 @@ fn draw_details(frame: &mut Frame<'_>, area: Rect, gate: &GateRow, view: &View) 
                 ("dropped", it.dropped),
                 ("lost", it.lost),
                 ("missed", it.missed),
+                ("expired", it.expired),
             ];
-            // Only a connection with `queue: 1` replaces messages, and only one with a deadline misses some.
-            let is_rare = |word: &str| matches!(word, "replaced" | "missed");
+            // Only a connection with `queue: 1`, `deadline` or `max_age` has these.
+            let is_rare = |word: &str| matches!(word, "replaced" | "missed" | "expired");
             let shown = counts.into_iter().filter(|(word, count)| !is_rare(word) || *count > 0);
             shown.map(|(word, count)| format!("  {word} {count}")).collect()
         });

@@ -112,6 +112,7 @@ fn gate_json(row: &GateRow) -> Value {
         "rejected": figures.map(|it| it.rejected),
         "undecodable": figures.map(|it| it.undecodable),
         "missed": figures.map(|it| it.missed),
+        "expired": figures.map(|it| it.expired),
         "bytes": figures.map(|it| it.bytes),
         "connected": figures.map(|it| it.peers),
         "peers": row.connections.iter().map(|it| json!({"gate": it.peer, "connected": it.connected})).collect::<Vec<_>>(),

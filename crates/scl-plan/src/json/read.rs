@@ -162,7 +162,9 @@ fn connection(at: &At<'_>) -> Result<ConnectionPlan, PlanError> {
         "queue",
         "when_full",
         "max_size",
+        "max_age_ns",
     ])?;
+    let max_age = fields.has("max_age_ns").then(|| fields.field("max_age_ns")?.number(u64::MAX));
     Ok(ConnectionPlan {
         peer_component: fields.text("peer_component")?,
         peer_gate: fields.text("peer_gate")?,
@@ -172,5 +174,6 @@ fn connection(at: &At<'_>) -> Result<ConnectionPlan, PlanError> {
         queue: fields.field("queue")?.number(u32::MAX)?,
         when_full: fields.field("when_full")?.word(&WhenFull::WORDS, WhenFull::of)?,
         max_size: fields.field("max_size")?.number(u64::MAX)?,
+        max_age: max_age.transpose()?.map(Duration::from_nanos),
     })
 }

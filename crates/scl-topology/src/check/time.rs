@@ -65,7 +65,7 @@ pub(crate) const TWICE: Rule = Rule {
 };
 
 /// How many senders a problem names.
-const MOST_NAMED: usize = 3;
+pub(super) const MOST_NAMED: usize = 3;
 
 pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
     for gate in 0..draft.gates.len() {
@@ -94,7 +94,7 @@ pub(super) fn check(draft: &Draft<'_>, problems: &mut Diagnostics) {
 }
 
 /// How long it takes at most until a peer gets the next message, if the gate says so.
-fn promise(draft: &Draft<'_>, source: usize) -> Option<Duration> {
+pub(super) fn promise(draft: &Draft<'_>, source: usize) -> Option<Duration> {
     let options = &draft.gates[source].options;
     options.period.filter(|_| !options.share)
 }
@@ -112,12 +112,12 @@ fn twice(draft: &Draft<'_>, gate: usize) -> Option<Diagnostic> {
 fn too_short(draft: &Draft<'_>, source: usize, sink: usize, period: Duration, deadline: Duration) -> Diagnostic {
     let (sender, receiver) = (draft.shared_path(source), draft.shared_path(sink));
     let [needed, promised] = [deadline, period].map(text);
-    let key = if draft.gates[source].option("rate").is_some() { "rate" } else { "period" };
+    let key = promise_key(draft, source);
     let headline = format!("`{receiver}` needs a message every {needed}, and `{sender}` promises one every {promised}");
     let (longer, faster) = (text(period * 2), text(deadline / 2));
     let found = TOO_SHORT
         .at(headline, place(draft, sink, "deadline"), format!("at least one in {needed}"))
-        .label(place(draft, source, key), format!("one in {promised}"))
+        .label(promise_place(draft, source), format!("one in {promised}"))
         .suggest(
             format!("write `deadline: {longer}` at `{receiver}`, which leaves room for a late message"),
             [draft.with_option(sink, "deadline", &longer)],
@@ -152,13 +152,23 @@ fn no_promise(draft: &Draft<'_>, sink: usize, senders: &[usize]) -> Diagnostic {
     })
 }
 
+/// The place of a sender's promise.
+pub(super) fn promise_place(draft: &Draft<'_>, source: usize) -> Span {
+    place(draft, source, promise_key(draft, source))
+}
+
+/// The option with which a sender promises how often it sends.
+fn promise_key(draft: &Draft<'_>, source: usize) -> &'static str {
+    if draft.gates[source].option("rate").is_some() { "rate" } else { "period" }
+}
+
 /// The place of an option.
 fn place(draft: &Draft<'_>, gate: usize, key: &str) -> Span {
     written(&draft.gates[gate], key).unwrap_or(draft.gates[gate].model.span)
 }
 
 /// The place of an option, if it is written.
-fn written(gate: &DraftGate<'_>, key: &str) -> Option<Span> {
+pub(super) fn written(gate: &DraftGate<'_>, key: &str) -> Option<Span> {
     gate.option(key).map(|option| option.key.span.to(option.value.span))
 }
 

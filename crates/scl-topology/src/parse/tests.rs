@@ -89,7 +89,7 @@ fn every_key() {
               setpoint: sub Some("rover.Setpoint") queue=1
               log: pub Some("rover.Event")
             controller None
-              sensor: sub Some("rover.Measurement") queue=1 deadline=20ms
+              sensor: sub Some("rover.Measurement") queue=1 deadline=20ms max_age=50ms
               actuator: pub None
               events: pub Some("rover.Event") backpressure=true codec=my_crate::Flat
               commands: rep Some("rover.Command -> rover.Status") unconnected=ok

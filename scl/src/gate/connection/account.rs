@@ -64,6 +64,7 @@ impl Connection {
             in_flight: not_received,
             latched: self.account.latched,
             missed: 0,
+            expired: 0,
         };
         all.activity.add_to(gate);
         gate.sent += all.sent;

@@ -46,6 +46,7 @@ impl Build {
             queue: 1,
             when_full: WhenFull::DropOldest,
             max_size: 1 << 20,
+            max_age: None,
         };
         let gate = GateSpec {
             name,

@@ -16,8 +16,8 @@ pub(super) const BODY: usize = 24;
 pub(super) const COUNTER: usize = 8;
 
 const HEADER: usize = 72;
-const GATE: usize = 128;
-const CONNECTION: usize = 72;
+const GATE: usize = 136;
+const CONNECTION: usize = 80;
 /// The lengths in version 2: what a record has at least.
 const FIXED_GATE: usize = 120;
 const FIXED_CONNECTION: usize = 64;
@@ -70,6 +70,7 @@ fn put_gate(gate: &GateFigures, block: &mut Vec<u8>) {
     block.put_u32_le(count(gate.connections.len()));
     block.put_u32_le(0);
     block.put_u64_le(gate.missed);
+    block.put_u64_le(gate.expired);
     for one in &gate.connections {
         for number in [
             u64::from(one.connected),
@@ -81,6 +82,7 @@ fn put_gate(gate: &GateFigures, block: &mut Vec<u8>) {
             one.in_flight,
             one.latched,
             one.missed,
+            one.expired,
         ] {
             block.put_u64_le(number);
         }
@@ -151,6 +153,7 @@ fn take_gate(rest: &mut &[u8], lengths: &Lengths) -> Option<GateFigures> {
     let connections = record.try_get_u32_le().ok()?;
     let _reserved = record.try_get_u32_le().ok()?;
     gate.missed = record.try_get_u64_le().unwrap_or(0);
+    gate.expired = record.try_get_u64_le().unwrap_or(0);
     gate.connections = (0..connections).map(|_| take_connection(rest, lengths)).collect::<Option<_>>()?;
     Some(gate)
 }
@@ -168,6 +171,7 @@ fn take_connection(rest: &mut &[u8], lengths: &Lengths) -> Option<ConnectionFigu
         in_flight: number()?,
         latched: number()?,
         missed: number().unwrap_or(0),
+        expired: number().unwrap_or(0),
     })
 }
 
@@ -200,6 +204,7 @@ mod tests {
             in_flight: 17,
             latched: 19,
             missed: 20,
+            expired: 22,
         };
         let gate = GateFigures {
             sent: 1,
@@ -217,6 +222,7 @@ mod tests {
             last_activity: Some(at(3)),
             replaced: 18,
             missed: 21,
+            expired: 23,
             connections: vec![connection, ConnectionFigures::default()],
         };
         ComponentStats {
@@ -240,15 +246,16 @@ mod tests {
         assert_eq!((number(16), number(block.len() - 8)), (0x99, 0x99));
         assert_eq!((number(24), number(32), number(40)), (1_000_000_000, 500_000_000, 2_000));
         assert_eq!((short(48), short(52), short(56)), (77, 1, 2));
-        assert_eq!((short(60), short(64), short(68)), (128, 72, 0));
+        assert_eq!((short(60), short(64), short(68)), (136, 80, 0));
         assert_eq!((0..12).map(|index| number(72 + 8 * index)).collect::<Vec<_>>(), (1..13).collect::<Vec<_>>());
-        assert_eq!((number(72 + 96), number(72 + 104), number(72 + 120)), (3_000_000_000, 18, 21));
+        assert_eq!((number(72 + 96), number(72 + 104)), (3_000_000_000, 18));
+        assert_eq!((number(72 + 120), number(72 + 128)), (21, 23));
         assert_eq!((short(72 + 112), short(72 + 116)), (2, 0));
         assert_eq!(
-            (0..9).map(|index| number(200 + 8 * index)).collect::<Vec<_>>(),
-            [1, 12, 13, 14, 15, 16, 17, 19, 20]
+            (0..10).map(|index| number(208 + 8 * index)).collect::<Vec<_>>(),
+            [1, 12, 13, 14, 15, 16, 17, 19, 20, 22]
         );
-        assert_eq!(block.len(), 72 + 128 + 2 * 72 + 128 + 8);
+        assert_eq!(block.len(), 72 + 136 + 2 * 80 + 136 + 8);
     }
 
     #[test]
@@ -259,8 +266,8 @@ mod tests {
         for length in 0..block.len() {
             assert_eq!(decode(&block[..length]), None, "{length} bytes");
         }
-        let wrong = [(0, b'X'), (8, 1), (8, 4), (12, 0), (56, 1), (56, 3), (59, 0xff), (72 + 112, 1), (72 + 115, 0xff)];
-        let lengths = [(60, 112), (60, 136), (63, 0xff), (64, 56), (64, 80), (67, 0xff)];
+        let wrong = [(0, b'X'), (8, 1), (8, 4), (12, 1), (56, 1), (56, 3), (59, 0xff), (72 + 112, 1), (72 + 115, 0xff)];
+        let lengths = [(60, 112), (60, 144), (63, 0xff), (64, 56), (64, 88), (67, 0xff)];
         for (at, wrong) in wrong.into_iter().chain(lengths) {
             let mut block = block.clone();
             block[at] = wrong;
@@ -274,13 +281,13 @@ mod tests {
         encode(&stats(), 7, &mut block);
         let mut rest = &block[..];
         // The header, the first gate, its connections, the second gate and the counter.
-        for (length, added) in [(72, 0), (128, 16), (72, 8), (72, 8), (128, 16), (8, 0)] {
+        for (length, added) in [(72, 0), (136, 16), (80, 8), (80, 8), (136, 16), (8, 0)] {
             longer.extend_from_slice(rest.split_off(..length).unwrap());
             longer.resize(longer.len() + added, 0xff);
         }
         assert_eq!(rest, b"");
         let length = u32::try_from(longer.len()).unwrap();
-        for (at, number) in [(12, length), (60, 128 + 16), (64, 72 + 8)] {
+        for (at, number) in [(12, length), (60, 136 + 16), (64, 80 + 8)] {
             longer[at..at + 4].copy_from_slice(&number.to_le_bytes());
         }
         assert_eq!(decode(&longer), Some(stats()));

@@ -19,7 +19,7 @@ pub(super) fn pipe_of<T>(capacity: usize, writer: &Endpoint) -> (PipeWriter<T>, 
     let state = State {
         queue: VecDeque::new(),
         sent: 0,
-        latched: None,
+        times: VecDeque::new(),
         untaken: 0,
         closed: false,
         wants_room: false,
@@ -31,7 +31,7 @@ pub(super) fn pipe_of<T>(capacity: usize, writer: &Endpoint) -> (PipeWriter<T>, 
     };
     let (state, received) = (Mutex::new(state), AtomicU64::new(0));
     let shared = Arc::new(Shared { state, received, capacity, lossless: writer.lossless, latched: writer.latched });
-    (PipeWriter { shared: Arc::clone(&shared) }, PipeReader { shared, taken: Cell::new(0), latched: Cell::new(None) })
+    (PipeWriter { shared: Arc::clone(&shared) }, PipeReader { shared, taken: Cell::new(0), last: Cell::new(None) })
 }
 
 pub(super) struct PipeWriter<T> {
@@ -42,8 +42,8 @@ pub(super) struct PipeReader<T> {
     shared: Arc<Shared<T>>,
     /// Number of items taken so far.
     taken: Cell<u64>,
-    /// Number of the last taken item that was sent before this reader joined, and when it was sent.
-    latched: Cell<Option<(u64, Instant)>>,
+    /// The last taken item whose time the writer has told.
+    last: Cell<Option<Timed>>,
 }
 
 struct Shared<T> {
@@ -59,8 +59,8 @@ struct State<T> {
     queue: VecDeque<T>,
     /// Number of items sent so far.
     sent: u64,
-    /// Number of an item that was sent before the reader joined, and when it was sent.
-    latched: Option<(u64, Instant)>,
+    /// The items whose time the writer has told.
+    times: VecDeque<Timed>,
     /// Number of items that the reader has not taken. Those it left behind when it was dropped still count.
     untaken: u64,
     /// Set when either end is dropped.
@@ -74,6 +74,17 @@ struct State<T> {
     question: Question,
     writer: Option<Waker>,
     reader: Option<Waker>,
+}
+
+/// An item whose time is known.
+#[derive(Clone, Copy)]
+struct Timed {
+    /// Its number, from 1.
+    number: u64,
+    /// When it was sent.
+    sent: Instant,
+    /// Whether that was before the reader joined.
+    is_latched: bool,
 }
 
 /// Whether the reader has asked for what the writer holds back.
@@ -101,8 +112,9 @@ impl<T> State<T> {
 
 impl<T> PipeWriter<T> {
     /// Appends an item, or returns it if there is no room or no reader. Wakes the task when it should try again, or
-    /// find out that the reader is gone. `sent` is when the item was sent, if that was before the reader joined.
-    pub(super) fn send(&self, cx: &Context<'_>, item: T, sent: Option<Instant>) -> Result<(), T> {
+    /// find out that the reader is gone. `sent` is when the item was sent, if the reader is to learn that, and whether
+    /// that was before it joined.
+    pub(super) fn send(&self, cx: &Context<'_>, item: T, sent: Option<(Instant, bool)>) -> Result<(), T> {
         let mut state = lock(&self.shared.state);
         if state.closed {
             drop(state);
@@ -114,8 +126,9 @@ impl<T> PipeWriter<T> {
             return Err(item);
         }
         state.push(item);
-        if let Some(sent) = sent {
-            state.latched = Some((state.sent, sent));
+        if let Some((sent, is_latched)) = sent {
+            let number = state.sent;
+            state.times.push_back(Timed { number, sent, is_latched });
         }
         let reader = state.reader.take();
         drop(state);
@@ -220,8 +233,9 @@ impl<T> PipeReader<T> {
         };
         state.untaken -= 1;
         self.taken.set(self.taken.get() + 1);
-        if state.latched.is_some() {
-            self.latched.set(state.latched.take_if(|(number, _)| *number == self.taken.get()).or(self.latched.get()));
+        let taken = self.taken.get();
+        if let Some(timed) = state.times.pop_front_if(|timed| timed.number == taken) {
+            self.last.set(Some(timed));
         }
         // A refused writer is woken when half of the queue is free, so that it can send several items at once.
         let has_room = state.wants_room && state.queue.len() <= self.shared.capacity / 2;
@@ -267,8 +281,15 @@ impl<T> PipeReader<T> {
     /// Returns when an item was sent, if that was before this reader joined. The item is `before_last` items before the
     /// one taken last.
     pub(super) fn latched(&self, before_last: u64) -> Option<Instant> {
-        let (number, sent) = self.latched.get()?;
-        (number + before_last == self.taken.get()).then_some(sent)
+        let timed = self.last.get().filter(|timed| timed.is_latched)?;
+        (timed.number + before_last == self.taken.get()).then_some(timed.sent)
+    }
+
+    /// Returns when an item was sent, if the writer has told. The item is `before_last` items before the one taken
+    /// last.
+    pub(super) fn sent(&self, before_last: u64) -> Option<Instant> {
+        let timed = self.last.get()?;
+        (timed.number + before_last == self.taken.get()).then_some(timed.sent)
     }
 
     /// Makes the next [`poll_caught_up`](Self::poll_caught_up) ask again.

@@ -58,6 +58,10 @@ impl Receiver for Subscriber {
         self.publisher.as_ref()?.latched(self.fetched.len() as u64)
     }
 
+    fn take_sent(&mut self) -> Option<Instant> {
+        self.publisher.as_ref()?.sent(self.fetched.len() as u64)
+    }
+
     fn note_waiting(&mut self, _: &mut Context<'_>, waiting: u64) -> bool {
         if let Some(publisher) = &self.publisher {
             publisher.note_waiting(waiting + self.fetched.len() as u64);
@@ -95,11 +99,13 @@ pub(super) struct Puller {
     pushers: Senders<PipeReader<Bytes>>,
     /// As in a [`Subscriber`].
     fetched: VecDeque<Bytes>,
+    /// When the message read last was sent, if its pusher has told.
+    sent: Option<Instant>,
 }
 
 impl Puller {
     pub(super) fn new(listener: Listener<PipeReader<Bytes>, PipeWriter<Bytes>>) -> Self {
-        Self { listener, pushers: Senders::new(1), fetched: VecDeque::new() }
+        Self { listener, pushers: Senders::new(1), fetched: VecDeque::new(), sent: None }
     }
 }
 
@@ -113,7 +119,19 @@ impl Receiver for Puller {
         }
         let max_size = self.listener.endpoint.max_size;
         // Returning `None` removes the pusher and thereby disconnects it.
-        self.pushers.poll(|pusher| pusher.poll_recv(cx).map(|message| message.filter(|it| it.len() <= max_size)))
+        let sent = &mut self.sent;
+        self.pushers.poll(|pusher| {
+            let polled = pusher.poll_recv(cx).map(|message| message.filter(|it| it.len() <= max_size));
+            if polled.is_ready() {
+                *sent = pusher.sent(0);
+            }
+            polled
+        })
+    }
+
+    fn take_sent(&mut self) -> Option<Instant> {
+        // Of the messages read ahead, only the newest reaches the program.
+        if self.fetched.is_empty() { self.sent.take() } else { None }
     }
 
     fn peers(&self) -> usize {

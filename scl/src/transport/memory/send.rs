@@ -69,6 +69,14 @@ impl MemoryLink {
         Self { pipe, lender: Lender::default(), _alive: alive }
     }
 
+    fn send_item(&mut self, cx: &mut Context<'_>, message: Frame, time: Option<Instant>) -> Sent {
+        // Return a loan that cannot be sent yet as a loan, not as bytes.
+        if matches!(message, Frame::Loan(_)) && !self.pipe.has_room(cx) {
+            return Sent::Full(message);
+        }
+        self.sent(self.pipe.send(cx, self.lender.take_back(message), time.map(|time| (time, false))))
+    }
+
     fn sent(&self, sent: Result<(), Bytes>) -> Sent {
         match sent {
             Ok(()) => Sent::Sent,
@@ -84,15 +92,37 @@ impl Link for MemoryLink {
     }
 
     fn send(&mut self, cx: &mut Context<'_>, message: Frame) -> Sent {
-        // Return a loan that cannot be sent yet as a loan, not as bytes.
-        if matches!(message, Frame::Loan(_)) && !self.pipe.has_room(cx) {
-            return Sent::Full(message);
+        self.send_item(cx, message, None)
+    }
+
+    fn send_timed(&mut self, cx: &mut Context<'_>, message: Frame, sent: Instant) -> Sent {
+        self.send_item(cx, message, Some(sent))
+    }
+
+    fn send_all_timed(
+        &mut self,
+        cx: &mut Context<'_>,
+        driven: Option<Driven>,
+        queue: &mut VecDeque<Frame>,
+        times: &mut VecDeque<Instant>,
+        sent: &mut dyn FnMut(usize),
+    ) {
+        debug_assert_eq!(queue.len(), times.len(), "each message has its time");
+        while let (Some(message), Some(time)) = (queue.pop_front(), times.front()) {
+            let length = message.len();
+            match self.send_timed(cx, message, *time).returned() {
+                None => sent(length),
+                Some(message) => return queue.push_front(message),
+            }
+            times.pop_front();
         }
-        self.sent(self.pipe.send(cx, self.lender.take_back(message), None))
+        // An empty queue tells the reader that nothing is held back.
+        self.send_all(cx, driven, queue, sent);
     }
 
     fn send_latched(&mut self, cx: &mut Context<'_>, message: Frame, age: Duration) -> Sent {
-        self.sent(self.pipe.send(cx, message.into_bytes(), Instant::now().checked_sub(age)))
+        let sent = Instant::now().checked_sub(age);
+        self.sent(self.pipe.send(cx, message.into_bytes(), sent.map(|sent| (sent, true))))
     }
 
     fn send_all(

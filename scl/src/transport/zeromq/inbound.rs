@@ -6,6 +6,7 @@ use super::session::{Closed, Session};
 use super::shared_memory::Arriving;
 use super::zmtp::{self, Command, FINISH, Item, Message, PeerReady, SHM_OPEN, acknowledgement};
 use crate::runtime_dir::SystemDir;
+use crate::time::time_of;
 use crate::transport::Endpoint;
 use bytes::Bytes;
 use std::collections::VecDeque;
@@ -32,6 +33,8 @@ pub(super) struct Inbound {
     /// Number of the last message on this connection that was published before the connection existed, and when that
     /// was.
     latched: Option<(u64, Instant)>,
+    /// When messages were sent, by their numbers, as far as the sender has told and they were not returned yet.
+    sent: VecDeque<(u64, Instant)>,
     /// Messages read while looking for the newest.
     ahead: VecDeque<Bytes>,
     /// Why no messages follow those read ahead, if the connection is closed.
@@ -62,6 +65,7 @@ impl Inbound {
             lossless,
             is_latched: peer.scl.is_some_and(|scl| scl.latched),
             latched: None,
+            sent: VecDeque::new(),
             ahead: VecDeque::new(),
             closed: None,
             malformed: 0,
@@ -83,8 +87,34 @@ impl Inbound {
 
     /// Returns when the message returned last was published, if that was before this connection existed.
     pub(super) fn take_latched(&mut self) -> Option<Instant> {
-        let returned = self.taken() - self.ahead.len() as u64;
+        let returned = self.returned();
         self.latched.take_if(|(number, _)| *number == returned).map(|(_, sent)| sent)
+    }
+
+    /// Returns when the message returned last was sent, if the sender has told.
+    pub(super) fn take_sent(&mut self) -> Option<Instant> {
+        let returned = self.returned();
+        while let Some((number, sent)) = self.sent.pop_front_if(|(number, _)| *number <= returned) {
+            if number == returned {
+                return Some(sent);
+            }
+        }
+        None
+    }
+
+    /// Notes when the next message was sent. Keeps one time for each message that is read ahead, whatever the sender
+    /// tells and whether it is asked for.
+    fn note_sent(&mut self, sent: Instant) {
+        let (next, returned) = (self.taken() + 1, self.returned());
+        while self.sent.pop_front_if(|(number, _)| *number <= returned).is_some() {}
+        let _replaced = self.sent.pop_back_if(|(number, _)| *number == next);
+        self.sent.push_back((next, sent));
+        debug_assert!(self.sent.len() <= self.ahead.len() + 1, "one time for each message");
+    }
+
+    /// Number of messages returned so far, 0 if the messages of this peer are not counted.
+    fn returned(&self) -> u64 {
+        self.credit.as_ref().map_or(0, |credit| credit.taken() - self.ahead.len() as u64)
     }
 
     /// Number of messages taken so far.
@@ -145,6 +175,7 @@ impl Inbound {
                     let sent = Instant::now().checked_sub(Duration::from_nanos(age));
                     self.latched = sent.map(|sent| (self.taken() + 1, sent));
                 }
+                Item::Command(Command::Sent(stamp)) if self.credit.is_some() => self.note_sent(time_of(stamp)),
                 Item::Command(_) | Item::Ready(_) => {}
             }
         }

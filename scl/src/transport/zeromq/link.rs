@@ -1,6 +1,7 @@
 //! The sending side of a connection, of a publisher to one subscriber or of a pusher to its puller.
 
 mod reading;
+mod state;
 
 use super::burst::{Burst, GATHERED};
 use super::credit::SendCredit;
@@ -8,12 +9,14 @@ use super::session::{Closed, Session};
 use super::shared_memory::Sharing;
 use super::topics::Topics;
 use super::waiting_report::WaitingReport;
-use super::zmtp::{FLUSH, Header, PeerReady, latched};
+use super::zmtp::{FLUSH, Header, PeerReady, latched, sent};
 use crate::runtime_dir::SystemDir;
+use crate::time::stamp_of;
 use crate::transport::link_count::LinkAlive;
 use crate::transport::{Disconnected, Driven, Frame, Link, Loan, Resumed, Sent};
 use bytes::{BufMut, BytesMut};
 use scl_plan::memory::limits::BATCH;
+use state::State;
 use std::collections::VecDeque;
 use std::task::Context;
 use std::time::{Duration, Instant};
@@ -42,24 +45,9 @@ pub(super) struct SendLink {
     batch: BytesMut,
     raw_read: Option<Instant>,
     resumed: Option<Resumed>,
+    /// When the next message was sent, to be told before it.
+    next_sent: Option<Instant>,
     _alive: LinkAlive,
-}
-
-/// ```text
-/// Open ── FINISH read ──▶ Finishing ── FINISHED written ──▶ Finished
-///   └───────────┬─────────────┴─────────────┬──────────────────┘
-///               └── read or write failed ───┴──▶ Broken
-/// ```
-///
-/// Messages are sent in `Open` only. A link that is `Broken` is driven once more, which fails, and dropped.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum State {
-    Open,
-    /// The peer wants nothing more over this connection.
-    Finishing,
-    /// The peer has been told that nothing follows.
-    Finished,
-    Broken,
 }
 
 impl SendLink {
@@ -78,6 +66,7 @@ impl SendLink {
             batch: BytesMut::new(),
             raw_read: None,
             resumed: None,
+            next_sent: None,
             _alive: alive,
         }
     }
@@ -153,8 +142,13 @@ impl SendLink {
 
     /// Sends a message to a peer that can take it.
     fn send_one(&mut self, cx: &mut Context<'_>, message: &mut Frame) -> Result<(), Closed> {
+        let time = self.next_sent.take();
         if !self.wants(message.as_slice()) {
             return Ok(());
+        }
+        // A plain ZeroMQ program gets the message without its time.
+        if let Some(time) = time.filter(|_| self.credit.is_some()) {
+            self.session.write(&sent(stamp_of(time)))?;
         }
         if self.send_sample(cx, message) {
             return Ok(());
@@ -221,6 +215,7 @@ impl SendLink {
         cx: &mut Context<'_>,
         driven: bool,
         queue: &mut VecDeque<Frame>,
+        mut times: Option<&mut VecDeque<Instant>>,
         sent: &mut dyn FnMut(usize),
     ) -> Result<(), Closed> {
         let waits = |message: &Frame| !driven && queue.len() < GATHERED && self.is_gathered(message.as_slice());
@@ -239,13 +234,16 @@ impl SendLink {
                     break;
                 }
             }
-            let batched = if queue.len() > 1 { self.send_batch(cx, queue)? } else { 0 };
+            // Each message is told its time, so these are not written together.
+            let batched = if queue.len() > 1 && times.is_none() { self.send_batch(cx, queue)? } else { 0 };
             if batched > 0 {
                 queue.drain(..batched).for_each(|message| sent(message.len()));
             } else if let Some(message) = queue.front_mut() {
                 let length = message.len();
+                self.next_sent = times.as_ref().and_then(|times| times.front().copied());
                 self.send_one(cx, message)?;
                 queue.pop_front();
+                times.as_mut().map(|times| times.pop_front());
                 sent(length);
             }
         }
@@ -316,7 +314,29 @@ impl Link for SendLink {
         queue: &mut VecDeque<Frame>,
         sent: &mut dyn FnMut(usize),
     ) {
-        if let Err(error) = self.try_send_all(cx, driven.is_some(), queue, sent) {
+        if let Err(error) = self.try_send_all(cx, driven.is_some(), queue, None, sent) {
+            self.fail(cx, &error);
+        }
+    }
+
+    fn send_timed(&mut self, cx: &mut Context<'_>, message: Frame, sent: Instant) -> Sent {
+        self.next_sent = Some(sent);
+        let result = self.send(cx, message);
+        // A message that was returned is told its time when it is sent.
+        self.next_sent = None;
+        result
+    }
+
+    fn send_all_timed(
+        &mut self,
+        cx: &mut Context<'_>,
+        driven: Option<Driven>,
+        queue: &mut VecDeque<Frame>,
+        times: &mut VecDeque<Instant>,
+        sent: &mut dyn FnMut(usize),
+    ) {
+        debug_assert_eq!(queue.len(), times.len(), "each message has its time");
+        if let Err(error) = self.try_send_all(cx, driven.is_some(), queue, Some(times), sent) {
             self.fail(cx, &error);
         }
     }

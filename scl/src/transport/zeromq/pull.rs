@@ -11,7 +11,7 @@ use crate::transport::{Endpoint, Receiver, TransportError};
 use bytes::Bytes;
 use std::sync::Arc;
 use std::task::{Context, Poll};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How many messages one pusher may deliver before the next one gets its turn.
 const IN_A_ROW: usize = 64;
@@ -22,12 +22,14 @@ pub(super) struct Puller {
     pushers: Senders<Inbound>,
     finishing: bool,
     malformed: u64,
+    /// When the message returned last was sent, if its pusher has told.
+    sent: Option<Instant>,
 }
 
 impl Puller {
     pub(super) fn open(dir: &Arc<SystemDir>, kind: TransportKind, endpoint: &Endpoint) -> Result<Self, TransportError> {
         let acceptor = Acceptor::open(dir, kind, endpoint, SocketType::Pull, receiving(endpoint))?.offering_memory()?;
-        Ok(Self { acceptor, pushers: Senders::new(IN_A_ROW), finishing: false, malformed: 0 })
+        Ok(Self { acceptor, pushers: Senders::new(IN_A_ROW), finishing: false, malformed: 0, sent: None })
     }
 
     fn accept(&mut self, cx: &mut Context<'_>) {
@@ -47,10 +49,11 @@ impl Receiver for Puller {
             self.accept(cx);
         }
         loop {
-            let malformed = &mut self.malformed;
+            let (malformed, sent) = (&mut self.malformed, &mut self.sent);
             let polled = self.pushers.poll(|pusher| {
                 let next = pusher.poll_next(cx);
                 *malformed += pusher.take_malformed();
+                *sent = pusher.take_sent();
                 next.map(|next| next.inspect_err(|error| tracing::debug!(%error, "a pusher left")).ok())
             });
             if polled.is_ready() {
@@ -75,6 +78,10 @@ impl Receiver for Puller {
 
     fn is_lossless(&self) -> bool {
         self.pushers.ends().any(Inbound::is_lossless)
+    }
+
+    fn take_sent(&mut self) -> Option<Instant> {
+        self.sent.take()
     }
 
     fn malformed(&self) -> u64 {

@@ -93,6 +93,10 @@ impl Receiver for Subscriber {
         self.publisher.as_mut().and_then(Inbound::take_latched)
     }
 
+    fn take_sent(&mut self) -> Option<Instant> {
+        self.publisher.as_mut().and_then(Inbound::take_sent)
+    }
+
     fn malformed(&self) -> u64 {
         self.malformed
     }

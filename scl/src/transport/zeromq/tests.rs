@@ -15,4 +15,5 @@ mod shared;
 mod shared_hostile;
 mod stage;
 mod subject;
+mod times;
 mod witness;

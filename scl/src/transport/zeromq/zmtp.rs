@@ -17,7 +17,7 @@ mod tests;
 pub(super) use command::sample;
 pub(super) use command::{
     BEHIND, Command, FINISH, FINISHED, FLUSH, SHM_OPEN, SUBSCRIBE_ALL, SUBSCRIBE_ALL_AND_PING, Subscription,
-    acknowledgement, catch_up, caught_up, latched, pong, refused, resume,
+    acknowledgement, catch_up, caught_up, latched, pong, refused, resume, sent,
 };
 pub(super) use decoder::{Decoder, Item, Message};
 pub(super) use error::ProtocolError;

@@ -127,5 +127,6 @@ const fn connection(peer_component: &'static str, peer_gate: &'static str) -> Co
         queue: 1,
         when_full: WhenFull::DropOldest,
         max_size: MAX_SIZE,
+        max_age: None,
     }
 }

@@ -222,6 +222,7 @@ const fn to_reader(layout: Layout, index: usize) -> ConnectionSpec {
         queue,
         when_full,
         max_size: MAX_SIZE,
+        max_age: None,
     }
 }
 

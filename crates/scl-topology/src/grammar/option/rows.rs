@@ -189,6 +189,20 @@ pub static OPTIONS: &[GateOption] = &[
         ],
     },
     GateOption {
+        key: "max_age",
+        shape: Shape::Duration { most: LONGEST_TIME },
+        kinds: &[Sub, Pull],
+        summary: "How old a message may be when the program receives it; older ones are dropped.",
+        text: "The age begins when the sender sends the message, and grows while it waits in queues, too. Each message \
+               that is dropped is counted as `expired`. One of a program that does not tell when it has sent it, such \
+               as a plain ZeroMQ program, is as old as it is here. See [time](#time).",
+        examples: &["attitude: {sub: Attitude, max_age: 50ms}"],
+        absent: &[
+            (&[Pub, Push], "a receiver says with `max_age` which messages are too old for it"),
+            (&[Req, Rep], "a requester says with `timeout` how long it waits for a reply"),
+        ],
+    },
+    GateOption {
         key: "share",
         shape: Shape::Boolean,
         kinds: &[Push],

@@ -19,6 +19,7 @@ const LINK: ConnectionSpec = ConnectionSpec {
     queue: 1000,
     when_full: WhenFull::DropOldest,
     max_size: 1 << 20,
+    max_age: None,
 };
 
 static GATE: GateSpec = GateSpec {

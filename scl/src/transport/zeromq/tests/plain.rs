@@ -4,11 +4,12 @@ use super::ends::{answer, ask, echo};
 use super::stage::{Stage, next, numbered, once, pattern};
 use crate::runtime_dir::bind_ipc;
 use crate::transport::zeromq::TransportKind;
-use crate::transport::zeromq::zmtp::{ConnectionId, SclReady, ShmReady, SocketType, hello};
+use crate::transport::zeromq::zmtp::{ConnectionId, SclReady, ShmReady, SocketType, hello, sent};
 use crate::transport::{PeerKind, Transport};
 use bytes::Bytes;
 use std::future::poll_fn;
 use std::task::Poll;
+use std::time::Duration;
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::{UnixListener, UnixStream};
 
@@ -90,7 +91,9 @@ async fn a_plain_publisher_is_subscribed_to_after_its_ready() {
     let receiving = tokio::spawn(async move {
         let mut messages = Vec::new();
         while messages.len() < 600 {
+            subscriber.catch_up(Duration::ZERO);
             messages.push(next(&mut *subscriber).await);
+            assert_eq!(subscriber.take_sent(), None, "a plain publisher does not tell");
         }
         // A newer message cannot be asked for.
         assert!(once(|cx| subscriber.poll_caught_up(cx)).await.is_ready());
@@ -107,6 +110,8 @@ async fn a_plain_publisher_is_subscribed_to_after_its_ready() {
     stream.read_exact(&mut subscription).await.unwrap();
     assert_eq!(&subscription, b"\0\x01\x01");
     stream.write_all(b"\x01\x05topic\0\x04data\0\x03one\x04\x07\x04PING\0\0").await.unwrap();
+    // What only SCL's ends say counts for nothing.
+    stream.write_all(&sent(7)).await.unwrap();
     for message in numbered(1..600) {
         stream.write_all(&[b"\0\x04", &message[..]].concat()).await.unwrap();
     }

@@ -67,6 +67,8 @@ pub(in crate::transport::zeromq) enum Command {
     Refused(u64),
     /// The next message was published this many nanoseconds ago, before this end joined.
     Latched(u64),
+    /// The next message was sent at this time of `CLOCK_MONOTONIC`, in nanoseconds.
+    Sent(u64),
     /// Which end the peer is, and what it has taken before.
     Resume(Resumed),
     Unknown,
@@ -108,6 +110,7 @@ impl Command {
             b"X-SCL-FLUSH" => Self::Flush,
             b"X-SCL-REFUSED" => Self::Refused(number(&mut content)?),
             b"X-SCL-LATCHED" => Self::Latched(number(&mut content)?),
+            b"X-SCL-SENT" => Self::Sent(number(&mut content)?),
             b"X-SCL-RESUME" => Self::Resume(Resumed { end: number(&mut content)?, taken: number(&mut content)? }),
             b"X-SCL-SHM-OPEN" => Self::ShmOpen,
             b"X-SCL-SAMPLE" => Self::Sample { sequence: number(&mut content)?, length: number(&mut content)? },
@@ -170,6 +173,11 @@ pub(in crate::transport::zeromq) fn refused(number: u64) -> [u8; 24] {
 /// From a sending end: the next message was published `age_ns` nanoseconds ago, before the peer joined.
 pub(in crate::transport::zeromq) fn latched(age_ns: u64) -> [u8; 24] {
     numbered(b"\x0dX-SCL-LATCHED", age_ns)
+}
+
+/// From a sending end: the next message was sent at `stamp`, in nanoseconds of `CLOCK_MONOTONIC`.
+pub(in crate::transport::zeromq) fn sent(stamp: u64) -> [u8; 21] {
+    numbered(b"\x0aX-SCL-SENT", stamp)
 }
 
 /// From a subscribing end, before it subscribes: which end it is, and what it has taken before.

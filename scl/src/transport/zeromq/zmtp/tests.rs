@@ -228,6 +228,7 @@ fn commands_are_laid_out_as_documented() {
         (&refused(7), with_numbers("X-SCL-REFUSED", &[7]), Command::Refused(7)),
         (&resume(resumed), with_numbers("X-SCL-RESUME", &[7, 6]), Command::Resume(resumed)),
         (&latched(7), with_numbers("X-SCL-LATCHED", &[7]), Command::Latched(7)),
+        (&sent(7), with_numbers("X-SCL-SENT", &[7]), Command::Sent(7)),
         (BEHIND, with_numbers("X-SCL-BEHIND", &[]), Command::Behind),
         (&catch_up(7), with_numbers("X-SCL-CATCH-UP", &[7]), Command::CatchUp(7)),
         (&caught_up(7), with_numbers("X-SCL-CAUGHT-UP", &[7]), Command::CaughtUp(7)),
