@@ -23,8 +23,8 @@ void attitude_update(attitude_estimator *self, vector rates, vector angles, doub
     quaternion predicted = quaternion_multiply(self->attitude, turned);
     quaternion difference = quaternion_multiply(quaternion_conjugate(predicted), quaternion_from_angles(angles));
     vector error = quaternion_rotation_vector(difference);
-    vector correction = vector_scale(error, parameters->attitude_correction * elapsed);
+    vector correction = vector_scale(error, parameters->tuning.attitude_correction * elapsed);
     self->attitude = quaternion_normalize(quaternion_multiply(predicted, quaternion_from_rotation_vector(correction)));
-    vector bias = vector_subtract(self->bias, vector_scale(error, parameters->gyro_bias_correction * elapsed));
+    vector bias = vector_subtract(self->bias, vector_scale(error, parameters->tuning.gyro_bias_correction * elapsed));
     self->bias = (vector){limit(bias.x, MAX_BIAS), limit(bias.y, MAX_BIAS), limit(bias.z, MAX_BIAS)};
 }

@@ -12,7 +12,7 @@
 static const int64_t SILENCE = 200000000;
 
 void autopilot_begin(autopilot *self) {
-    self->controller = flight_controller_new();
+    self->controller = flight_controller_new(&self->gates.parameters);
     self->has_saved = resume_load(&self->state, &self->saved);
     self->last_reading_ns = clock_ns();
 }
@@ -26,8 +26,9 @@ static bool is_fatal(scl_status status) {
 static scl_status take_inputs(autopilot *self) {
     Arcade__Height *height;
     Arcade__Fix *fix;
-    Arcade__Parameters *parameters;
+    Arcade__Limits *limits;
     scl_status status;
+    bool changed;
     while ((status = arcade_autopilot_height_recv(&self->gates, &height, 0)) == SCL_OK) {
         flight_controller_receive_height(&self->controller, height);
         arcade_autopilot_height_free(height);
@@ -42,11 +43,18 @@ static scl_status take_inputs(autopilot *self) {
     if (is_fatal(status)) {
         return status;
     }
-    while ((status = arcade_autopilot_parameters_recv(&self->gates, &parameters, 0)) == SCL_OK) {
-        flight_controller_receive_parameters(&self->controller, parameters);
-        arcade_autopilot_parameters_free(parameters);
+    if ((status = arcade_autopilot_limits_latest(&self->gates, &limits)) == SCL_OK) {
+        flight_controller_receive_limits(&self->controller, limits);
+        arcade_autopilot_limits_free(limits);
     }
-    return is_fatal(status) ? status : SCL_OK;
+    if (is_fatal(status)) {
+        return status;
+    }
+    status = arcade_autopilot_update_parameters(&self->gates, &changed);
+    if (status == SCL_OK && changed) {
+        flight_controller_receive_tuning(&self->controller, &self->gates.parameters);
+    }
+    return status;
 }
 
 static scl_status send_motors(autopilot *self, const double motors[4]) {
@@ -95,6 +103,8 @@ static scl_status send_beat(autopilot *self, uint64_t began_ns, uint64_t sent_ns
 static void begin_at(autopilot *self, uint64_t reading_us) {
     if (self->has_saved && flight_controller_can_resume(&self->saved, reading_us)) {
         self->controller = self->saved;
+        self->controller.parameters.tuning = self->gates.parameters;
+        self->controller.has_new_parameters = false;
         self->controller.restarts++;
         self->mode = self->controller.navigator.mode;
         printf("carrying on in the air: restart %" PRIu32 "\n", self->controller.restarts);

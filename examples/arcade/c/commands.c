@@ -18,16 +18,16 @@ static bool check_height(double height, const parameters *parameters, char *reas
     if (height < LOWEST) {
         return refuse(reason, "height %.1f m is below %.1f m", height, LOWEST);
     }
-    if (height > parameters->fence_height) {
-        return refuse(reason, "height %.1f m is above the fence at %.1f m", height, parameters->fence_height);
+    if (height > parameters->limits.fence_height) {
+        return refuse(reason, "height %.1f m is above the fence at %.1f m", height, parameters->limits.fence_height);
     }
     return true;
 }
 
 static bool check_distance(vector target, const parameters *parameters, char *reason) {
     double distance = vector_horizontal(target);
-    if (distance > parameters->fence_radius) {
-        return refuse(reason, "target is %.1f m from home, the fence at %.1f m", distance, parameters->fence_radius);
+    if (distance > parameters->limits.fence_radius) {
+        return refuse(reason, "target is %.1f m from home, the fence at %.1f m", distance, parameters->limits.fence_radius);
     }
     return true;
 }

@@ -18,24 +18,24 @@ static const double DERIVATIVE_TIME = 0.008;         /* s, of the low-pass filte
 static vector wanted_velocity(const set_point *set_point, vector position, const parameters *parameters) {
     vector error = vector_subtract(set_point->position, position);
     vector wanted = {
-        set_point->velocity.x + parameters->position_p * error.x,
-        set_point->velocity.y + parameters->position_p * error.y,
-        set_point->velocity.z + parameters->height_p * error.z,
+        set_point->velocity.x + parameters->tuning.position_p * error.x,
+        set_point->velocity.y + parameters->tuning.position_p * error.y,
+        set_point->velocity.z + parameters->tuning.height_p * error.z,
     };
     double speed = vector_horizontal(wanted);
-    if (speed > parameters->limit_speed) {
-        wanted.x *= parameters->limit_speed / speed;
-        wanted.y *= parameters->limit_speed / speed;
+    if (speed > parameters->limits.speed) {
+        wanted.x *= parameters->limits.speed / speed;
+        wanted.y *= parameters->limits.speed / speed;
     }
-    wanted.z = limit(wanted.z, parameters->limit_climb);
+    wanted.z = limit(wanted.z, parameters->limits.climb);
     return wanted;
 }
 
 /* Limits the vertical force by the motors' thrust, and then the horizontal force by the tilt. */
 static vector limit_force(vector force, const parameters *parameters) {
-    double per_thrust = GRAVITY / parameters->thrust_hover;
-    double z = clamp(force.z, parameters->thrust_minimum * per_thrust, parameters->thrust_maximum * per_thrust);
-    double most = z * tan(radians(parameters->limit_tilt));
+    double per_thrust = GRAVITY / parameters->tuning.thrust_hover;
+    double z = clamp(force.z, parameters->tuning.thrust_minimum * per_thrust, parameters->tuning.thrust_maximum * per_thrust);
+    double most = z * tan(radians(parameters->tuning.limit_tilt));
     double horizontal = vector_horizontal(force);
     double kept = horizontal > most ? most / horizontal : 1.0;
     return (vector){force.x * kept, force.y * kept, z};
@@ -51,10 +51,10 @@ static quaternion attitude_along(vector force, double yaw) {
 /* Grows the integral unless that would push further beyond a limit that was reached. */
 static void integrate(velocity_controller *self, vector error, vector cut, const parameters *parameters,
                       double elapsed) {
-    double horizontal = parameters->velocity_i * elapsed;
+    double horizontal = parameters->tuning.velocity_i * elapsed;
     self->integral.x += cut.x * error.x < 0.0 ? 0.0 : error.x * horizontal;
     self->integral.y += cut.y * error.y < 0.0 ? 0.0 : error.y * horizontal;
-    self->integral.z += cut.z * error.z < 0.0 ? 0.0 : error.z * (parameters->climb_i * elapsed);
+    self->integral.z += cut.z * error.z < 0.0 ? 0.0 : error.z * (parameters->tuning.climb_i * elapsed);
     self->integral.x = limit(self->integral.x, MAX_ACCELERATION_INTEGRAL);
     self->integral.y = limit(self->integral.y, MAX_ACCELERATION_INTEGRAL);
     self->integral.z = limit(self->integral.z, MAX_ACCELERATION_INTEGRAL);
@@ -64,14 +64,14 @@ thrust control_velocity(velocity_controller *self, const set_point *set_point, v
                         bool level, const parameters *parameters, double elapsed) {
     vector error = vector_subtract(wanted_velocity(set_point, position, parameters), velocity);
     vector force = vector_add(set_point->acceleration, self->integral);
-    force.z += parameters->climb_p * error.z + GRAVITY;
+    force.z += parameters->tuning.climb_p * error.z + GRAVITY;
     if (level) {
         error = (vector){0.0, 0.0, error.z};
         force.x = self->integral.x;
         force.y = self->integral.y;
     }
-    force.x += parameters->velocity_p * error.x;
-    force.y += parameters->velocity_p * error.y;
+    force.x += parameters->tuning.velocity_p * error.x;
+    force.y += parameters->tuning.velocity_p * error.y;
 
     vector limited = limit_force(force, parameters);
     integrate(self, error, vector_subtract(limited, force), parameters, elapsed);
@@ -82,9 +82,9 @@ thrust control_velocity(velocity_controller *self, const set_point *set_point, v
 static vector wanted_rates(quaternion wanted, quaternion attitude, const parameters *parameters) {
     vector error = quaternion_rotation_vector(quaternion_multiply(quaternion_conjugate(attitude), wanted));
     return (vector){
-        limit(parameters->attitude_p * error.x, MAX_RATE),
-        limit(parameters->attitude_p * error.y, MAX_RATE),
-        limit(parameters->yaw_p * error.z, radians(parameters->limit_yaw_rate)),
+        limit(parameters->tuning.attitude_p * error.x, MAX_RATE),
+        limit(parameters->tuning.attitude_p * error.y, MAX_RATE),
+        limit(parameters->tuning.yaw_p * error.z, radians(parameters->tuning.limit_yaw_rate)),
     };
 }
 
@@ -97,19 +97,19 @@ static double integrate_rate(double integral, double error, double cut, double g
 demand control_rates(rate_controller *self, const thrust *thrust, quaternion attitude, vector rates, vector cut,
                      const parameters *parameters, double elapsed) {
     vector error = vector_subtract(wanted_rates(thrust->attitude, attitude, parameters), rates);
-    self->integral.x = integrate_rate(self->integral.x, error.x, cut.x, parameters->rate_i * elapsed);
-    self->integral.y = integrate_rate(self->integral.y, error.y, cut.y, parameters->rate_i * elapsed);
-    self->integral.z = integrate_rate(self->integral.z, error.z, cut.z, parameters->yaw_rate_i * elapsed);
+    self->integral.x = integrate_rate(self->integral.x, error.x, cut.x, parameters->tuning.rate_i * elapsed);
+    self->integral.y = integrate_rate(self->integral.y, error.y, cut.y, parameters->tuning.rate_i * elapsed);
+    self->integral.z = integrate_rate(self->integral.z, error.z, cut.z, parameters->tuning.yaw_rate_i * elapsed);
     vector slope = vector_scale(vector_subtract(rates, self->rates), 1.0 / elapsed);
     vector change = vector_scale(vector_subtract(slope, self->derivative), elapsed / (DERIVATIVE_TIME + elapsed));
     self->derivative = vector_add(self->derivative, change);
     self->rates = rates;
     /* The part of the force that the motors give now, while the body still turns to its direction. */
-    double along = vector_dot(thrust->force, quaternion_up(attitude)) * (parameters->thrust_hover / GRAVITY);
+    double along = vector_dot(thrust->force, quaternion_up(attitude)) * (parameters->tuning.thrust_hover / GRAVITY);
     return (demand){
-        .thrust = clamp(along, parameters->thrust_minimum, parameters->thrust_maximum),
-        .roll = parameters->rate_p * error.x + self->integral.x - parameters->rate_d * self->derivative.x,
-        .pitch = parameters->rate_p * error.y + self->integral.y - parameters->rate_d * self->derivative.y,
-        .yaw = parameters->yaw_rate_p * error.z + self->integral.z,
+        .thrust = clamp(along, parameters->tuning.thrust_minimum, parameters->tuning.thrust_maximum),
+        .roll = parameters->tuning.rate_p * error.x + self->integral.x - parameters->tuning.rate_d * self->derivative.x,
+        .pitch = parameters->tuning.rate_p * error.y + self->integral.y - parameters->tuning.rate_d * self->derivative.y,
+        .yaw = parameters->tuning.yaw_rate_p * error.z + self->integral.z,
     };
 }

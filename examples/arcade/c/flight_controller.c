@@ -11,8 +11,8 @@ static const uint64_t FLIGHT_RATE = 30; /* messages a second */
 static const double GAP = 0.02;
 static const uint64_t LONGEST_GAP_US = 2000000; /* after a longer gap, the state is of no use */
 
-flight_controller flight_controller_new(void) {
-    return (flight_controller){.parameters = parameters_default(), .attitude = attitude_new()};
+flight_controller flight_controller_new(const arcade_autopilot_parameters *tuning) {
+    return (flight_controller){.parameters.tuning = *tuning, .attitude = attitude_new()};
 }
 
 void flight_controller_receive_height(flight_controller *self, const Arcade__Height *message) {
@@ -25,10 +25,21 @@ void flight_controller_receive_fix(flight_controller *self, const Arcade__Fix *m
     pending_insert(&self->fixes, message->time_us + FIX_DELAY_US, fix);
 }
 
-void flight_controller_receive_parameters(flight_controller *self, const Arcade__Parameters *message) {
-    self->new_parameters = self->parameters;
-    parameters_read(&self->new_parameters, message);
-    self->has_new_parameters = true;
+/* Those that take effect at the next whole second. */
+static parameters *new_parameters(flight_controller *self) {
+    if (!self->has_new_parameters) {
+        self->new_parameters = self->parameters;
+        self->has_new_parameters = true;
+    }
+    return &self->new_parameters;
+}
+
+void flight_controller_receive_tuning(flight_controller *self, const arcade_autopilot_parameters *tuning) {
+    new_parameters(self)->tuning = *tuning;
+}
+
+void flight_controller_receive_limits(flight_controller *self, const Arcade__Limits *message) {
+    new_parameters(self)->limits = limits_from_message(message);
 }
 
 static situation situation_of(const flight_controller *self) {
@@ -116,7 +127,7 @@ static void fly(flight_controller *self, double motors[4], bool level, double el
 
 static void control(flight_controller *self, double motors[4], drive drive, double elapsed) {
     if (drive == DRIVE_OFF || drive == DRIVE_IDLE) {
-        rest(self, motors, drive == DRIVE_OFF ? 0.0 : self->parameters.thrust_minimum);
+        rest(self, motors, drive == DRIVE_OFF ? 0.0 : self->parameters.tuning.thrust_minimum);
     } else {
         fly(self, motors, drive == DRIVE_FLY_LEVEL, elapsed);
     }
@@ -135,9 +146,9 @@ estimate flight_controller_estimate(const flight_controller *self) {
 
 /* The clock has gone back: the simulated world began anew. */
 static void start_anew(flight_controller *self) {
-    parameters parameters = self->parameters;
-    *self = flight_controller_new();
-    self->parameters = parameters;
+    parameters newest = *new_parameters(self);
+    *self = flight_controller_new(&newest.tuning);
+    self->parameters = newest;
 }
 
 bool flight_controller_step(flight_controller *self, const Arcade__Inertial *message, outputs *outputs) {
@@ -151,8 +162,9 @@ bool flight_controller_step(flight_controller *self, const Arcade__Inertial *mes
         return false;
     }
     self->time_us = now;
+    /* Not at once: when they arrive depends on the machine, and a recorded flight is to be repeated exactly. */
     bool whole_second = before / 1000000 != now / 1000000;
-    if ((whole_second || before == 0) && self->has_new_parameters) {
+    if (whole_second && self->has_new_parameters) {
         self->parameters = self->new_parameters;
         self->has_new_parameters = false;
     }

@@ -36,14 +36,15 @@ typedef struct outputs {
     bool flight_due;  /* it is time for a message `Flight` */
 } outputs;
 
-flight_controller flight_controller_new(void);
+flight_controller flight_controller_new(const arcade_autopilot_parameters *tuning);
 
 /* Takes a height or a fix, which take effect a fixed time after they were measured. */
 void flight_controller_receive_height(flight_controller *self, const Arcade__Height *message);
 void flight_controller_receive_fix(flight_controller *self, const Arcade__Fix *message);
 
-/* Takes parameters, which take effect at the next whole second. */
-void flight_controller_receive_parameters(flight_controller *self, const Arcade__Parameters *message);
+/* Takes parameters of its own, or limits, which take effect at the next whole second. */
+void flight_controller_receive_tuning(flight_controller *self, const arcade_autopilot_parameters *tuning);
+void flight_controller_receive_limits(flight_controller *self, const Arcade__Limits *message);
 
 /*
  * Takes a command, which takes effect at a time of its own, and returns whether it is accepted. A command that is

@@ -1,69 +1,12 @@
 /* The GPS receiver: measures the simulated world, and publishes five fixes a second. */
 #include "arcade_scl.h"
-#include "parameter_table.h"
+#include "readings.h"
 #include "receiver.h"
 
-#include <getopt.h>
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 static const int64_t SILENCE = 1000000000; /* nanoseconds without the world until it is reported */
-
-static const parameter TABLE[] = {
-    {"gps.rate", offsetof(receiver_parameters, rate), 5.0},
-    {"home.latitude", offsetof(receiver_parameters, home.latitude), 50.6866},
-    {"home.longitude", offsetof(receiver_parameters, home.longitude), 10.9190},
-    {"home.altitude", offsetof(receiver_parameters, home.altitude), 480.0},
-};
-static const size_t TABLE_LENGTH = sizeof TABLE / sizeof *TABLE;
-
-typedef struct options {
-    uint64_t seed;
-    outage outage;
-} options;
-
-static const char USAGE[] = "usage: gps_sensor [--seed NUMBER] [--outage FROM:UNTIL]\n"
-                            "  --seed NUMBER          seed of the noise (default 1)\n"
-                            "  --outage FROM:UNTIL    no reception from FROM to UNTIL, in s of the vehicle's clock\n";
-
-static bool read_seed(const char *text, uint64_t *seed) {
-    char rest;
-    unsigned long long number;
-    if (text[0] == '-' || sscanf(text, "%llu%c", &number, &rest) != 1) {
-        fprintf(stderr, "error: --seed `%s` is not a whole number\n", text);
-        return false;
-    }
-    *seed = number;
-    return true;
-}
-
-static bool read_outage(const char *text, outage *outage) {
-    char rest;
-    if (sscanf(text, "%lf:%lf%c", &outage->from, &outage->until, &rest) != 2 || !(outage->from < outage->until)) {
-        fprintf(stderr, "error: --outage `%s` is not two ascending times such as 20:25\n", text);
-        return false;
-    }
-    return true;
-}
-
-static bool read_options(int count, char **arguments, options *options) {
-    static const struct option known[] = {
-        {"seed", required_argument, NULL, 's'}, {"outage", required_argument, NULL, 'o'}, {NULL, 0, NULL, 0}};
-    *options = (struct options){.seed = 1};
-    for (int found; (found = getopt_long(count, arguments, "", known, NULL)) != -1;) {
-        bool good = found == 's'   ? read_seed(optarg, &options->seed)
-                    : found == 'o' ? read_outage(optarg, &options->outage)
-                                   : false;
-        if (!good) {
-            return false;
-        }
-    }
-    if (optind < count) {
-        fprintf(stderr, "error: unexpected argument `%s`\n", arguments[optind]);
-    }
-    return optind == count;
-}
 
 /* One line when reception begins and ends. */
 static void report(Arcade__FixQuality *last, const Arcade__Fix *fix) {
@@ -75,22 +18,29 @@ static void report(Arcade__FixQuality *last, const Arcade__Fix *fix) {
     *last = fix->quality;
 }
 
-static void read_parameters(arcade_gps_sensor *gates, receiver_parameters *parameters) {
-    Arcade__Parameters *message;
-    if (arcade_gps_sensor_parameters_latest(gates, &message) == SCL_OK) {
-        parameter_table_read(TABLE, TABLE_LENGTH, message, parameters);
-        arcade_gps_sensor_parameters_free(message);
+/* Takes the newest parameters and limits. */
+static scl_status read_parameters(arcade_gps_sensor *gates, receiver_parameters *parameters) {
+    Arcade__Limits *limits;
+    bool changed;
+    scl_status status = arcade_gps_sensor_update_parameters(gates, &changed);
+    parameters->rate = gates->parameters.rate;
+    if (status == SCL_OK && (status = arcade_gps_sensor_limits_latest(gates, &limits)) == SCL_OK) {
+        parameters->home = home_from_message(limits);
+        parameters->home_is_known = true;
+        arcade_gps_sensor_limits_free(limits);
     }
+    return status == SCL_NOTHING ? SCL_OK : status;
 }
 
-static scl_status run(arcade_gps_sensor *gates, options options) {
-    receiver receiver = receiver_new(options.seed, options.outage);
-    receiver_parameters parameters;
+static scl_status run(arcade_gps_sensor *gates) {
+    const double *outage_times = gates->parameters.outage;
+    outage outage = {.from = outage_times[0], .until = outage_times[1]};
+    receiver receiver = receiver_new(gates->parameters.seed, outage);
+    receiver_parameters parameters = {0};
     Arcade__FixQuality quality = ARCADE__FIX_QUALITY__FIX_QUALITY_NONE;
     Arcade__World *world;
     Arcade__Fix fix;
     bool silent = false;
-    parameter_table_set_defaults(TABLE, TABLE_LENGTH, &parameters);
     while (true) {
         scl_status status = arcade_gps_sensor_world_recv(gates, &world, SILENCE);
         if (status == SCL_TIMEOUT) {
@@ -105,10 +55,10 @@ static scl_status run(arcade_gps_sensor *gates, options options) {
             return status;
         }
         silent = false;
-        read_parameters(gates, &parameters);
+        status = read_parameters(gates, &parameters);
         bool due = receiver_measure(&receiver, &parameters, world, &fix);
         arcade_gps_sensor_world_free(world);
-        if (due) {
+        if (status == SCL_OK && due) {
             report(&quality, &fix);
             status = arcade_gps_sensor_fix_send(gates, &fix, -1);
         }
@@ -120,16 +70,15 @@ static scl_status run(arcade_gps_sensor *gates, options options) {
 
 int main(int count, char **arguments) {
     setlinebuf(stdout);
-    options options;
-    if (!read_options(count, arguments, &options)) {
-        fputs(USAGE, stderr);
+    if (count > 1) {
+        fprintf(stderr, "error: unexpected argument `%s`\nusage: gps_sensor\n", arguments[1]);
         return 2;
     }
     arcade_gps_sensor gates;
     scl_status status = arcade_gps_sensor_open(&gates, NULL);
     if (status == SCL_OK) {
-        printf("searching for satellites, noise of seed %" PRIu64 "\n", options.seed);
-        status = run(&gates, options);
+        printf("searching for satellites, noise of seed %" PRIu64 "\n", gates.parameters.seed);
+        status = run(&gates);
     }
     if (status != SCL_STOPPED) {
         fprintf(stderr, "error: %s\n", scl_error());

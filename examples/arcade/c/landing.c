@@ -14,7 +14,7 @@ static const double HOLD = 0.5; /* s */
 
 bool landing_update(land_detector *self, double height, double climb, double thrust, const parameters *parameters,
                     double elapsed) {
-    bool stands = height < LOW && fabs(climb) < STILL && thrust < LITTLE_THRUST * parameters->thrust_hover;
+    bool stands = height < LOW && fabs(climb) < STILL && thrust < LITTLE_THRUST * parameters->tuning.thrust_hover;
     self->still = stands ? self->still + elapsed : 0.0;
     return self->still >= HOLD;
 }

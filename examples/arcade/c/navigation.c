@@ -47,7 +47,7 @@ static void land(navigator *self) {
 
 void navigation_begin(navigator *self, const command *command, const estimate *estimate, const parameters *parameters) {
     self->command_id = command->id;
-    self->speed = parameters->limit_speed;
+    self->speed = parameters->limits.speed;
     switch (command->action) {
     case ARCADE__ACTION__ACTION_TAKE_OFF:
         take_off(self, command->target.z, estimate);
@@ -64,11 +64,11 @@ void navigation_begin(navigator *self, const command *command, const estimate *e
 }
 
 static leg leg_of(const navigator *self, const parameters *parameters) {
-    leg leg = {.target = self->target, .yaw = self->target_yaw, .speed = self->speed, .climb = parameters->limit_climb};
+    leg leg = {.target = self->target, .yaw = self->target_yaw, .speed = self->speed, .climb = parameters->limits.climb};
     if (self->mode == ARCADE__MODE__MODE_LANDING) {
         leg.target.z = UNDERGROUND;
         if (self->set_point.position.z < FLARE) {
-            leg.climb = parameters->land_speed;
+            leg.climb = parameters->tuning.land_speed;
         }
     }
     return leg;

@@ -64,7 +64,7 @@ static double measured_height(position_estimator *self, const height_reading *he
     }
     double measured = height->ultrasonic * upright; /* it measures along the body's z axis */
     double change = height->barometer - measured - self->barometer_offset;
-    self->barometer_offset += change * limit(parameters->barometer_correction * elapsed, 1.0);
+    self->barometer_offset += change * limit(parameters->tuning.barometer_correction * elapsed, 1.0);
     return measured;
 }
 
@@ -79,7 +79,7 @@ void position_correct_height(position_estimator *self, const height_reading *hei
     if (!isfinite(error)) {
         return;
     }
-    double bandwidth = parameters->height_correction;
+    double bandwidth = parameters->tuning.height_correction;
     self->position.z += error * (3.0 * bandwidth * elapsed);
     self->velocity.z += error * (3.0 * bandwidth * bandwidth * elapsed);
     self->bias.z = limit(self->bias.z - error * (bandwidth * bandwidth * bandwidth * elapsed), MAX_BIAS);
@@ -91,11 +91,12 @@ static void start_at(position_estimator *self, vector position, vector velocity)
 }
 
 void position_correct_fix(position_estimator *self, const fix_reading *fix, const parameters *parameters) {
-    if (!fix->valid) {
+    /* Without home, it is no place that the vehicle knows. */
+    if (!fix->valid || !limits_are_known(&parameters->limits)) {
         return;
     }
     geodetic_position degrees = {.latitude = fix->latitude, .longitude = fix->longitude};
-    local_position metres = geodesy_to_local(parameters_home(parameters), degrees);
+    local_position metres = geodesy_to_local(parameters->limits.home, degrees);
     vector position = {metres.east, metres.north, 0.0};
     vector velocity = {fix->east_speed, fix->north_speed, 0.0};
     if (!vector_is_finite(position) || !vector_is_finite(velocity)) {
@@ -116,11 +117,11 @@ void position_correct_fix(position_estimator *self, const fix_reading *fix, cons
     vector velocity_error = vector_subtract(velocity, past->velocity);
     position_error.z = 0.0;
     velocity_error.z = 0.0;
-    double position_share = limit(parameters->position_correction * elapsed, 1.0);
-    double velocity_share = limit(parameters->velocity_correction * elapsed, 1.0);
+    double position_share = limit(parameters->tuning.position_correction * elapsed, 1.0);
+    double velocity_share = limit(parameters->tuning.velocity_correction * elapsed, 1.0);
     self->position = vector_add(self->position, vector_scale(position_error, position_share));
     self->velocity = vector_add(self->velocity, vector_scale(velocity_error, velocity_share));
-    vector bias = vector_subtract(self->bias, vector_scale(velocity_error, parameters->bias_correction * elapsed));
+    vector bias = vector_subtract(self->bias, vector_scale(velocity_error, parameters->tuning.bias_correction * elapsed));
     self->bias = (vector){limit(bias.x, MAX_BIAS), limit(bias.y, MAX_BIAS), bias.z};
 }
 

@@ -2,6 +2,7 @@
 #ifndef READINGS_H
 #define READINGS_H
 
+#include "geodesy.h"
 #include "vector.h"
 
 typedef struct inertial_reading {
@@ -23,6 +24,12 @@ typedef struct fix_reading {
     double east_speed, north_speed; /* m/s */
 } fix_reading;
 
+typedef struct limits {
+    home home;
+    double fence_radius, fence_height; /* m from home, and above it */
+    double speed, climb;               /* m/s */
+} limits;
+
 typedef struct command {
     uint64_t effective_us;
     uint32_t id;
@@ -30,6 +37,24 @@ typedef struct command {
     vector target;
     double yaw, speed;
 } command;
+
+static inline home home_from_message(const Arcade__Limits *message) {
+    return (home){message->home_latitude, message->home_longitude, message->home_altitude};
+}
+
+static inline limits limits_from_message(const Arcade__Limits *message) {
+    return (limits){
+        .home = home_from_message(message),
+        .fence_radius = message->fence_radius,
+        .fence_height = message->fence_height,
+        .speed = message->speed,
+        .climb = message->climb,
+    };
+}
+
+static inline bool limits_are_known(const limits *self) {
+    return self->fence_radius > 0.0;
+}
 
 static inline inertial_reading inertial_from_message(const Arcade__Inertial *message) {
     return (inertial_reading){

@@ -75,7 +75,7 @@ bool receiver_measure(receiver *self, const receiver_parameters *parameters, con
     *fix = (Arcade__Fix)ARCADE__FIX__INIT;
     fix->time_us = world->time_us;
     fix->satellites = (uint32_t)satellites(self, world->time_us);
-    if (fix->satellites < SATELLITES_FOR_3D) {
+    if (fix->satellites < SATELLITES_FOR_3D || !parameters->home_is_known) {
         return true; /* of quality NONE, without a position */
     }
     geodetic_position position = geodesy_from_local(parameters->home, position_with_errors(self, world->position));

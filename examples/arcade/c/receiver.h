@@ -8,10 +8,10 @@
 
 #include <stdbool.h>
 
-/* Kept in `configuration`. */
 typedef struct receiver_parameters {
     double rate; /* fixes a second */
     home home;
+    bool home_is_known;
 } receiver_parameters;
 
 /* A time without reception, in seconds of the vehicle's clock. */

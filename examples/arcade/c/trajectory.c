@@ -34,7 +34,7 @@ static vector wanted_velocity(const set_point *self, const leg *leg, double acce
 }
 
 void trajectory_advance(set_point *self, const leg *leg, const parameters *parameters, double elapsed) {
-    double most = parameters->limit_acceleration;
+    double most = parameters->tuning.limit_acceleration;
     vector wanted = vector_scale(vector_subtract(wanted_velocity(self, leg, most), self->velocity), RESPONSE);
     double horizontal = vector_horizontal(wanted);
     if (horizontal > most) {
@@ -48,5 +48,5 @@ void trajectory_advance(set_point *self, const leg *leg, const parameters *param
     self->position = vector_add(self->position, vector_scale(self->velocity, elapsed));
 
     double turn = angle_between(self->yaw, leg->yaw);
-    self->yaw += limit(turn, radians(parameters->limit_yaw_rate) * elapsed);
+    self->yaw += limit(turn, radians(parameters->tuning.limit_yaw_rate) * elapsed);
 }

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from arcade_scl import Authority, Command, CommandResult, Flight, Parameters, Power
+from arcade_scl import Authority, Command, CommandResult, Flight, Limits, Power
 
 
 @dataclass(frozen=True)
@@ -16,8 +16,8 @@ class PowerSeen:
 
 
 @dataclass(frozen=True)
-class ParametersSeen:
-    parameters: Parameters
+class LimitsSeen:
+    limits: Limits
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Tick:
     """Time has passed."""
 
 
-Event = FlightSeen | PowerSeen | ParametersSeen | Requested | Answered | Tick
+Event = FlightSeen | PowerSeen | LimitsSeen | Requested | Answered | Tick
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,9 @@
 """Who commands the autopilot: a state machine without clocks, gates or waiting. Times are seconds of any steady clock."""
 
-from collections.abc import Mapping
+import math
 from dataclasses import dataclass, replace
 
 import command_ids
-import parameters
 import request_checks
 import safety
 from arbiter_events import (
@@ -13,7 +12,7 @@ from arbiter_events import (
     Ask,
     Event,
     FlightSeen,
-    ParametersSeen,
+    LimitsSeen,
     PowerSeen,
     Reply,
     Requested,
@@ -21,7 +20,17 @@ from arbiter_events import (
     Tick,
 )
 from arcade_scl import Action as Order
-from arcade_scl import Arbitration, Authority, Command, CommandResult, Flight, Mode, Power
+from arcade_scl import (
+    Arbitration,
+    Authority,
+    Command,
+    CommandResult,
+    Flight,
+    Limits,
+    MissionArbiterParameters,
+    Mode,
+    Power,
+)
 from course import Course, resumed, return_height
 
 LEAD_US = 150_000  # of a command before it takes effect: longer than it takes to reach the autopilot
@@ -55,8 +64,9 @@ class Asked:
 class Arbiter:
     """Safety over the ground station over the mission."""
 
-    def __init__(self, now: float) -> None:
-        self.values: Mapping[str, float] = parameters.DEFAULTS
+    def __init__(self, now: float, parameters: MissionArbiterParameters) -> None:
+        self.parameters = parameters
+        self._limits: Limits | None = None
         self.authority = Authority.AUTHORITY_NOBODY
         self.course: Course | None = None
         self._reason = ""
@@ -85,8 +95,8 @@ class Arbiter:
                 actions += self._fly(now, flight)
             case PowerSeen(power):
                 self._power, self._power_at = power, now
-            case ParametersSeen(message):
-                self.values = parameters.values_of(message)
+            case LimitsSeen(limits):
+                self._limits = limits
             case Requested():
                 self._waiting.append(Waiting(event, now + REQUEST_LIMIT))
                 # The ground station comes first; requests of one source keep their order.
@@ -140,13 +150,15 @@ class Arbiter:
         """Applies the safety rules. A landing here outranks a return, and both outrank everybody else."""
         if self._flight is None:
             return []
-        found = safety.danger(self._flight, self._power, now - self._power_at, self.values)
+        found = safety.danger(
+            self._flight, self._power, now - self._power_at, self._limits, self.parameters.fence_margin
+        )
         decided = self.course is not None and self.authority == Authority.AUTHORITY_SAFETY
         landing = self.course is not None and self.course.phase != command_ids.HOME
         if found is None or (decided and (landing or not found.land_here)):
             return []
         number = command_ids.next_of_safety(self.course.id if self.course else self._flight.command_id)
-        height = return_height(self._flight, self.values["return.height"], self.values["fence.height"])
+        height = self._return_height(self._flight)
         phase = 0 if found.land_here else command_ids.HOME
         course = Course(Authority.AUTHORITY_SAFETY, number, phase, height, found.reason)
         self._hand_over(Authority.AUTHORITY_SAFETY, course, found.reason)
@@ -183,30 +195,38 @@ class Arbiter:
             elif refusal := self._refusal(now, waiting.request):
                 actions += self._refuse(waiting, refusal)
             elif now >= waiting.deadline:
-                actions += self._refuse(waiting, waiting.problem)
+                actions += self._refuse(waiting, self._missing() or waiting.problem)
             elif flight and command.action == Order.ACTION_LAND and flight.mode == Mode.MODE_GROUNDED:
                 actions += self._reply(waiting, CommandResult(accepted=True))
-            elif flight and self._asked is None and now >= waiting.not_before:
+            elif flight and self._limits and self._asked is None and now >= waiting.not_before:
                 waiting.tried = True
                 actions.append(self._pass_on(flight, waiting, min(ASK_TIMEOUT, waiting.deadline - now)))
         return actions
 
     def _refusal(self, now: float, request: Requested) -> str | None:
         """Returns the reason if the request cannot be passed on."""
-        if self._flight is None:
+        if self._flight is None or self._limits is None:
             return None
         if overruled := self._overruled():
             return overruled
         if self.authority == Authority.AUTHORITY_GROUND and request.source != Authority.AUTHORITY_GROUND:
             return f"the ground station commands the vehicle: {self._reason}"
         power = self._power if now - self._power_at <= safety.POWER_SILENCE else None
-        return request_checks.refusal(request.source, request.command, self._flight, power, self.values)
+        return request_checks.refusal(request.source, request.command, self._flight, power, self._limits)
+
+    def _missing(self) -> str | None:
+        """Returns what has to be known before a request can be passed on."""
+        return "nothing was received from configuration" if self._flight and self._limits is None else None
+
+    def _return_height(self, flight: Flight) -> float:
+        highest = self._limits.fence_height if self._limits else math.inf
+        return return_height(flight, self.parameters.return_height, highest)
 
     def _pass_on(self, flight: Flight, waiting: Waiting, timeout: float) -> Ask:
         request, course = waiting.request, None
         command = request.command
         if command.action == Order.ACTION_RETURN:
-            height = return_height(flight, self.values["return.height"], self.values["fence.height"])
+            height = self._return_height(flight)
             reason = request_checks.describe(command)
             course = Course(request.source, command.id, command_ids.HOME, height, reason).next(flight)
             command = course.command(flight)

@@ -6,10 +6,10 @@ coulomb counting, which the voltage corrects where the count started wrong.
 
 import math
 from bisect import bisect_right
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from arcade_scl import Battery
+from arcade_scl import Battery, PowerManagementParameters
 
 # Open-circuit voltage of one cell at tenths of its charge, from empty to full, at room temperature.
 VOLTAGES = (3.30, 3.61, 3.69, 3.71, 3.75, 3.80, 3.84, 3.91, 3.98, 4.08, 4.20)
@@ -68,11 +68,11 @@ class Estimate:
         return self.charge * self.capacity * 3600 / max(self.current, IDLE_CURRENT)
 
 
-def update(last: Estimate | None, reading: Battery, values: Mapping[str, float]) -> Estimate:
+def update(last: Estimate | None, reading: Battery, parameters: PowerManagementParameters) -> Estimate:
     """The estimate after a plausible reading."""
-    cells = values["power.cells"]
+    cells = parameters.cells
     counted = min(max(1 - reading.used / reading.capacity, 0.0), 1.0)
-    idle_voltage = (reading.voltage + reading.current * values["power.resistance"]) / cells
+    idle_voltage = (reading.voltage + reading.current * parameters.resistance) / cells
     shortfall = open_circuit_voltage(counted) - idle_voltage
     current = reading.current
     if last:

@@ -34,7 +34,7 @@ class Reader:
         select.select([self.component.fileno(), *files], [], [], RETRY)
         if world := self.component.world.latest():
             self.time_us = world.time_us
-        self.component.parameters.latest()  # a real receiver has its own rate
+        self.component.limits.latest()  # a real receiver knows where it is
         if self.source:
             self.read(self.source)
         if time.monotonic() - self.reported >= REPORT:

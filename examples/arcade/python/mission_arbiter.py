@@ -10,7 +10,7 @@ from typing import TypeVar
 
 import scl
 
-from arbiter_events import Answered, Ask, Event, FlightSeen, ParametersSeen, PowerSeen, Reply, Requested, Say, Tick
+from arbiter_events import Answered, Ask, Event, FlightSeen, LimitsSeen, PowerSeen, Reply, Requested, Say, Tick
 from arbiter_logic import Arbiter
 from arcade_scl import Arbitration, Authority, Command, CommandResult, MissionArbiter
 from black_box import BlackBox
@@ -24,7 +24,7 @@ class Program:
 
     def __init__(self, component: MissionArbiter) -> None:
         self.component = component
-        self.logic = Arbiter(time.monotonic())
+        self.logic = Arbiter(time.monotonic(), component.parameters)
         self.black_box = BlackBox(component.records, "mission_arbiter")
         self.asks = asyncio.Queue[Ask]()
         self.numbers = count(1)
@@ -36,7 +36,7 @@ class Program:
         await scl.until_stopped(
             self.listen(c.flight, FlightSeen),
             self.listen(c.power, PowerSeen),
-            self.listen(c.parameters, ParametersSeen),
+            self.listen(c.limits, LimitsSeen),
             self.serve(c.mission, Authority.AUTHORITY_MISSION),
             self.serve(c.ground, Authority.AUTHORITY_GROUND),
             self.ask(),
@@ -55,6 +55,8 @@ class Program:
 
     async def tick(self) -> None:
         while True:
+            if self.component.update_parameters():
+                self.logic.parameters = self.component.parameters
             self.take(Tick())
             self.publish()
             await asyncio.sleep(PERIOD)

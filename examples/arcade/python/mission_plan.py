@@ -1,18 +1,15 @@
 """Makes commands of a mission's steps, and checks before take-off whether they are allowed and the battery lasts."""
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 
-from arcade_scl import Action, Command, Power, Vector
+from arcade_scl import Action, Command, Limits, Power, Vector
 from battery import IDLE_CURRENT
 from mission_script import GoTo, Hold, Land, Mission, Return, Step, TakeOff
 
 FIRST_ID = 100  # the id of the command of step 1; that of step 2 is one more: a restarted mission knows its step by it
 SETTLING = 3.0  # s that each step takes to accelerate, to brake and to be sure that it is reached
 MARGIN = 1.3  # the battery has to last this much longer than the mission is estimated to take: wind costs time
-
-Limits = Mapping[str, float]
 
 
 @dataclass(frozen=True)
@@ -80,13 +77,13 @@ def outside(legs: list[Leg], limits: Limits, file: str) -> list[str]:
             continue  # leads to no new point
         where = f"{file}:{leg.step.line}: step {leg.number}"
         distance = math.hypot(leg.end[0], leg.end[1])
-        if distance > limits["fence.radius"]:
+        if distance > limits.fence_radius:
             problems.append(
-                f"{where}: {distance:.1f} m from home is outside of the fence (`fence.radius` is {limits['fence.radius']:g} m)"
+                f"{where}: {distance:.1f} m from home is outside of the fence (`fence_radius` is {limits.fence_radius:g} m)"
             )
-        if leg.end[2] > limits["fence.height"]:
+        if leg.end[2] > limits.fence_height:
             problems.append(
-                f"{where}: a height of {leg.end[2]:g} m is above the fence (`fence.height` is {limits['fence.height']:g} m)"
+                f"{where}: a height of {leg.end[2]:g} m is above the fence (`fence_height` is {limits.fence_height:g} m)"
             )
     return problems
 
@@ -99,21 +96,21 @@ def duration(legs: list[Leg], limits: Limits) -> float:
 def leg_duration(leg: Leg, limits: Limits) -> float:
     if isinstance(leg.step.task, Hold):
         return leg.step.task.seconds
-    speed = min((leg.command.speed if leg.command else 0.0) or math.inf, limits["limit.speed"])
+    speed = min((leg.command.speed if leg.command else 0.0) or math.inf, limits.speed)
     across = math.dist(leg.start[:2], leg.end[:2]) / speed
-    upwards = abs(leg.end[2] - leg.start[2]) / limits["limit.climb"]
+    upwards = abs(leg.end[2] - leg.start[2]) / limits.climb
     return max(across, upwards) + SETTLING
 
 
-def time_in_air(power: Power, limits: Limits) -> float:
+def time_in_air(power: Power, hover_current: float) -> float:
     """How many seconds the battery lasts in the air. On the ground nearly no current flows, so the one of hovering counts."""
     current = max(power.current, IDLE_CURRENT)
-    return power.time_left * current / max(current, limits["power.hover_current"])
+    return power.time_left * current / max(current, hover_current)
 
 
-def too_long(legs: list[Leg], limits: Limits, power: Power) -> list[str]:
+def too_long(legs: list[Leg], limits: Limits, power: Power, hover_current: float) -> list[str]:
     """Says so if the battery is too small."""
-    needed, lasts = duration(legs, limits) * MARGIN, time_in_air(power, limits)
+    needed, lasts = duration(legs, limits) * MARGIN, time_in_air(power, hover_current)
     if needed <= lasts:
         return []
     seconds = f"the mission takes about {needed / MARGIN:.0f} s, {needed:.0f} s with a margin of {MARGIN - 1:.0%}"

@@ -25,7 +25,7 @@ class GoTo:
     north: float  # m from home
     height: float  # m above home
     yaw: float | None = None  # degrees counter-clockwise from east; None keeps the last one
-    speed: float | None = None  # m/s; None is the parameter `limit.speed`
+    speed: float | None = None  # m/s; None is the limit of `configuration`
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,6 @@
 import sys
 import time
 
-import parameters
 from arcade_scl import PowerManagement
 from black_box import BlackBox
 from gates import next_within
@@ -13,13 +12,13 @@ PERIOD = 0.1  # s: the battery is read ten times a second
 
 
 def run(component: PowerManagement) -> None:
-    monitor = Monitor(time.monotonic())
+    monitor = Monitor(time.monotonic(), component.parameters)
     black_box = BlackBox(component.records, "power_management")
     while True:
         # Readings set the pace; without them, `power` goes on a little slower.
         reading = next_within(component.battery, 1.5 * PERIOD)
-        if message := component.parameters.latest():
-            monitor.values = parameters.values_of(message)
+        if component.update_parameters():
+            monitor.parameters = component.parameters
         for event in monitor.update(time.monotonic(), reading):
             black_box.note(event.text, event.value)
         if monitor.power:

@@ -1,10 +1,8 @@
 """Decides what `power` says: readings of the battery and the passing of time in, messages and events out."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
-import parameters
-from arcade_scl import Battery, Power, PowerLevel
+from arcade_scl import Battery, Power, PowerLevel, PowerManagementParameters
 from battery import Estimate, extrapolate, implausible, update
 
 SILENT_AFTER = 1.0  # s without a plausible reading
@@ -28,14 +26,14 @@ class Event:
     value: float = 0.0
 
 
-def level_of(charge: float, last: PowerLevel, values: Mapping[str, float]) -> PowerLevel:
+def level_of(charge: float, last: PowerLevel, parameters: PowerManagementParameters) -> PowerLevel:
     """The level of a charge. It gets worse at once, and better only beyond the hysteresis."""
     limits = (
-        (PowerLevel.POWER_LEVEL_CRITICAL, values["power.critical"]),
-        (PowerLevel.POWER_LEVEL_LOW, values["power.low"]),
+        (PowerLevel.POWER_LEVEL_CRITICAL, parameters.critical),
+        (PowerLevel.POWER_LEVEL_LOW, parameters.low),
     )
     for level, limit in limits:
-        if charge < limit or (last >= level and charge < limit + values["power.hysteresis"]):
+        if charge < limit or (last >= level and charge < limit + parameters.hysteresis):
             return level
     return PowerLevel.POWER_LEVEL_OK
 
@@ -43,8 +41,8 @@ def level_of(charge: float, last: PowerLevel, values: Mapping[str, float]) -> Po
 class Monitor:
     """Times are seconds of any clock that does not go backwards."""
 
-    def __init__(self, now: float) -> None:
-        self.values: Mapping[str, float] = parameters.DEFAULTS
+    def __init__(self, now: float, parameters: PowerManagementParameters) -> None:
+        self.parameters = parameters
         self.power: Power | None = None  # what is to be published; None as long as nothing is known
         self._estimate: Estimate | None = None
         self._level = PowerLevel.POWER_LEVEL_OK  # of the last estimate
@@ -55,7 +53,7 @@ class Monitor:
     def update(self, now: float, reading: Battery | None) -> list[Event]:
         """Takes a reading, or that there was none. Returns what is to be said."""
         events = []
-        problem = implausible(reading, self.values["power.cells"]) if reading else self._implausible
+        problem = implausible(reading, self.parameters.cells) if reading else self._implausible
         if problem and not self._implausible:
             events.append(Event(f"ignoring readings of the battery: {problem}"))
         self._implausible = problem
@@ -68,7 +66,7 @@ class Monitor:
 
     def _heard(self, now: float, reading: Battery) -> list[Event]:
         last = self._estimate
-        self._estimate = update(last, reading, self.values)
+        self._estimate = update(last, reading, self.parameters)
         events = [Event(f"battery readings are back after {now - self._heard_at:.1f} s")] if self._silent else []
         if self._estimate.count_is_wrong != (last is not None and last.count_is_wrong):
             wrong, volts = self._estimate.count_is_wrong, self._estimate.shortfall
@@ -97,7 +95,7 @@ class Monitor:
         return [Event(text, self.power.charge_left)]
 
     def _message(self, estimate: Estimate) -> Power:
-        self._level = level_of(estimate.charge, self._level, self.values)
+        self._level = level_of(estimate.charge, self._level, self.parameters)
         return Power(
             time_us=estimate.time_us,
             voltage=estimate.voltage,

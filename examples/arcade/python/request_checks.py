@@ -1,12 +1,9 @@
 """Why a request cannot be passed on to the autopilot: who asks, what for, and what the vehicle is doing."""
 
 import math
-from collections.abc import Mapping
 
 import command_ids
-from arcade_scl import Action, Authority, Command, Flight, Mode, Power, PowerLevel
-
-Values = Mapping[str, float]
+from arcade_scl import Action, Authority, Command, Flight, Limits, Mode, Power, PowerLevel
 
 ACTIONS = {
     Action.ACTION_TAKE_OFF: "take off",
@@ -33,7 +30,7 @@ def describe(command: Command) -> str:
             return ACTIONS.get(other, f"action {other}")
 
 
-def refusal(source: Authority, command: Command, flight: Flight, power: Power | None, values: Values) -> str | None:
+def refusal(source: Authority, command: Command, flight: Flight, power: Power | None, limits: Limits) -> str | None:
     """Returns the reason if a command cannot be passed on."""
     ids = command_ids.RANGES[source]
     if command.id not in ids:
@@ -43,7 +40,7 @@ def refusal(source: Authority, command: Command, flight: Flight, power: Power | 
     return (
         _bad_number(command)
         or _wrong_moment(command, flight)
-        or _beyond_fence(command, values)
+        or _beyond_fence(command, limits)
         or _cannot_take_off(command, power)
     )
 
@@ -73,17 +70,16 @@ def _wrong_moment(command: Command, flight: Flight) -> str | None:
     return None
 
 
-def _beyond_fence(command: Command, values: Values) -> str | None:
+def _beyond_fence(command: Command, limits: Limits) -> str | None:
     if command.action not in (Action.ACTION_TAKE_OFF, Action.ACTION_GO_TO):
         return None
-    height = values["fence.height"]
+    height = limits.fence_height
     if not 0 < command.target.z <= height:
         return f"a height of {command.target.z:.1f} m is outside of the fence, which is 0 to {height:g} m high"
     # A take-off goes straight up from where the vehicle stands.
     distance = math.hypot(command.target.x, command.target.y)
-    if command.action == Action.ACTION_GO_TO and distance > values["fence.radius"]:
-        radius = values["fence.radius"]
-        return f"{distance:.1f} m from home is outside of the fence, which has a radius of {radius:g} m"
+    if command.action == Action.ACTION_GO_TO and distance > limits.fence_radius:
+        return f"{distance:.1f} m from home is outside of the fence, which has a radius of {limits.fence_radius:g} m"
     return None
 
 

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import scl
 
-import parameters
 from arcade_scl import Arbitration, Command, CommandResult, UavMission
 from black_box import BlackBox
 from gates import next_within
@@ -49,15 +48,15 @@ def say(black_box: BlackBox, decision: Decision) -> None:
 
 
 def before_take_off(component: UavMission, legs: list[Leg], file: str) -> list[str]:
-    """Waits for the parameters and the battery, and returns why the mission cannot be flown."""
+    """Waits for the limits and the battery, and returns why the mission cannot be flown."""
     if all(leg.command is None for leg in legs):
         return []
-    while (message := next_within(component.parameters, SILENCE)) is None:
-        print("waiting for the parameters", flush=True)
-    limits = parameters.values_of(message)
+    while (limits := next_within(component.limits, SILENCE)) is None:
+        print("waiting for the limits", flush=True)
     while (power := next_within(component.power, SILENCE)) is None:
         print("waiting for power management", flush=True)
-    return outside(legs, limits, file) + too_long(legs, limits, power)
+    component.update_parameters()
+    return outside(legs, limits, file) + too_long(legs, limits, power, component.parameters.hover_current)
 
 
 def ask(component: UavMission, command: Command) -> CommandResult:

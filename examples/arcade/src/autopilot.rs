@@ -18,7 +18,8 @@ pub mod state;
 pub mod trajectory;
 pub mod vector;
 
-use crate::arcade::{Command, CommandResult, Fix, Flight, Height, Inertial, Mode, Motors};
+use crate::AutopilotParameters;
+use crate::arcade::{Command, CommandResult, Fix, Flight, Height, Inertial, Limits, Mode, Motors};
 use attitude::AttitudeEstimator;
 use commands::Situation;
 use control::{RateController, VelocityController};
@@ -47,7 +48,7 @@ pub struct Outputs {
 }
 
 /// The whole state of the autopilot.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct FlightController {
     /// Time of the last reading; 0 before the first.
     pub time_us: u64,
@@ -70,6 +71,26 @@ pub struct FlightController {
 }
 
 impl FlightController {
+    /// Stands on the ground.
+    pub fn new(parameters: Parameters) -> Self {
+        Self {
+            time_us: 0,
+            parameters,
+            attitude: AttitudeEstimator::default(),
+            position: PositionEstimator::default(),
+            navigator: Navigator::default(),
+            velocity_controller: VelocityController::default(),
+            rate_controller: RateController::default(),
+            thrust: 0.0,
+            cut: Vec3::ZERO,
+            restarts: 0,
+            heights: Pending::default(),
+            fixes: Pending::default(),
+            commands: Pending::default(),
+            new_parameters: None,
+        }
+    }
+
     /// Takes a height, which takes effect a fixed time after it was measured.
     pub fn receive_height(&mut self, height: &Height) {
         self.heights.insert(height.time_us + HEIGHT_DELAY_US, *height);
@@ -80,11 +101,22 @@ impl FlightController {
         self.fixes.insert(fix.time_us + FIX_DELAY_US, *fix);
     }
 
-    /// Takes parameters, which take effect at the next whole second.
-    pub fn receive_parameters(&mut self, message: &crate::arcade::Parameters) {
-        let mut parameters = self.parameters;
-        message.parameters.iter().for_each(|parameter| parameters.set(&parameter.name, parameter.value));
-        self.new_parameters = Some(parameters);
+    /// Takes limits, which take effect at the next whole second.
+    pub fn receive_limits(&mut self, limits: &Limits) {
+        self.new_parameters = Some(Parameters { limits: *limits, ..self.newest_parameters() });
+    }
+
+    /// Takes its own parameters. If they have changed, they take effect at the next whole second.
+    pub fn receive_parameters(&mut self, own: &AutopilotParameters) {
+        let newest = self.newest_parameters();
+        let parameters = Parameters::new(own, newest.limits);
+        if parameters != newest {
+            self.new_parameters = Some(parameters);
+        }
+    }
+
+    fn newest_parameters(&self) -> Parameters {
+        self.new_parameters.unwrap_or(self.parameters)
     }
 
     /// Takes a command, which takes effect at the time that it states, and returns whether it is accepted. A command
@@ -106,16 +138,15 @@ impl FlightController {
         let now = reading.time_us;
         if now + LONGEST_GAP_US < self.time_us {
             // The vehicle's clock has restarted.
-            *self = Self { parameters: self.parameters, ..Self::default() };
+            *self = Self::new(self.newest_parameters());
         }
         if now <= self.time_us {
             return None;
         }
         let before = std::mem::replace(&mut self.time_us, now);
+        // Not at once: when they arrive depends on the machine, and a recorded flight is to be repeated exactly.
         let whole_second = before / 1_000_000 != now / 1_000_000;
-        if (whole_second || before == 0)
-            && let Some(parameters) = self.new_parameters.take()
-        {
+        if whole_second && let Some(parameters) = self.new_parameters.take() {
             self.parameters = parameters;
         }
         let elapsed = self.estimate(reading, before);
@@ -245,7 +276,8 @@ fn set_points(time_us: u64, motors: [f64; 4]) -> Motors {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arcade::{Action, Parameter, Vector};
+    use crate::Autopilot;
+    use crate::arcade::{Action, Vector};
 
     const BEAT_US: u64 = 3_333;
 
@@ -256,8 +288,8 @@ mod tests {
 
     /// Standing on the ground with a position, after one second.
     fn ready() -> FlightController {
-        let mut controller = FlightController::default();
-        let home = controller.parameters.home();
+        let mut controller = FlightController::new(Parameters::defaults());
+        let home = controller.parameters.limits.home();
         let (latitude, longitude) = (home.latitude, home.longitude);
         controller.receive_fix(&Fix { time_us: BEAT_US, quality: 2, latitude, longitude, ..Fix::default() });
         (1..300).for_each(|beat| assert!(controller.step(&reading(beat)).is_some()));
@@ -271,7 +303,7 @@ mod tests {
 
     #[test]
     fn flight_is_reported_30_times_a_second_and_motors_at_each_beat() {
-        let mut controller = FlightController::default();
+        let mut controller = FlightController::new(Parameters::defaults());
         let outputs: Vec<_> = (1..=300).filter_map(|beat| controller.step(&reading(beat))).collect();
         assert_eq!(outputs.len(), 300);
         assert_eq!(outputs.iter().filter(|outputs| outputs.flight.is_some()).count(), 29);
@@ -317,11 +349,17 @@ mod tests {
     #[test]
     fn parameters_take_effect_at_the_next_whole_second() {
         let mut controller = ready();
-        let parameter = Parameter { name: "attitude.p".to_owned(), value: 5.0 };
-        controller.receive_parameters(&crate::arcade::Parameters { parameters: vec![parameter] });
+        let (autopilot, _peer) = Autopilot::test_blocking().expect("opened");
+        controller.receive_parameters(&autopilot.parameters);
+        assert_eq!(controller.new_parameters, None, "nothing has changed");
+        autopilot.parameters.attitude_p.set("5").expect("a value that it can have");
+        controller.receive_parameters(&autopilot.parameters);
+        controller.receive_limits(&Limits { speed: 2.0, ..controller.parameters.limits });
+        let values =
+            |controller: &FlightController| (controller.parameters.attitude_p, controller.parameters.limits.speed);
         controller.step(&reading(300));
-        assert_eq!(controller.parameters.attitude_p, 6.0);
+        assert_eq!(values(&controller), (6.0, 4.0));
         controller.step(&reading(301));
-        assert_eq!(controller.parameters.attitude_p, 5.0);
+        assert_eq!(values(&controller), (5.0, 2.0));
     }
 }

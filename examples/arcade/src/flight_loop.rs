@@ -1,7 +1,8 @@
 //! The program `autopilot`: one beat for each inertial reading.
 
 use crate::Autopilot;
-use crate::arcade::{Beat, CommandResult, Inertial, Mode};
+use crate::arcade::{Beat, CommandResult, Inertial, Limits, Mode};
+use crate::autopilot::parameters::Parameters;
 use crate::autopilot::resume::StateFile;
 use crate::autopilot::{FlightController, Outputs, state};
 use rustix::time::{ClockId, clock_gettime};
@@ -16,16 +17,14 @@ const SILENCE: Duration = Duration::from_millis(200);
 #[derive(Debug, Default)]
 pub struct Memory {
     file: Option<StateFile>,
-    saved: Option<FlightController>,
+    saved: Option<Vec<f64>>,
 }
 
 impl Memory {
     /// Opens the state file. Without it, the autopilot flies but cannot carry on after a crash.
     pub fn open(path: &Path) -> Self {
         match StateFile::open(path, state::COUNT) {
-            Ok((file, numbers)) => {
-                Self { file: Some(file), saved: numbers.and_then(|numbers| state::restore(&numbers)) }
-            }
+            Ok((file, saved)) => Self { file: Some(file), saved },
             Err(error) => {
                 eprintln!("warning: no state for a restart in the air: {}: {error}", path.display());
                 Self::default()
@@ -66,7 +65,7 @@ pub fn run(mut gates: Autopilot, mut memory: Memory) -> scl::Result<()> {
         };
         silent = false;
         let began_ns = monotonic_ns();
-        let controller = controller.get_or_insert_with(|| begin(memory.saved.take(), &reading));
+        let controller = controller.get_or_insert_with(|| begin(&gates, memory.saved.take(), &reading));
         let Some(outputs) = beat(&mut gates, controller, &reading)? else { continue };
         let took_ns = u32::try_from(monotonic_ns() - began_ns).unwrap_or(u32::MAX);
         memory.store(controller);
@@ -76,20 +75,23 @@ pub fn run(mut gates: Autopilot, mut memory: Memory) -> scl::Result<()> {
 }
 
 /// Carries on in the air from the saved state, or starts on the ground.
-fn begin(saved: Option<FlightController>, reading: &Inertial) -> FlightController {
+fn begin(gates: &Autopilot, saved: Option<Vec<f64>>, reading: &Inertial) -> FlightController {
+    let parameters = Parameters::new(&gates.parameters, Limits::default());
+    let saved = saved.and_then(|numbers| state::restore(&numbers, parameters));
     if let Some(resumed) = saved.and_then(|saved| saved.resumed(reading.time_us)) {
         println!("carrying on in the air: restart {}", resumed.restarts);
         return resumed;
     }
     println!("ready on the ground");
-    FlightController::default()
+    FlightController::new(parameters)
 }
 
 /// The urgent part of a beat: from the readings to the motors.
 fn beat(gates: &mut Autopilot, controller: &mut FlightController, reading: &Inertial) -> scl::Result<Option<Outputs>> {
-    while let Some(parameters) = gates.parameters.try_recv()? {
-        controller.receive_parameters(&parameters);
+    if let Some(limits) = gates.limits.latest()? {
+        controller.receive_limits(&limits);
     }
+    controller.receive_parameters(&gates.parameters);
     while let Some(height) = gates.height.try_recv()? {
         controller.receive_height(&height);
     }

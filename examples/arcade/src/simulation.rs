@@ -9,6 +9,7 @@ use crate::world::battery::Battery;
 use crate::world::motors::MotorControllers;
 use crate::world::wind::Wind;
 use crate::world::{self, World};
+use crate::{Simulator, SimulatorParameters};
 
 /// Inertial readings per second; one for each step of the simulation.
 pub const RATE: u32 = 300;
@@ -32,9 +33,20 @@ pub struct Settings {
     pub charge: f64,
 }
 
-impl Default for Settings {
-    fn default() -> Self {
-        Self { wind: 3.0, gusts: 1.0, seed: 1, capacity: 2.2, charge: 1.0 }
+impl Settings {
+    /// Those of the simulator's parameters.
+    pub fn new(parameters: &SimulatorParameters) -> Self {
+        let SimulatorParameters { wind, gusts, seed, capacity, charge, .. } = *parameters;
+        Self { wind, gusts, seed, capacity, charge }
+    }
+
+    /// The defaults of the topology, for tests.
+    ///
+    /// # Panics
+    /// Panics if the simulator cannot be opened for a test.
+    pub fn defaults() -> Self {
+        let (simulator, _peer) = Simulator::test_blocking().expect("opened");
+        Self::new(&simulator.parameters)
     }
 }
 
@@ -117,7 +129,7 @@ mod tests {
 
     #[test]
     fn each_sensor_has_its_rate() {
-        let mut simulation = Simulation::new(&Settings::default());
+        let mut simulation = Simulation::new(&Settings::defaults());
         let readings: Vec<_> = (0..300).map(|_| simulation.step()).collect();
         assert_eq!(readings.iter().filter(|readings| readings.height.is_some()).count(), 20);
         assert_eq!(readings.iter().filter(|readings| readings.battery.is_some()).count(), 10);
@@ -128,7 +140,7 @@ mod tests {
     #[test]
     fn the_same_seed_gives_the_same_readings() {
         let run = |seed| {
-            let mut simulation = Simulation::new(&Settings { seed, ..Settings::default() });
+            let mut simulation = Simulation::new(&Settings { seed, ..Settings::defaults() });
             (0..100).map(|_| simulation.step()).collect::<Vec<_>>()
         };
         assert_eq!(run(5), run(5));

@@ -2,7 +2,7 @@
 
 use crate::Simulator;
 use crate::arcade;
-use crate::autopilot::parameters::Parameters;
+use crate::geodesy::Home;
 use crate::nmea;
 use crate::sensors::gps::{self, Receiver};
 use crate::sensors::truth;
@@ -22,9 +22,10 @@ const NMEA_PERIOD: u64 = (RATE / gps::RATE) as u64; // steps
 ///
 /// # Errors
 /// Errors of the gates, the timer and the serial port.
-pub async fn run(mut gates: Simulator, settings: Settings, serial: Option<SerialPort>) -> scl::Result<()> {
+pub async fn run(mut gates: Simulator, serial: Option<SerialPort>) -> scl::Result<()> {
+    let settings = Settings::new(&gates.parameters);
     let mut simulation = Simulation::new(&settings);
-    let mut receiver = SerialReceiver { port: serial, receiver: Receiver::new(settings.seed) };
+    let mut receiver = SerialReceiver { port: serial, receiver: Receiver::new(settings.seed), home: None };
     let mut watch = Watch::default();
     if let Err(missing) = gates.ready(PATIENCE).await {
         println!("starting without all components: {missing}");
@@ -38,6 +39,9 @@ pub async fn run(mut gates: Simulator, settings: Settings, serial: Option<Serial
         }
         let steps = if missed > MAX_MISSED { 1 } else { 1 + missed };
         for _ in 0..steps {
+            if let Some(limits) = gates.limits.latest()? {
+                receiver.home = Some(limits.home());
+            }
             if let Some(motors) = gates.motors.try_recv()? {
                 simulation.receive(&motors);
             }
@@ -68,14 +72,16 @@ async fn send(gates: &mut Simulator, readings: &Readings) -> scl::Result<()> {
 struct SerialReceiver {
     port: Option<SerialPort>,
     receiver: Receiver,
+    /// `None` until `configuration` has told it.
+    home: Option<Home>,
 }
 
 impl SerialReceiver {
     fn step(&mut self, simulation: &Simulation) -> scl::Result<()> {
-        let Some(port) = &self.port else { return Ok(()) };
+        let (Some(port), Some(home)) = (&self.port, self.home) else { return Ok(()) };
         if simulation.steps().is_multiple_of(NMEA_PERIOD) {
             let world: arcade::World = truth(simulation.time_us(), &simulation.world);
-            let fix = self.receiver.measure(&world, Parameters::default().home());
+            let fix = self.receiver.measure(&world, home);
             port.write(&nmea::sentences(&fix))?;
         }
         Ok(())

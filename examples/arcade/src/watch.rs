@@ -69,7 +69,7 @@ mod tests {
 
     #[test]
     fn a_flight_that_ends_in_a_crash_is_told_in_three_lines() {
-        let mut simulation = Simulation::new(&Settings { wind: 0.0, gusts: 0.0, ..Settings::default() });
+        let mut simulation = Simulation::new(&Settings { wind: 0.0, gusts: 0.0, ..Settings::defaults() });
         let mut watch = Watch::default();
         assert!(events(&mut simulation, &mut watch, 1, None).is_empty());
         let up = events(&mut simulation, &mut watch, 2, Some(0.6));
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn an_empty_battery_is_told_once() {
-        let mut simulation = Simulation::new(&Settings { capacity: 0.001, ..Settings::default() });
+        let mut simulation = Simulation::new(&Settings { capacity: 0.001, ..Settings::defaults() });
         let told = events(&mut simulation, &mut Watch::default(), 5, Some(0.3));
         assert!(told.len() == 1 && told[0].ends_with("the battery is empty, the motors stop"), "{told:?}");
     }

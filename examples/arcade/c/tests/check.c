@@ -30,7 +30,6 @@ int main(void) {
     test_noise();
     test_geodesy();
     test_receiver();
-    test_parameter_table();
     test_resume();
     test_quaternion();
     test_attitude();

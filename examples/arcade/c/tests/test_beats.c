@@ -19,6 +19,18 @@ typedef struct scene {
     arcade_autopilot_peer peer;
 } scene;
 
+static void send_limits(scene *self) {
+    limits limits = parameters_default().limits;
+    Arcade__Limits message = ARCADE__LIMITS__INIT;
+    message.home_latitude = limits.home.latitude;
+    message.home_longitude = limits.home.longitude;
+    message.fence_radius = limits.fence_radius;
+    message.fence_height = limits.fence_height;
+    message.speed = limits.speed;
+    message.climb = limits.climb;
+    CHECK(arcade_autopilot_peer_limits_send(&self->peer, &message, SECOND) == SCL_OK);
+}
+
 /* `path`: of the state file, or NULL to do without. */
 static scene *open_scene(const char *path) {
     scene *self = calloc(1, sizeof *self);
@@ -27,6 +39,7 @@ static scene *open_scene(const char *path) {
         CHECK(resume_open(&self->autopilot.state, path, sizeof(flight_controller)));
     }
     autopilot_begin(&self->autopilot);
+    send_limits(self);
     return self;
 }
 

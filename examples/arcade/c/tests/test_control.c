@@ -13,7 +13,7 @@ static void at_the_set_point_the_thrust_carries_the_weight(void) {
     thrust thrust = control_velocity(&velocity, &(set_point){0}, (vector){0}, (vector){0}, false, &parameters, BEAT);
     demand demand = control_rates(&rates, &thrust, QUATERNION_IDENTITY, (vector){0}, (vector){0}, &parameters, BEAT);
     CHECK_NEAR(thrust.force.z, GRAVITY, 1e-12);
-    CHECK_NEAR(demand.thrust, parameters.thrust_hover, 1e-12);
+    CHECK_NEAR(demand.thrust, parameters.tuning.thrust_hover, 1e-12);
     CHECK_NEAR(fabs(demand.roll) + fabs(demand.pitch) + fabs(demand.yaw), 0.0, 1e-12);
 }
 
@@ -36,7 +36,7 @@ static void the_tilt_is_limited(void) {
     velocity_controller velocity = {0};
     set_point far = {.position = {1000.0, -1000.0, 0.0}};
     thrust thrust = control_velocity(&velocity, &far, (vector){0}, (vector){-8.0, 8.0, 0.0}, false, &parameters, BEAT);
-    CHECK_NEAR(acos(quaternion_up(thrust.attitude).z), radians(parameters.limit_tilt), 1e-9);
+    CHECK_NEAR(acos(quaternion_up(thrust.attitude).z), radians(parameters.tuning.limit_tilt), 1e-9);
     CHECK(velocity.integral.x == 0.0); /* no windup */
 }
 

@@ -7,6 +7,14 @@
 
 static const uint64_t START_US = 1000000;
 
+/* Knows its limits. */
+static flight_controller new_controller(void) {
+    parameters parameters = parameters_default();
+    flight_controller self = flight_controller_new(&parameters.tuning);
+    self.parameters.limits = parameters.limits;
+    return self;
+}
+
 /* A reading at rest and level. */
 static bool step_at(flight_controller *self, uint64_t time_us, outputs *outputs) {
     Arcade__Vector gravity = ARCADE__VECTOR__INIT;
@@ -29,8 +37,8 @@ static void receive_fix(flight_controller *self, uint64_t time_us) {
     Arcade__Fix fix = ARCADE__FIX__INIT;
     fix.time_us = time_us;
     fix.quality = ARCADE__FIX_QUALITY__FIX_QUALITY_3D;
-    fix.latitude = self->parameters.home_latitude;
-    fix.longitude = self->parameters.home_longitude;
+    fix.latitude = self->parameters.limits.home.latitude;
+    fix.longitude = self->parameters.limits.home.longitude;
     flight_controller_receive_fix(self, &fix);
 }
 
@@ -47,7 +55,7 @@ static bool receive_command(flight_controller *self, uint32_t id, Arcade__Action
 }
 
 static void a_reading_that_is_not_newer_is_passed_over(void) {
-    flight_controller self = flight_controller_new();
+    flight_controller self = new_controller();
     outputs outputs;
     CHECK(step_at(&self, START_US, &outputs));
     CHECK(!step_at(&self, START_US, &outputs));
@@ -56,7 +64,7 @@ static void a_reading_that_is_not_newer_is_passed_over(void) {
 }
 
 static void a_height_takes_effect_20_ms_and_a_fix_60_ms_after_it_was_measured(void) {
-    flight_controller self = flight_controller_new();
+    flight_controller self = new_controller();
     Arcade__Height height = ARCADE__HEIGHT__INIT;
     height.time_us = START_US;
     outputs outputs;
@@ -74,25 +82,23 @@ static void a_height_takes_effect_20_ms_and_a_fix_60_ms_after_it_was_measured(vo
 }
 
 static void parameters_take_effect_at_the_next_whole_second(void) {
-    flight_controller self = flight_controller_new();
-    Arcade__Parameter limit = ARCADE__PARAMETER__INIT;
-    Arcade__Parameter *sent[] = {&limit};
-    Arcade__Parameters message = ARCADE__PARAMETERS__INIT;
-    limit.name = "limit.speed";
-    limit.value = 1.25;
-    message.n_parameters = 1;
-    message.parameters = sent;
+    flight_controller self = new_controller();
+    parameters parameters = self.parameters;
+    Arcade__Limits limits = ARCADE__LIMITS__INIT;
+    parameters.tuning.attitude_p = 5.0;
+    limits.speed = 1.25;
     outputs outputs;
     step_at(&self, START_US, &outputs);
-    flight_controller_receive_parameters(&self, &message);
+    flight_controller_receive_tuning(&self, &parameters.tuning);
+    flight_controller_receive_limits(&self, &limits);
     step_at(&self, START_US + 999999, &outputs);
-    CHECK(self.parameters.limit_speed == 4.0);
+    CHECK(self.parameters.limits.speed == 4.0 && self.parameters.tuning.attitude_p == 6.0);
     step_at(&self, START_US + 1000000, &outputs);
-    CHECK(self.parameters.limit_speed == 1.25);
+    CHECK(self.parameters.limits.speed == 1.25 && self.parameters.tuning.attitude_p == 5.0);
 }
 
 static void a_command_takes_effect_at_its_time_and_once(void) {
-    flight_controller self = flight_controller_new();
+    flight_controller self = new_controller();
     char reason[COMMANDS_REASON_SIZE];
     run(&self, START_US, START_US + 100000);
     CHECK(!receive_command(&self, 7, ARCADE__ACTION__ACTION_TAKE_OFF, 0, reason));
@@ -105,14 +111,14 @@ static void a_command_takes_effect_at_its_time_and_once(void) {
     CHECK(self.commands.count == 1);
     CHECK(run(&self, START_US + 200000, START_US + 300000).motors[0] == 0.0);
     CHECK(self.navigator.mode == ARCADE__MODE__MODE_GROUNDED);
-    CHECK(run(&self, START_US + 300000, START_US + 400000).motors[0] == self.parameters.thrust_minimum);
+    CHECK(run(&self, START_US + 300000, START_US + 400000).motors[0] == self.parameters.tuning.thrust_minimum);
     CHECK(self.navigator.mode == ARCADE__MODE__MODE_TAKING_OFF && self.navigator.command_id == 7);
     CHECK(receive_command(&self, 7, ARCADE__ACTION__ACTION_TAKE_OFF, 0, reason)); /* in effect */
     CHECK(self.commands.count == 0);
 }
 
 static void thirty_messages_of_the_flight_are_due_in_a_second(void) {
-    flight_controller self = flight_controller_new();
+    flight_controller self = new_controller();
     int due = 0;
     for (uint64_t time_us = START_US; time_us < START_US + 1000000; time_us += 3333) {
         outputs outputs;
@@ -123,7 +129,7 @@ static void thirty_messages_of_the_flight_are_due_in_a_second(void) {
 }
 
 static flight_controller controller_taking_off(void) {
-    flight_controller self = flight_controller_new();
+    flight_controller self = new_controller();
     char reason[COMMANDS_REASON_SIZE];
     receive_fix(&self, START_US);
     run(&self, START_US, START_US + 100000);
@@ -133,7 +139,7 @@ static flight_controller controller_taking_off(void) {
 }
 
 static void a_flight_is_resumed_within_two_seconds(void) {
-    flight_controller grounded = flight_controller_new(), taking_off = controller_taking_off();
+    flight_controller grounded = new_controller(), taking_off = controller_taking_off();
     run(&grounded, START_US, START_US + 100000);
     CHECK(!flight_controller_can_resume(&grounded, grounded.time_us + 1));
     CHECK(flight_controller_can_resume(&taking_off, taking_off.time_us + 2000000));

@@ -67,7 +67,7 @@ static void a_command_has_its_own_speed_up_to_the_limit(void) {
     CHECK(self.navigator.speed == 2.0);
     fast.speed = 99.0;
     begin(&self, fast);
-    CHECK(self.navigator.speed == self.parameters.limit_speed);
+    CHECK(self.navigator.speed == self.parameters.limits.speed);
     run(&self, 15.0);
     CHECK_NEAR(self.estimate.position.x, 10.0, 0.05);
 }

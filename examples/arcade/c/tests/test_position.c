@@ -14,7 +14,7 @@ static uint64_t time_of(int beat) {
 static fix_reading fix_at(uint64_t time_us, double east, double north, double east_speed,
                           const parameters *parameters) {
     local_position position = {.east = east, .north = north};
-    geodetic_position degrees = geodesy_from_local(parameters_home(parameters), position);
+    geodetic_position degrees = geodesy_from_local(parameters->limits.home, position);
     return (fix_reading){.time_us = time_us, .valid = true, .latitude = degrees.latitude,
                          .longitude = degrees.longitude,
                          .east_speed = east_speed};

@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-static const receiver_parameters AT_5_HZ = {.rate = 5.0, .home = {.latitude = 50.6866, .longitude = 10.9190}};
+static const receiver_parameters AT_5_HZ = {
+    .rate = 5.0, .home = {.latitude = 50.6866, .longitude = 10.9190}, .home_is_known = true};
 static const outage NONE = {0};
 enum { WORLD_STEP_US = 20000 }; /* 50 Hz */
 

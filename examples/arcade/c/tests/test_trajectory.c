@@ -15,7 +15,7 @@ static void the_target_is_reached_without_overshoot_and_within_limits(void) {
         trajectory_advance(&self, &leg, &parameters, BEAT);
         fastest = fmax(fastest, vector_horizontal(self.velocity));
         double change = vector_horizontal(vector_subtract(self.velocity, before));
-        CHECK(change <= parameters.limit_acceleration * BEAT + 1e-9);
+        CHECK(change <= parameters.tuning.limit_acceleration * BEAT + 1e-9);
         CHECK(self.velocity.z <= 1.1);
         CHECK(self.position.x < 15.05);
     }

@@ -2,10 +2,14 @@
 #ifndef TESTS_H
 #define TESTS_H
 
+#include "parameters.h"
+
+/* The defaults of the topology. */
+parameters parameters_default(void);
+
 void test_noise(void);
 void test_geodesy(void);
 void test_receiver(void);
-void test_parameter_table(void);
 void test_resume(void);
 void test_quaternion(void);
 void test_attitude(void);

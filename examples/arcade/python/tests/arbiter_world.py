@@ -1,9 +1,10 @@
 """An arbiter and a made-up autopilot, for tests of the arbiter's logic: no gates, no clock."""
 
-from arbiter_events import Action, Answered, Ask, Event, FlightSeen, PowerSeen, Reply, Requested, Say, Tick
+from arbiter_events import Action, Answered, Ask, Event, FlightSeen, LimitsSeen, PowerSeen, Reply, Requested, Say, Tick
 from arbiter_logic import Arbiter
 from arcade_scl import Action as Order
 from arcade_scl import Authority, Command, CommandResult, Flight, Mode, Power, PowerLevel, Vector
+from defaults import arbiter_parameters, limits
 
 MISSION, GROUND, SAFETY = Authority.AUTHORITY_MISSION, Authority.AUTHORITY_GROUND, Authority.AUTHORITY_SAFETY
 ACCEPTED = CommandResult(accepted=True)
@@ -19,12 +20,13 @@ class World:
 
     def __init__(self, *, heard: bool = True) -> None:
         self.now = 100.0
-        self.arbiter = Arbiter(self.now)
+        self.arbiter = Arbiter(self.now, arbiter_parameters())
         self.flight = Flight(mode=Mode.MODE_GROUNDED, position_valid=True)
         self.said: list[str] = []
         self.asked: list[Command] = []
         self.replies: dict[int, CommandResult] = {}
         self.numbers = 0
+        self.feed(LimitsSeen(limits()))
         if heard:
             self.power(1.0)
             self.fly()

@@ -2,12 +2,13 @@
 
 import pytest
 
-from arbiter_events import ParametersSeen, Tick
+from arbiter_events import LimitsSeen, Tick
 from arbiter_logic import LEAD_US
 from arbiter_world import ACCEPTED, GROUND, MISSION, SAFETY, World, command
 from arcade_scl import Action as Order
-from arcade_scl import Authority, CommandResult, Mode, Parameter, Parameters, PowerLevel
+from arcade_scl import Authority, CommandResult, Mode, PowerLevel
 from command_ids import HOME, LANDING
+from defaults import limits
 
 LOW, CRITICAL = PowerLevel.POWER_LEVEL_LOW, PowerLevel.POWER_LEVEL_CRITICAL
 NOBODY = Authority.AUTHORITY_NOBODY
@@ -138,8 +139,7 @@ def test_the_fence_sends_the_vehicle_home() -> None:
         world.pass_time(0.1)
         assert (world.state[0] == MISSION) == inside, position
     world = World().airborne(90, 0, 5)
-    fence = Parameters(parameters=[Parameter(name="fence.radius", value=50)])
-    world.feed(ParametersSeen(fence))
+    world.feed(LimitsSeen(limits(fence_radius=50)))
     assert world.state == (SAFETY, "outside of the fence, 90.0 m from home: returning home")
 
 

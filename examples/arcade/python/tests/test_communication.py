@@ -27,11 +27,11 @@ def test_commands_reach_the_arbiter_and_the_configuration() -> None:
             request.reply(CommandResult(reason="the vehicle is on the ground"))
             assert await answer == "refused: the vehicle is on the ground"
 
-            answer = asyncio.create_task(link.carry_out("set limit.speed 2.5"))
+            answer = asyncio.create_task(link.carry_out("set speed 2.5"))
             change = await peer.configuration.recv_async()
-            assert (change.message.name, change.message.value) == ("limit.speed", 2.5)
+            assert (change.message.name, change.message.value) == ("speed", 2.5)
             change.reply(ParameterResult(accepted=True))
-            assert await answer == "limit.speed is 2.5"
+            assert await answer == "speed is 2.5"
 
     asyncio.run(talk())
 

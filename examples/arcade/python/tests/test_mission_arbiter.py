@@ -23,6 +23,7 @@ from arcade_scl import (
 )
 from command_ids import HOME, LANDING
 from conftest import HANG_LIMIT, Background, running, until
+from defaults import limits
 from mission_arbiter import Program
 
 FLYING = Flight(
@@ -41,6 +42,7 @@ def peer() -> Iterator[MissionArbiterPeer]:
 
 def fly(peer: MissionArbiterPeer, flight: Flight, authority: Authority) -> None:
     """Waits until the arbiter knows of it."""
+    peer.limits.send(limits())
     peer.power.send(FULL)
     peer.flight.send(flight)
     arbitration(peer, authority, flight.time_us)

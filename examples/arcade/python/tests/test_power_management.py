@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 import pytest
 
 import power_management
-from arcade_scl import Battery, Blackbox, Parameter, Parameters, Power, PowerLevel, PowerManagement, PowerManagementPeer
+from arcade_scl import Battery, Blackbox, Power, PowerLevel, PowerManagement, PowerManagementPeer
 from battery import open_circuit_voltage
 from black_box import BlackBox
 from conftest import HANG_LIMIT, running, until
@@ -46,12 +46,14 @@ def test_each_reading_makes_a_message_and_a_new_level_a_record(peer: PowerManage
         assert record.value == pytest.approx(charge)
 
 
-def test_parameters_take_effect(peer: PowerManagementPeer) -> None:
-    peer.battery.send(reading(0.5))
-    assert power(peer, lambda _: True).level == OK
-    peer.parameters.send(Parameters(parameters=[Parameter(name="power.low", value=0.6)]))
-    # Without a further reading: the level is judged again all the time.
-    power(peer, lambda it: it.level == LOW)
+def test_parameters_take_effect() -> None:
+    component, peer = PowerManagement.test()
+    with running(component, lambda: power_management.run(component)):
+        peer.battery.send(reading(0.5))
+        assert power(peer, lambda _: True).level == OK
+        component.set_parameter("low", "0.6")
+        # Without a further reading: the level is judged again all the time.
+        power(peer, lambda it: it.level == LOW)
 
 
 def test_a_reading_of_nan_is_reported_and_changes_nothing(peer: PowerManagementPeer) -> None:

@@ -15,8 +15,8 @@ pytestmark = pytest.mark.usefixtures("own_system")
 BROKEN = {
     "configuration": """
 import configuration
-def broken(store): raise RuntimeError("broken on purpose")
-configuration.Store.message = broken
+def broken(parameters): raise RuntimeError("broken on purpose")
+configuration.limits_of = broken
 configuration.main()
 """,
     "power_management": """

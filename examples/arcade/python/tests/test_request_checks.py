@@ -4,11 +4,12 @@ import math
 
 import pytest
 
-import parameters
 from arbiter_world import GROUND, MISSION, World, command
 from arcade_scl import Action, Authority, Command, Flight, Mode, Power, PowerLevel, Vector
+from defaults import limits
 from request_checks import refusal
 
+LIMITS = limits()
 GROUNDED = Flight(mode=Mode.MODE_GROUNDED, position_valid=True)
 FLYING = Flight(mode=Mode.MODE_FLYING, position_valid=True)
 LOST = Flight(mode=Mode.MODE_FLYING, position_valid=False)
@@ -67,14 +68,14 @@ TAKE_OFF, GO_TO, LAND, RETURN = Action.ACTION_TAKE_OFF, Action.ACTION_GO_TO, Act
     ],
 )
 def test_requests(wanted: Command, flight: Flight, power: Power | None, reason: str | None) -> None:
-    found = refusal(MISSION, wanted, flight, power, parameters.DEFAULTS)
+    found = refusal(MISSION, wanted, flight, power, LIMITS)
     assert found is None if reason is None else (found or "").startswith(reason), found
 
 
 def test_ids_of_the_ground_station() -> None:
-    assert refusal(GROUND, command(LAND, 10_000), FLYING, FULL, parameters.DEFAULTS) is None
+    assert refusal(GROUND, command(LAND, 10_000), FLYING, FULL, LIMITS) is None
     words = "command id 100 is not one of the ground station; those are 10000 to 999999"
-    assert refusal(GROUND, command(LAND, 100), FLYING, FULL, parameters.DEFAULTS) == words
+    assert refusal(GROUND, command(LAND, 100), FLYING, FULL, LIMITS) == words
 
 
 def test_a_refused_request_does_not_reach_the_autopilot_and_changes_nothing() -> None:

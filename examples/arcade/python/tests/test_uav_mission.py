@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-import parameters
 import uav_mission
-from arcade_scl import Action, Command, CommandResult, Flight, Mode, Parameter, Parameters, Power, UavMission, Vector
+from arcade_scl import Action, Command, CommandResult, Flight, Mode, Power, UavMission, Vector
+from defaults import limits
 from mission_script import Mission, parse, read
 
 HOP = parse("name: hop\nsteps: [take_off: {height: 5}, go_to: {east: 6, north: 8, height: 5}, land: {}]", "hop.yaml")
@@ -32,8 +32,7 @@ class Vehicle:
 
     def run(self, power: Power | None = None, **changed: float) -> None:
         """Flies to the end of the mission."""
-        values = {**parameters.DEFAULTS, **{name.replace("_", "."): value for name, value in changed.items()}}
-        self.peer.parameters.send(Parameters(parameters=[Parameter(name=n, value=v) for n, v in values.items()]))
+        self.peer.limits.send(limits(**changed))
         self.peer.power.send(power or Power(current=0.1, time_left=60_000))
         self.thread.start()
         while self.thread.is_alive():
@@ -109,12 +108,12 @@ def test_an_arbiter_that_does_not_answer_is_asked_again() -> None:
         (
             Power(current=12, time_left=600),
             {"fence_radius": 9.5},
-            "error: hop.yaml:2: step 2: 10.0 m from home is outside of the fence (`fence.radius` is 9.5 m)",
+            "error: hop.yaml:2: step 2: 10.0 m from home is outside of the fence (`fence_radius` is 9.5 m)",
         ),
         (
             Power(current=12, time_left=600),
             {"fence_height": 4.5},
-            "error: hop.yaml:2: step 1: a height of 5 m is above the fence (`fence.height` is 4.5 m)",
+            "error: hop.yaml:2: step 1: a height of 5 m is above the fence (`fence_height` is 4.5 m)",
         ),
         (Power(current=12, time_left=2), {}, "error: the battery is too small: the mission takes about "),
     ],

@@ -51,7 +51,7 @@ mod tests {
         let mut estimator = AttitudeEstimator::default();
         let bias = Vec3::new(0.02, -0.01, 0.03);
         for _ in 0..300 * 60 {
-            estimator.update(bias, Vec3::ZERO, BEAT, &Parameters::default());
+            estimator.update(bias, Vec3::ZERO, BEAT, &Parameters::defaults());
         }
         assert!((estimator.bias - bias).length() < 1e-4, "{:?}", estimator.bias);
         assert!(estimator.attitude.angles().length() < 1e-3);
@@ -62,7 +62,7 @@ mod tests {
         let mut estimator = AttitudeEstimator::default();
         for beat in 1..=300 {
             let angle = f64::from(beat) * BEAT;
-            estimator.update(Vec3::new(1.0, 0.0, 0.0), Vec3::new(angle, 0.0, 0.0), BEAT, &Parameters::default());
+            estimator.update(Vec3::new(1.0, 0.0, 0.0), Vec3::new(angle, 0.0, 0.0), BEAT, &Parameters::defaults());
         }
         assert!((estimator.attitude.angles() - Vec3::new(1.0, 0.0, 0.0)).length() < 1e-9);
     }
@@ -73,7 +73,7 @@ mod tests {
         let mut worst: f64 = 0.0;
         for beat in 0..3000 {
             let noise = if beat % 2 == 0 { 0.05 } else { -0.05 };
-            estimator.update(Vec3::ZERO, Vec3::new(noise, noise, 0.0), BEAT, &Parameters::default());
+            estimator.update(Vec3::ZERO, Vec3::new(noise, noise, 0.0), BEAT, &Parameters::defaults());
             worst = worst.max(estimator.attitude.angles().length());
         }
         assert!(worst < 0.05 / 30.0, "{worst}");

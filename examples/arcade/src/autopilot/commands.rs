@@ -46,16 +46,19 @@ fn check_height(height: f64, parameters: &Parameters) -> Result<(), String> {
     if height < LOWEST {
         return Err(format!("height {height:.1} m is below {LOWEST:.1} m"));
     }
-    if height > parameters.fence_height {
-        return Err(format!("height {height:.1} m is above the fence at {:.1} m", parameters.fence_height));
+    if height > parameters.limits.fence_height {
+        return Err(format!("height {height:.1} m is above the fence at {:.1} m", parameters.limits.fence_height));
     }
     Ok(())
 }
 
 fn check_distance(target: Vec3, parameters: &Parameters) -> Result<(), String> {
     let distance = target.horizontal();
-    if distance > parameters.fence_radius {
-        return Err(format!("target is {distance:.1} m from home, the fence at {:.1} m", parameters.fence_radius));
+    if distance > parameters.limits.fence_radius {
+        return Err(format!(
+            "target is {distance:.1} m from home, the fence at {:.1} m",
+            parameters.limits.fence_radius
+        ));
     }
     Ok(())
 }
@@ -80,7 +83,7 @@ mod tests {
             (command(Action::Land, 0.0, 0.0, 0.0), FLYING),
             (command(Action::Land, 0.0, 0.0, 0.0), Situation { position_valid: false, ..FLYING }),
         ] {
-            assert_eq!(check(&command, &situation, &Parameters::default()), Ok(()));
+            assert_eq!(check(&command, &situation, &Parameters::defaults()), Ok(()));
         }
     }
 
@@ -107,7 +110,7 @@ mod tests {
             (Command { id: 1, action: 77, ..Command::default() }, FLYING, "unknown action"),
             (Command { id: 0, ..command(Action::Land, 0.0, 0.0, 0.0) }, FLYING, "the command has no id"),
         ] {
-            assert_eq!(check(&command, &situation, &Parameters::default()), Err(reason.to_owned()), "{command:?}");
+            assert_eq!(check(&command, &situation, &Parameters::defaults()), Err(reason.to_owned()), "{command:?}");
         }
     }
 }

@@ -87,11 +87,11 @@ fn wanted_velocity(set_point: &SetPoint, position: Vec3, parameters: &Parameters
         set_point.velocity.z + parameters.height_p * error.z,
     );
     let speed = wanted.horizontal();
-    if speed > parameters.limit_speed {
-        wanted.x *= parameters.limit_speed / speed;
-        wanted.y *= parameters.limit_speed / speed;
+    if speed > parameters.limits.speed {
+        wanted.x *= parameters.limits.speed / speed;
+        wanted.y *= parameters.limits.speed / speed;
     }
-    wanted.z = limit(wanted.z, parameters.limit_climb);
+    wanted.z = limit(wanted.z, parameters.limits.climb);
     wanted
 }
 
@@ -178,7 +178,7 @@ mod tests {
     const BEAT: f64 = 1.0 / 300.0;
 
     fn thrust(controller: &mut VelocityController, set_point: &SetPoint, velocity: Vec3) -> Thrust {
-        controller.update(set_point, Vec3::ZERO, velocity, false, &Parameters::default(), BEAT)
+        controller.update(set_point, Vec3::ZERO, velocity, false, &Parameters::defaults(), BEAT)
     }
 
     #[test]
@@ -190,7 +190,7 @@ mod tests {
             Quaternion::default(),
             Vec3::ZERO,
             Vec3::ZERO,
-            &Parameters::default(),
+            &Parameters::defaults(),
             BEAT,
         );
         assert!((demand.thrust - 0.45).abs() < 1e-12 && demand.roll == 0.0 && demand.pitch == 0.0, "{demand:?}");
@@ -228,7 +228,7 @@ mod tests {
 
     #[test]
     fn parameters_that_contradict_each_other_do_not_end_the_program() {
-        let parameters = Parameters { thrust_minimum: 0.9, thrust_maximum: 0.1, ..Parameters::default() };
+        let parameters = Parameters { thrust_minimum: 0.9, thrust_maximum: 0.1, ..Parameters::defaults() };
         let force = Vec3::new(0.0, 0.0, GRAVITY);
         assert!(limit_force(force, &parameters).is_finite());
     }
@@ -248,7 +248,7 @@ mod tests {
     fn torques_act_against_errors_of_attitude_and_rates() {
         let level = thrust(&mut VelocityController::default(), &SetPoint::default(), Vec3::ZERO);
         let tilted = Quaternion::from_angles(Vec3::new(0.2, -0.2, 0.2));
-        let parameters = Parameters::default();
+        let parameters = Parameters::defaults();
         let demand = RateController::default().update(&level, tilted, Vec3::ZERO, Vec3::ZERO, &parameters, BEAT);
         assert!(demand.roll < 0.0 && demand.pitch > 0.0 && demand.yaw < 0.0, "{demand:?}");
         let rates = Vec3::new(1.0, 1.0, 1.0);
@@ -263,7 +263,7 @@ mod tests {
         let turned = Quaternion::from_angles(Vec3::new(0.2, 0.0, 0.2));
         let integral = |cut| {
             let mut controller = RateController::default();
-            controller.update(&level, turned, Vec3::ZERO, cut, &Parameters::default(), BEAT);
+            controller.update(&level, turned, Vec3::ZERO, cut, &Parameters::defaults(), BEAT);
             controller.integral
         };
         let missed_yaw = integral(Vec3::new(0.0, 0.0, 0.1));

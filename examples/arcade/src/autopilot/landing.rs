@@ -33,7 +33,7 @@ mod tests {
     /// How many of 300 beats pass until the detector fires.
     fn beats(height: f64, climb: f64, thrust: f64) -> Option<usize> {
         let mut detector = LandDetector::default();
-        (1..=300).find(|_| detector.update(height, climb, thrust, &Parameters::default(), 1.0 / 300.0))
+        (1..=300).find(|_| detector.update(height, climb, thrust, &Parameters::defaults(), 1.0 / 300.0))
     }
 
     #[test]

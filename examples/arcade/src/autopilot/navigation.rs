@@ -75,7 +75,7 @@ impl Navigator {
     /// Starts to carry out a command that was checked.
     pub fn begin(&mut self, command: &Command, estimate: &Estimate, parameters: &Parameters) {
         self.command_id = command.id;
-        self.speed = parameters.limit_speed;
+        self.speed = parameters.limits.speed;
         let target = Vec3::from(command.target);
         match command.action() {
             Action::TakeOff => {
@@ -152,7 +152,7 @@ impl Navigator {
 
     fn leg(&self, parameters: &Parameters) -> Leg {
         let mut leg =
-            Leg { target: self.target, yaw: self.target_yaw, speed: self.speed, climb: parameters.limit_climb };
+            Leg { target: self.target, yaw: self.target_yaw, speed: self.speed, climb: parameters.limits.climb };
         if self.mode == Mode::Landing {
             leg.target.z = UNDERGROUND;
             if self.set_point.position.z < FLARE {
@@ -184,7 +184,7 @@ mod tests {
     fn begun(action: Action, x: f64, y: f64, z: f64, estimate: &Estimate) -> Navigator {
         let mut navigator = Navigator::default();
         navigator.set_point.position = estimate.position;
-        navigator.begin(&command(action, x, y, z), estimate, &Parameters::default());
+        navigator.begin(&command(action, x, y, z), estimate, &Parameters::defaults());
         navigator
     }
 
@@ -195,7 +195,7 @@ mod tests {
             estimate.position = navigator.set_point.position;
             estimate.position.z = estimate.position.z.max(height);
             estimate.velocity = if estimate.position.z > height { navigator.set_point.velocity } else { Vec3::ZERO };
-            navigator.update(&estimate, &Parameters::default(), BEAT)
+            navigator.update(&estimate, &Parameters::defaults(), BEAT)
         })
     }
 
@@ -203,7 +203,7 @@ mod tests {
     fn a_take_off_idles_then_climbs_straight_up() {
         let mut navigator = begun(Action::TakeOff, 50.0, 50.0, 5.0, &GROUND);
         assert_eq!(navigator.target, Vec3::new(1.0, 2.0, 5.0));
-        assert_eq!(navigator.update(&GROUND, &Parameters::default(), 0.9), Drive::Idle);
+        assert_eq!(navigator.update(&GROUND, &Parameters::defaults(), 0.9), Drive::Idle);
         assert_eq!(navigator.set_point.position, GROUND.position);
         assert_eq!(follow(&mut navigator, 1.0, 0.0), Drive::Fly);
         assert_eq!(navigator.mode, Mode::TakingOff);
@@ -219,7 +219,7 @@ mod tests {
         let mut navigator = begun(Action::TakeOff, 0.0, 0.0, 5.0, &up);
         for (asked, taken) in [(0.0, 4.0), (2.5, 2.5), (99.0, 4.0)] {
             let command = Command { speed: asked, ..command(Action::GoTo, 9.0, 0.0, 5.0) };
-            navigator.begin(&command, &up, &Parameters::default());
+            navigator.begin(&command, &up, &Parameters::defaults());
             assert_eq!(navigator.speed, taken);
         }
     }
@@ -239,11 +239,11 @@ mod tests {
     fn without_position_it_lands_level_and_stays_where_the_position_returns() {
         let lost = Estimate { position: Vec3::new(0.0, 0.0, 5.0), position_valid: false, ..GROUND };
         let mut navigator = begun(Action::GoTo, 30.0, 0.0, 5.0, &lost);
-        assert_eq!(navigator.update(&lost, &Parameters::default(), BEAT), Drive::FlyLevel);
+        assert_eq!(navigator.update(&lost, &Parameters::defaults(), BEAT), Drive::FlyLevel);
         assert_eq!(navigator.mode, Mode::Landing);
         let found = Estimate { position: Vec3::new(8.0, 9.0, 4.0), position_valid: true, ..lost };
-        navigator.update(&Estimate { position_valid: false, ..found }, &Parameters::default(), BEAT);
-        assert_eq!(navigator.update(&found, &Parameters::default(), BEAT), Drive::Fly);
+        navigator.update(&Estimate { position_valid: false, ..found }, &Parameters::defaults(), BEAT);
+        assert_eq!(navigator.update(&found, &Parameters::defaults(), BEAT), Drive::Fly);
         assert_eq!((navigator.target.x, navigator.target.y), (8.0, 9.0));
     }
 }

@@ -131,10 +131,11 @@ impl PositionEstimator {
     /// Corrects the estimate with the horizontal position and velocity of a fix. Its height is not used, because the
     /// other sensors' are better.
     pub fn correct_fix(&mut self, fix: &Fix, parameters: &Parameters) {
-        if fix.quality() == FixQuality::None {
+        // Without home, it is no place that the vehicle knows.
+        if fix.quality() == FixQuality::None || !parameters.limits.are_known() {
             return;
         }
-        let (east, north) = geodesy::to_metres(parameters.home(), fix.latitude, fix.longitude);
+        let (east, north) = geodesy::to_metres(parameters.limits.home(), fix.latitude, fix.longitude);
         let position = Vec3::new(east, north, 0.0);
         let velocity = Vec3::new(fix.east_speed, fix.north_speed, 0.0);
         if !position.is_finite() || !velocity.is_finite() {
@@ -184,7 +185,7 @@ mod tests {
 
     /// What the sensors of a vehicle that moves at a constant velocity measure of it, with delays as in the system.
     fn fly(velocity: Vec3, force: Vec3, seconds: f64) -> (PositionEstimator, Vec3) {
-        let parameters = Parameters::default();
+        let parameters = Parameters::defaults();
         let mut estimator = PositionEstimator::default();
         let truth = |beat: u64| velocity * (beat as f64 * BEAT) + Vec3::new(0.0, 0.0, 1.0);
         let beats = (seconds / BEAT) as u64;
@@ -206,7 +207,7 @@ mod tests {
     }
 
     fn fix_at(beat: u64, position: Vec3, velocity: Vec3) -> Fix {
-        let (latitude, longitude) = geodesy::to_degrees(Parameters::default().home(), position.x, position.y);
+        let (latitude, longitude) = geodesy::to_degrees(Parameters::defaults().limits.home(), position.x, position.y);
         let (east_speed, north_speed) = (velocity.x, velocity.y);
         Fix { time_us: beat * BEAT_US, quality: 2, latitude, longitude, east_speed, north_speed, ..Fix::default() }
     }
@@ -244,7 +245,7 @@ mod tests {
             estimator.coast(beat * BEAT_US, attitude, BEAT);
             let range = Some(Range::Ultrasonic(range));
             let height = Height { time_us: beat * BEAT_US, range, barometer: 5.0 };
-            estimator.correct_height(&height, &Parameters::default());
+            estimator.correct_height(&height, &Parameters::defaults());
         }
         assert!((estimator.position.z - 5.0).abs() < 1e-9, "{:?}", estimator.position);
     }
@@ -253,7 +254,7 @@ mod tests {
     fn the_first_fix_sets_the_position_and_old_fixes_invalidate_it() {
         let mut estimator = PositionEstimator::default();
         assert!(!estimator.is_valid(1_000_000));
-        estimator.correct_fix(&fix_at(300, Vec3::new(7.0, -4.0, 0.0), Vec3::ZERO), &Parameters::default());
+        estimator.correct_fix(&fix_at(300, Vec3::new(7.0, -4.0, 0.0), Vec3::ZERO), &Parameters::defaults());
         assert!((estimator.position - Vec3::new(7.0, -4.0, 0.0)).length() < 1e-6);
         assert!(estimator.is_valid(300 * BEAT_US + 5_000_000));
         assert!(!estimator.is_valid(300 * BEAT_US + 5_000_001));
@@ -264,7 +265,7 @@ mod tests {
         let (mut estimator, _) = fly(Vec3::ZERO, AT_REST, 2.0);
         let before = (estimator.position, estimator.velocity);
         let now = 2_000_000 / BEAT_US;
-        let parameters = Parameters::default();
+        let parameters = Parameters::defaults();
         estimator.correct_fix(&Fix { quality: 0, ..fix_at(now, Vec3::new(9.0, 0.0, 0.0), Vec3::ZERO) }, &parameters);
         estimator.correct_fix(&Fix { latitude: f64::NAN, ..fix_at(now, Vec3::ZERO, Vec3::ZERO) }, &parameters);
         // Older than any estimate.

@@ -1,30 +1,31 @@
 //! The part of the autopilot's state that is kept for a restart in the air, as a list of numbers.
 
 use super::FlightController;
-use super::parameters::{Parameters, TABLE};
+use super::parameters::Parameters;
 use super::vector::Vec3;
 use crate::arcade::Mode;
 
 /// How many numbers a state has.
-pub const COUNT: usize = FIELDS + TABLE.len();
-const FIELDS: usize = 56;
+pub const COUNT: usize = 63;
 
 /// The numbers of a state, in a fixed order.
 pub fn save(state: &FlightController) -> Vec<f64> {
     let mut copy = state.clone();
     let mut numbers = Vec::with_capacity(COUNT);
     visit(&mut copy, &mut |number| numbers.push(*number));
-    numbers.extend(state.parameters.values());
+    debug_assert_eq!(numbers.len(), COUNT);
     numbers
 }
 
-/// Restores a state from its numbers. Returns `None` unless there are [`COUNT`] of them.
-pub fn restore(numbers: &[f64]) -> Option<FlightController> {
-    let (fields, values) = numbers.split_at_checked(FIELDS)?;
-    let mut state =
-        FlightController { parameters: Parameters::from_values(values.try_into().ok()?), ..Default::default() };
-    let mut fields = fields.iter();
-    visit(&mut state, &mut |number| *number = fields.next().copied().unwrap_or_default());
+/// Restores a state from its numbers; its limits, too, but no other parameters. Returns `None` unless there are
+/// [`COUNT`] of them.
+pub fn restore(numbers: &[f64], parameters: Parameters) -> Option<FlightController> {
+    if numbers.len() != COUNT {
+        return None;
+    }
+    let mut state = FlightController::new(parameters);
+    let mut numbers = numbers.iter();
+    visit(&mut state, &mut |number| *number = numbers.next().copied().unwrap_or_default());
     Some(state)
 }
 
@@ -67,6 +68,19 @@ fn visit(state: &mut FlightController, number: &mut impl FnMut(&mut f64)) {
     let rates = &mut state.rate_controller;
     let integral = &mut state.velocity_controller.integral;
     vectors([integral, &mut rates.integral, &mut rates.rates, &mut rates.derivative], number);
+
+    let limits = &mut state.parameters.limits;
+    for value in [
+        &mut limits.home_latitude,
+        &mut limits.home_longitude,
+        &mut limits.home_altitude,
+        &mut limits.fence_radius,
+        &mut limits.fence_height,
+        &mut limits.speed,
+        &mut limits.climb,
+    ] {
+        number(value);
+    }
 }
 
 fn vectors<const N: usize>(vectors: [&mut Vec3; N], number: &mut impl FnMut(&mut f64)) {
@@ -90,7 +104,7 @@ mod tests {
     #[test]
     fn each_number_is_saved_and_restored() {
         let numbers: Vec<f64> = (0..COUNT).map(|index| index as f64).collect();
-        let restored = restore(&numbers).expect("a state");
+        let restored = restore(&numbers, Parameters::defaults()).expect("a state");
         let mut expected = numbers.clone();
         // The mode is the only number that cannot have every value.
         let mode = expected.iter().position(|number| *number == MODE as f64).expect("an index");
@@ -102,9 +116,9 @@ mod tests {
 
     #[test]
     fn a_list_of_another_length_is_not_a_state() {
-        assert!(restore(&vec![0.0; COUNT - 1]).is_none());
-        assert!(restore(&vec![0.0; COUNT + 1]).is_none());
-        assert!(restore(&[]).is_none());
+        for count in [0, COUNT - 1, COUNT + 1] {
+            assert!(restore(&vec![0.0; count], Parameters::defaults()).is_none(), "{count}");
+        }
     }
 
     /// The index of the mode.

@@ -94,7 +94,7 @@ mod tests {
         let (mut fastest, mut farthest): (f64, f64) = (0.0, 0.0);
         for _ in 0..300 * 15 {
             let before = point.velocity;
-            point.advance(&leg(target), &Parameters::default(), BEAT);
+            point.advance(&leg(target), &Parameters::defaults(), BEAT);
             fastest = fastest.max(point.velocity.horizontal());
             farthest = farthest.max(point.position.x);
             assert!((point.velocity - before).horizontal() <= 1.5 * BEAT + 1e-9);
@@ -110,7 +110,7 @@ mod tests {
     fn a_turn_takes_the_shorter_way() {
         let mut point = SetPoint::at(Vec3::ZERO, 3.0);
         let leg = Leg { yaw: -3.0, ..leg(Vec3::ZERO) };
-        point.advance(&leg, &Parameters::default(), BEAT);
+        point.advance(&leg, &Parameters::defaults(), BEAT);
         assert!(point.yaw > 3.0);
     }
 }

@@ -2,8 +2,8 @@
 
 use arcade::arcade::{Action, Command, CommandResult, Fix, Flight, Height, Mode, Motors, Vector, World};
 use arcade::autopilot::FlightController;
+use arcade::autopilot::parameters::Parameters;
 use arcade::autopilot::state;
-use arcade::geodesy::Home;
 use arcade::sensors::gps::Receiver;
 use arcade::sensors::truth;
 use arcade::simulation::{RATE, Settings, Simulation};
@@ -38,7 +38,7 @@ impl Aircraft {
         Self {
             truth: truth(0, &simulation.world),
             simulation,
-            autopilot: Some(FlightController::default()),
+            autopilot: Some(FlightController::new(Parameters::defaults())),
             receiver: Receiver::new(settings.seed),
             fixes: true,
             latency: 0,
@@ -63,7 +63,7 @@ impl Aircraft {
             self.heights.push((self.steps + self.latency, height));
         }
         if self.steps.is_multiple_of(FIX_PERIOD) {
-            let fix = self.receiver.measure(&self.truth, HOME);
+            let fix = self.receiver.measure(&self.truth, Parameters::defaults().limits.home());
             if self.fixes {
                 self.fix_messages.push((self.steps + self.latency, fix));
             }
@@ -172,7 +172,7 @@ impl Aircraft {
         let saved = state::save(self.autopilot());
         self.kill();
         self.run(seconds);
-        let restored = state::restore(&saved).expect("a state");
+        let restored = state::restore(&saved, Parameters::defaults()).expect("a state");
         self.autopilot = Some(restored.resumed(self.truth.time_us).expect("a recent state"));
     }
 
@@ -189,9 +189,7 @@ impl Aircraft {
     }
 }
 
-pub(crate) const HOME: Home = Home { latitude: 50.6866, longitude: 10.9190, altitude: 480.0 };
-
 /// The wind of the example.
 pub(crate) fn wind(seed: u64) -> Settings {
-    Settings { seed, ..Settings::default() }
+    Settings { seed, ..Settings::defaults() }
 }

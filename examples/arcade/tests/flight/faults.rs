@@ -3,6 +3,7 @@
 use crate::aircraft::{Aircraft, wind};
 use crate::mission::{SQUARE, STEEPEST};
 use arcade::arcade::{Action, Mode};
+use arcade::autopilot::parameters::Parameters;
 use arcade::autopilot::resume::StateFile;
 use arcade::autopilot::state;
 use arcade::simulation::{RATE, Settings};
@@ -58,7 +59,9 @@ fn an_old_state_or_one_of_the_ground_is_not_resumed() {
     aircraft.take_off(5.0);
     let saved = state::save(aircraft.autopilot());
     let time_us = aircraft.autopilot().time_us;
-    let resume = |numbers: &[f64], reading_us| state::restore(numbers).expect("a state").resumed(reading_us);
+    let resume = |numbers: &[f64], reading_us| {
+        state::restore(numbers, Parameters::defaults()).expect("a state").resumed(reading_us)
+    };
     assert!(resume(&saved, time_us + 2_000_000).is_some());
     assert!(resume(&saved, time_us + 2_000_001).is_none());
     assert!(resume(&saved, time_us).is_none());
@@ -77,7 +80,7 @@ fn the_state_survives_in_its_file() {
     assert_eq!(none, None);
     file.store(&saved).expect("stored");
     let (_, numbers) = StateFile::open(&path, state::COUNT).expect("opened");
-    let restored = state::restore(&numbers.expect("stored")).expect("a state");
+    let restored = state::restore(&numbers.expect("stored"), Parameters::defaults()).expect("a state");
     assert_eq!(state::save(&restored), saved);
 }
 

@@ -43,7 +43,7 @@ fn it_flies_a_square_and_lands_at_home() {
 
 #[test]
 fn a_strong_wind_does_not_carry_it_away() {
-    let mut aircraft = Aircraft::new(Settings { wind: 9.0, gusts: 1.5, ..Settings::default() });
+    let mut aircraft = Aircraft::new(Settings { wind: 9.0, gusts: 1.5, ..Settings::defaults() });
     aircraft.take_off(5.0);
     aircraft.fly_to([-10.0, 5.0, 10.0]);
     assert!(aircraft.distance_to([-10.0, 5.0, 10.0]) < 1.0, "{:?}", aircraft.truth);

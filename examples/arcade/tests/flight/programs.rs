@@ -16,8 +16,8 @@ fn reading(beat: u64) -> Inertial {
 #[tokio::test(start_paused = true)]
 async fn the_simulator_sends_the_readings_of_the_simulation() -> scl::Result<()> {
     let (gates, mut peer) = Simulator::test().await?;
-    tokio::spawn(simulator::run(gates, Settings::default(), None));
-    let mut simulation = Simulation::new(&Settings::default());
+    let mut simulation = Simulation::new(&Settings::new(&gates.parameters));
+    tokio::spawn(simulator::run(gates, None));
     for _ in 0..6 {
         assert_eq!(peer.imu.recv().await?, simulation.step().inertial);
     }
@@ -30,7 +30,7 @@ async fn the_simulator_sends_the_readings_of_the_simulation() -> scl::Result<()>
 #[tokio::test(start_paused = true)]
 async fn the_simulator_obeys_set_points() -> scl::Result<()> {
     let (gates, mut peer) = Simulator::test().await?;
-    tokio::spawn(simulator::run(gates, Settings::default(), None));
+    tokio::spawn(simulator::run(gates, None));
     loop {
         peer.motors
             .send(&Motors { front_left: 0.9, front_right: 0.9, rear_left: 0.9, rear_right: 0.9, ..Motors::default() })
