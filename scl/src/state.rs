@@ -368,6 +368,8 @@ impl Drop for ComponentState {
         // The tasks of the ends have been aborted, but one may be in the middle of a poll. The sockets must be closed
         // before the component's lock is released.
         ends.iter().for_each(await_other_users);
+        // Who waits without keeping the component open finds it closed.
+        self.changes.report();
     }
 }
 

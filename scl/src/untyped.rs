@@ -42,6 +42,7 @@ mod counterpart;
 mod driver;
 mod error;
 mod gate;
+mod parameters;
 mod readiness;
 mod started_as;
 mod wait;
@@ -160,12 +161,6 @@ impl Component {
     pub fn parameter(&self, name: &str) -> Option<ParameterValue> {
         let index = index_of(self.spec, name).ok()?;
         self.handle.0.parameters.read(index, |value, _| value.clone())
-    }
-
-    /// Returns how often live parameters have changed since the component was opened. A program that compares it with
-    /// an earlier one knows whether to read its parameters again.
-    pub fn parameter_changes(&self) -> u64 {
-        self.handle.0.parameters.changes()
     }
 
     /// Sets a live parameter, as a text like in the topology file: `10ms`.

@@ -243,3 +243,21 @@ async fn an_untyped_component_follows_changes() -> Result<()> {
     assert_eq!(values, (2, Some(Float(3.0)), Some(Integer(4))));
     Ok(())
 }
+
+#[tokio::test]
+async fn an_untyped_component_waits_for_a_change() -> Result<()> {
+    let (_folder, options) = folder();
+    let plan = crate::untyped::system_plan("live.yaml").component("tuner").expect("a component").clone();
+    let tuner = scl::untyped::Component::open_with(&plan, options).await?;
+    let mut changed = std::pin::pin!(tuner.parameters_changed(0));
+    let pending = std::future::poll_fn(|cx| std::task::Poll::Ready(changed.as_mut().poll(cx).is_pending())).await;
+    assert!(pending, "nothing has changed");
+    tuner.set_parameter("gain", "2").expect("it is set");
+    assert_eq!(changed.await, Ok(1));
+    assert_eq!(tuner.parameters_changed(0).await, Ok(1), "it has changed before");
+    let changed = tokio::spawn(tuner.parameters_changed(1));
+    tokio::task::yield_now().await;
+    drop(tuner);
+    assert_eq!(changed.await.expect("it has ended"), Err(scl::BlockingError::Closed));
+    Ok(())
+}

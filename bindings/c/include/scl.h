@@ -408,12 +408,13 @@ scl_status scl_parameter_items(scl_component *component,
 
 /**
  * Takes over the new values of live parameters: from then on, the calls above store them. Stores whether any has
- * changed since the component was opened or since the last such call; if not, it costs next to nothing, so a loop may
- * call it each time. It never waits.
+ * changed since the component was opened or since the last such call. A timeout of 0 only looks, which costs next to
+ * nothing, so a loop may do it each time; otherwise it waits until one changes, with a negative timeout without limit.
  *
- * Errors: SCL_CLOSED, SCL_HANDLE, SCL_ARGUMENT.
+ * Errors: SCL_STOPPED (while it waits), SCL_CLOSED, SCL_HANDLE, SCL_ARGUMENT.
  */
 scl_status scl_update_parameters(scl_component *component,
+                                 int64_t timeout_ns,
                                  bool *changed);
 
 /**

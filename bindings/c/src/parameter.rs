@@ -1,6 +1,6 @@
 //! The values of a component's parameters.
 
-use crate::border;
+use crate::border::{self, Wait};
 use crate::component::{self, scl_component};
 use crate::error::Failure;
 use crate::status::*;
@@ -153,18 +153,22 @@ pub unsafe extern "C" fn scl_parameter_items(
 }
 
 /// Takes over the new values of live parameters: from then on, the calls above store them. Stores whether any has
-/// changed since the component was opened or since the last such call; if not, it costs next to nothing, so a loop may
-/// call it each time. It never waits.
+/// changed since the component was opened or since the last such call. A timeout of 0 only looks, which costs next to
+/// nothing, so a loop may do it each time; otherwise it waits until one changes, with a negative timeout without limit.
 ///
-/// Errors: SCL_CLOSED, SCL_HANDLE, SCL_ARGUMENT.
+/// Errors: SCL_STOPPED (while it waits), SCL_CLOSED, SCL_HANDLE, SCL_ARGUMENT.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn scl_update_parameters(component: *mut scl_component, changed: *mut bool) -> scl_status {
+pub unsafe extern "C" fn scl_update_parameters(
+    component: *mut scl_component,
+    timeout_ns: i64,
+    changed: *mut bool,
+) -> scl_status {
     border::status(|| {
         // SAFETY: guaranteed by the caller; NULL is refused.
         let changed = unsafe { border::result(changed, "changed")? };
         *changed = false;
         let opened = component::find(component)?;
-        *changed = opened.with(|component| Ok(opened.parameters.update(component)))?;
+        *changed = opened.with(|component| opened.parameters.update(component, Wait::of(timeout_ns)))?;
         Ok(())
     })
 }

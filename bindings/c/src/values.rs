@@ -2,13 +2,16 @@
 
 mod items;
 
+use crate::border::Wait;
 use crate::error::Failure;
 use crate::status::*;
 pub(crate) use items::Items;
 use scl::plan::ParameterPlan;
 use scl::untyped::Component;
 use scl_text::suggest::closest_name;
+use std::pin::pin;
 use std::sync::{PoisonError, RwLock};
+use std::time::Duration;
 
 /// The parameters of a component with the values that its program knows.
 pub(crate) struct Parameters {
@@ -33,13 +36,16 @@ impl Parameters {
         Self { component: spec.name, known: RwLock::new(Known { changes, all: values.filter_map(value).collect() }) }
     }
 
-    /// Takes over live parameters that have changed. Returns false if none has.
-    pub(crate) fn update(&self, component: &Component) -> bool {
-        let changes = component.parameter_changes();
+    /// Takes over live parameters that have changed, and waits until one has. Returns false if none has in time.
+    pub(crate) fn update(&self, component: &Component, wait: Wait) -> Result<bool, Failure> {
+        let changes = match wait {
+            Wait::No => component.parameter_changes(),
+            _ => self.changed(component, wait.limit())?,
+        };
         let mut known = self.known.write().unwrap_or_else(PoisonError::into_inner);
         debug_assert!(changes >= known.changes, "changes are only added");
         if changes == known.changes {
-            return false;
+            return Ok(false);
         }
         known.changes = changes;
         for (plan, items) in known.all.iter_mut().filter(|(plan, _)| plan.live) {
@@ -47,7 +53,15 @@ impl Parameters {
                 *items = Items::of(plan, &value);
             }
         }
-        true
+        Ok(true)
+    }
+
+    /// Waits until live parameters have changed, and returns how often.
+    fn changed(&self, component: &Component, limit: Duration) -> Result<u64, Failure> {
+        let known = self.known.read().unwrap_or_else(PoisonError::into_inner).changes;
+        let changed = pin!(component.parameters_changed(known));
+        let waited = component.driver().wait_for(changed, limit).map_err(|error| Failure::of_any(&error))?;
+        waited.map_or(Ok(known), |changes| changes.map_err(|error| Failure::of_any(&error)))
     }
 
     /// Calls `read` with a parameter and its values.

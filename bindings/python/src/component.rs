@@ -5,6 +5,7 @@ use crate::gate::Gate;
 use crate::limit::Limit;
 use crate::native::Native;
 use crate::parameter;
+use crate::pending_count::PendingCount;
 use crate::plan::Plan;
 use crate::process::detach;
 use crate::readiness::Readiness;
@@ -117,10 +118,22 @@ impl Component {
         found.map(|(name, value)| Ok((name.clone(), gate_field(&name), parameter::object(py, &value)?))).collect()
     }
 
-    /// Returns whether live parameters have changed since the last call that returned true.
-    fn update_parameters(&self, py: Python<'_>) -> PyResult<bool> {
+    /// Returns whether live parameters have changed since the last call that returned true, and waits until one has.
+    fn update_parameters(&self, py: Python<'_>, timeout: Option<f64>) -> PyResult<bool> {
+        let limit = Limit::of_seconds(timeout)?;
+        if timeout != Some(0.0) {
+            let mut changed = Box::pin(self.with(py, |component| component.parameters_changed(self.taken_over()))?);
+            let (shared, driver) = (&self.shared, &self.shared.driver);
+            wait(py, limit, shared, |within| Ok(driver.wait_for(changed.as_mut(), within)?.transpose()?))?;
+        }
         let changes = self.with(py, untyped::Component::parameter_changes)?;
         Ok(self.taken_over.swap(changes, Ordering::AcqRel) != changes)
+    }
+
+    /// Starts to wait until live parameters change.
+    fn wait_parameters(&self, py: Python<'_>) -> PyResult<PendingCount> {
+        let changed = self.with(py, |component| component.parameters_changed(self.taken_over()))?;
+        Ok(PendingCount::new(Arc::clone(&self.shared), changed))
     }
 
     /// Sets a live parameter, as a text like in the topology file.
@@ -257,6 +270,11 @@ impl Component {
             taken_over: AtomicU64::new(0),
             is_test,
         })
+    }
+
+    /// How many changes of live parameters the program has taken over.
+    fn taken_over(&self) -> u64 {
+        self.taken_over.load(Ordering::Acquire)
     }
 
     /// Calls `call` with the component, which must be open.

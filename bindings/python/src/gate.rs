@@ -5,7 +5,7 @@ use crate::failure::{Failure, no_panic};
 use crate::limit::Limit;
 use crate::native::Native;
 use crate::pending_call::PendingCall;
-use crate::pending_miss::PendingMiss;
+use crate::pending_count::PendingCount;
 use crate::process::detach;
 use crate::readiness::Readiness;
 use crate::request::Request;
@@ -276,12 +276,12 @@ impl Gate {
     }
 
     /// Starts to wait until the gate has missed messages.
-    fn wait_missed(&self) -> PyResult<PendingMiss> {
+    fn wait_missed(&self) -> PyResult<PendingCount> {
         self.shared.check()?;
         // Do not claim the gate: it may receive meanwhile.
         let pending = self.visit(|gate| match gate {
-            AnyGate::Sub(gate) => Ok(PendingMiss::new(Arc::clone(&self.shared), gate.deadline_missed())),
-            AnyGate::Pull(gate) => Ok(PendingMiss::new(Arc::clone(&self.shared), gate.deadline_missed())),
+            AnyGate::Sub(gate) => Ok(PendingCount::new(Arc::clone(&self.shared), gate.deadline_missed())),
+            AnyGate::Pull(gate) => Ok(PendingCount::new(Arc::clone(&self.shared), gate.deadline_missed())),
             _ => self.has_no("deadline_missed"),
         })??;
         Ok(pending)

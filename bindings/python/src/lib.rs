@@ -13,7 +13,7 @@ mod logging;
 mod native;
 mod parameter;
 mod pending_call;
-mod pending_miss;
+mod pending_count;
 mod plain;
 mod plan;
 mod process;
@@ -39,7 +39,7 @@ mod _native {
     #[pymodule_export]
     use super::pending_call::PendingCall;
     #[pymodule_export]
-    use super::pending_miss::PendingMiss;
+    use super::pending_count::PendingCount;
     #[pymodule_export]
     use super::plain::is_plain;
     #[pymodule_export]

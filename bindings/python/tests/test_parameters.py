@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 import dataclasses
 import datetime
 import importlib.util
 import pydoc
 import sys
+import threading
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
@@ -154,6 +156,50 @@ def test_live_parameters_are_taken_over() -> None:
         dynamic.set_parameter("names", "[a]")
         assert dynamic.update_parameters()
         assert dynamic.parameters["names"] == ["a"]
+
+
+def test_a_program_waits_for_a_change() -> None:
+    controller, peer = generated.Controller.test()
+    with controller, peer:
+        assert not controller.update_parameters(timeout=0.001)
+        setter = threading.Thread(target=controller.set_parameter, args=("gain", "2"))
+        setter.start()
+        assert controller.update_parameters(timeout=None)
+        assert controller.parameters.gain == 2
+        setter.join()
+
+
+def test_waiting_for_a_change_ends_with_the_component() -> None:
+    controller, peer = generated.Controller.test()
+    closer = threading.Thread(target=controller.close)
+    with controller, peer:
+        closer.start()
+        with pytest.raises(scl.Closed):
+            controller.update_parameters(timeout=None)
+    closer.join()
+
+
+def test_a_task_waits_for_a_change() -> None:
+    async def changes() -> list[float]:
+        controller, peer = generated.Controller.test()
+        with controller, peer:
+            # A task that is cancelled takes nothing.
+            cancelled = asyncio.create_task(controller.parameters_changed())
+            await asyncio.sleep(0)
+            cancelled.cancel()
+            with pytest.raises(asyncio.CancelledError):
+                await cancelled
+            waiting = asyncio.create_task(controller.parameters_changed())
+            await asyncio.sleep(0)
+            controller.set_parameter("gain", "2")
+            await waiting
+            found = [controller.parameters.gain]
+            # What has changed before is not waited for.
+            controller.set_parameter("gain", "3")
+            await controller.parameters_changed()
+            return [*found, controller.parameters.gain]
+
+    assert asyncio.run(changes()) == [2, 3]
 
 
 @pytest.mark.parametrize(

@@ -50,7 +50,7 @@ static scl_status take_inputs(autopilot *self) {
     if (is_fatal(status)) {
         return status;
     }
-    status = arcade_autopilot_update_parameters(&self->gates, &changed);
+    status = arcade_autopilot_update_parameters(&self->gates, 0, &changed);
     if (status == SCL_OK && changed) {
         flight_controller_receive_tuning(&self->controller, &self->gates.parameters);
     }

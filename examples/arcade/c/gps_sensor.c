@@ -22,7 +22,7 @@ static void report(Arcade__FixQuality *last, const Arcade__Fix *fix) {
 static scl_status read_parameters(arcade_gps_sensor *gates, receiver_parameters *parameters) {
     Arcade__Limits *limits;
     bool changed;
-    scl_status status = arcade_gps_sensor_update_parameters(gates, &changed);
+    scl_status status = arcade_gps_sensor_update_parameters(gates, 0, &changed);
     parameters->rate = gates->parameters.rate;
     if (status == SCL_OK && (status = arcade_gps_sensor_limits_latest(gates, &limits)) == SCL_OK) {
         parameters->home = home_from_message(limits);

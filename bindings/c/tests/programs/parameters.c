@@ -106,21 +106,24 @@ static void wrong_calls_are_explained(void) {
 
 static void live_parameters_are_taken_over(void) {
     bool changed = true;
-    OK(scl_update_parameters(component, &changed));
+    OK(scl_update_parameters(component, 0, &changed));
     ASSERT(!changed);
     OK(scl_set_parameter(component, "gain", "1.25"));
     OK(scl_set_parameter(component, "label", "hinten"));
     ASSERT(number_of("gain", 0) == 0.8 && text_is("label", 0, "vorn, links"));
-    OK(scl_update_parameters(component, &changed));
+    /* What has changed before is not waited for. */
+    OK(scl_update_parameters(component, -1, &changed));
     ASSERT(changed && number_of("gain", 0) == 1.25 && text_is("label", 0, "hinten"));
-    OK(scl_update_parameters(component, &changed));
+    OK(scl_update_parameters(component, 0, &changed));
     ASSERT(!changed && number_of("gain", 0) == 1.25);
+    OK(scl_update_parameters(component, 1000, &changed));
+    ASSERT(!changed);
     EXPECT(scl_set_parameter(component, "gian", "1"), SCL_NAME, "no parameter `gian`; did you mean `gain`?");
     EXPECT(scl_set_parameter(component, "pin", "1"), SCL_ARGUMENT, "is fixed while its program runs");
     EXPECT(scl_set_parameter(component, "gain", "fast"), SCL_ARGUMENT, "expected a finite number, found `fast`");
     EXPECT(scl_set_parameter(component, NULL, "1"), SCL_ARGUMENT, "`name`");
     EXPECT(scl_set_parameter(component, "gain", NULL), SCL_ARGUMENT, "`value`");
-    EXPECT(scl_update_parameters(component, NULL), SCL_ARGUMENT, "`changed`");
+    EXPECT(scl_update_parameters(component, 0, NULL), SCL_ARGUMENT, "`changed`");
     ASSERT(number_of("gain", 0) == 1.25);
 }
 
@@ -150,7 +153,7 @@ int main(int count, char **arguments) {
     OK(scl_close(component, 0));
     double number;
     bool changed = true;
-    EXPECT(scl_update_parameters(component, &changed), SCL_HANDLE, "it was closed");
+    EXPECT(scl_update_parameters(component, 0, &changed), SCL_HANDLE, "it was closed");
     ASSERT(!changed);
     EXPECT(scl_parameter_f64(component, "gain", 0, &number), SCL_HANDLE, "it was closed");
     OK(scl_close(peer, 0));

@@ -97,10 +97,10 @@ void read_choice(scl_component* component, const char* name, Enum& value, const 
     value = index_of<Enum>(word, words);
 }
 
-/// Takes over the live parameters that have changed. Returns whether any has.
-inline bool update_parameters(const Component& component) {
+/// Takes over the live parameters that have changed, and waits for one. Returns whether any has.
+inline bool update_parameters(const Component& component, TimeLimit limit) {
     bool changed = false;
-    check(scl_update_parameters(component.handle(), &changed));
+    check(scl_update_parameters(component.handle(), limit.nanoseconds(), &changed));
     return changed;
 }
 

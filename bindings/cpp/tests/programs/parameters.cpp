@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <string>
+#include <thread>
 #include <vector>
 
 using namespace std::chrono_literals;
@@ -103,6 +104,10 @@ static void live_parameters_are_taken_over() {
     CHECK(controller.parameters.gain == 2.5 && controller.parameters.names == std::vector<std::string>{"a"});
     CHECK(controller.parameters.mode == ControllerMode::Manual);
     CHECK(scl::parameter<double>(controller, "gain") == 2.5);
+    CHECK(!controller.update_parameters(1us));
+    std::thread setter([&component = controller] { component.set_parameter("gain", "4"); });
+    CHECK(controller.update_parameters(scl::TimeLimit::none()) && controller.parameters.gain == 4);
+    setter.join();
     auto set = [&component = controller](const char* name, const char* value) {
         return error_of([&] { component.set_parameter(name, value); });
     };

@@ -25,7 +25,7 @@ _KINDS: dict[str, type[Any]] = {"pub": Pub, "sub": Sub, "req": Req, "rep": Rep, 
 Facts = dict[str, tuple[str, list[codec.Codec]]]
 """The attribute and the codecs of each gate."""
 
-_FIELDS = frozenset({"_native", "_gates", "_attributes", "_parameters", "_readiness"})
+_FIELDS = frozenset({"_native", "_gates", "_attributes", "_loops", "_parameters", "_readiness"})
 """The attributes of a component other than its gates."""
 
 _STEP = 0.2
@@ -84,7 +84,7 @@ class Component:
     def _adopt(self, native: _native.Component, facts: Facts) -> None:
         self._native = native
         _process.close_at_exit(self._native)
-        loops = Loops(self._native)
+        self._loops = loops = Loops(self._native)
         found: dict[str, Gate] = {}
         for gate in self._native.gates:
             attribute, codecs = facts[gate.name]
@@ -118,15 +118,21 @@ class Component:
         """All gates by name, in the order of the topology file."""
         return MappingProxyType(self._gates)
 
-    def update_parameters(self) -> bool:
+    def update_parameters(self, timeout: float | None = 0) -> bool:
         """Takes over live parameters that have changed: `parameters` has their new values then.
 
-        Returns whether any has changed since the component was opened, or since the last call. It never waits.
+        Returns whether any has changed since the component was opened, or since the last call. Waits for that up to
+        `timeout` seconds, by default not at all, and without limit for `None`.
         """
-        changed = self._native.update_parameters()
+        changed = self._native.update_parameters(timeout)
         if changed:
             self._parameters = self._values(self._native.parameters)
         return changed
+
+    async def parameters_changed(self) -> None:
+        """`update_parameters` for asyncio, which waits until one has changed. Cancel safe."""
+        await self._loops.until(self._native.wait_parameters().poll, None, lambda: 0)
+        self.update_parameters()
 
     def set_parameter(self, name: str, value: str) -> None:
         """Sets a live parameter, as a text like in the topology file: `10ms`. `update_parameters` takes it over.

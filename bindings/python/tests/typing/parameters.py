@@ -19,6 +19,7 @@ assert_type(Motor.test(set={"left_motor.pin": "1"})[0].parameters.pin, int)
 scl.open("topology.yaml", "controller", set={"controller.gain": "2"})
 
 assert_type(controller.update_parameters(), bool)
+assert_type(controller.update_parameters(timeout=None), bool)
 controller.set_parameter("gain", "2")
 
 controller.set_parameter("gain", 2)  # error: str

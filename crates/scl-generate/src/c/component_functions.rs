@@ -39,7 +39,7 @@ pub(super) fn component_functions(system: &System, component: &Component) -> Vec
     });
     let update = component.has_live_parameters().then(|| {
         let doc = "Takes over the live parameters that have changed, see scl_update_parameters.";
-        function("update_parameters", doc, "bool *changed", parameters::update_body(&own))
+        function("update_parameters", doc, "int64_t timeout_ns, bool *changed", parameters::update_body(&own))
     });
     let ready = function(
         "ready",

@@ -211,7 +211,7 @@ pub(super) fn update_body(prefix: &str) -> String {
     let (refuse, reader) = (refuse_null("self"), reader(prefix));
     format!(
         "{refuse}\n\
-         scl_status status = scl_update_parameters(self->component, changed);\n\
+         scl_status status = scl_update_parameters(self->component, timeout_ns, changed);\n\
          return status == SCL_OK && *changed ? {reader}(self) : status;"
     )
 }

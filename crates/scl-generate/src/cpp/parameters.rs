@@ -76,10 +76,10 @@ pub(super) fn write_member(component: &Component, out: &mut Writer) {
         true => (
             "The values that its parameters had when the component was opened, or at the last update.",
             "\n\
-             /// Takes over the live parameters that have changed. Returns whether any has; if not, it costs next to\n\
-             /// nothing.\n\
-             bool update_parameters() {\n    \
-                 const bool changed = ::scl::detail::update_parameters(*this);\n    \
+             /// Takes over the live parameters that have changed, and waits for one until `limit`. Returns whether\n\
+             /// any has. Without a limit it does not wait, and costs next to nothing.\n\
+             bool update_parameters(::scl::TimeLimit limit = ::std::chrono::nanoseconds(0)) {\n    \
+                 const bool changed = ::scl::detail::update_parameters(*this, limit);\n    \
                  if (changed) {\n        \
                      parameters = scl_generated::read(handle(), ::std::move(parameters));\n    \
                  }\n    \

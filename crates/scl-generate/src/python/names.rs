@@ -17,6 +17,7 @@ pub(super) const OF_COMPONENTS: &[&str] = &[
     "fileno",
     "gates",
     "name",
+    "parameters_changed",
     "ready",
     "ready_async",
     "set_parameter",

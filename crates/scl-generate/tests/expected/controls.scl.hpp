@@ -208,10 +208,10 @@ struct Controller : ::scl::Component {
     /// The values that its parameters had when the component was opened, or at the last update.
     ControllerParameters parameters = scl_generated::read(handle(), ControllerParameters{});
 
-    /// Takes over the live parameters that have changed. Returns whether any has; if not, it costs next to
-    /// nothing.
-    bool update_parameters() {
-        const bool changed = ::scl::detail::update_parameters(*this);
+    /// Takes over the live parameters that have changed, and waits for one until `limit`. Returns whether
+    /// any has. Without a limit it does not wait, and costs next to nothing.
+    bool update_parameters(::scl::TimeLimit limit = ::std::chrono::nanoseconds(0)) {
+        const bool changed = ::scl::detail::update_parameters(*this, limit);
         if (changed) {
             parameters = scl_generated::read(handle(), ::std::move(parameters));
         }

@@ -307,12 +307,12 @@ scl_status controls_controller_test_with(controls_controller *self,
     return status;
 }
 
-scl_status controls_controller_update_parameters(controls_controller *self, bool *changed)
+scl_status controls_controller_update_parameters(controls_controller *self, int64_t timeout_ns, bool *changed)
 {
     if (self == NULL) {
         return scl_fail(SCL_ARGUMENT, "`self` is NULL");
     }
-    scl_status status = scl_update_parameters(self->component, changed);
+    scl_status status = scl_update_parameters(self->component, timeout_ns, changed);
     return status == SCL_OK && *changed ? read_controls_controller_parameters(self) : status;
 }
 

@@ -145,7 +145,7 @@ scl_status controls_controller_test_with(controls_controller *self,
                                          controls_controller_peer *peer,
                                          const char *options_json);
 /* Takes over the live parameters that have changed, see scl_update_parameters. */
-scl_status controls_controller_update_parameters(controls_controller *self, bool *changed);
+scl_status controls_controller_update_parameters(controls_controller *self, int64_t timeout_ns, bool *changed);
 /* Waits until all required peers are connected, see scl_ready. */
 scl_status controls_controller_ready(controls_controller *self, int64_t timeout_ns);
 /* Waits until running peers have taken all messages, then closes the component, see scl_close. */
@@ -274,8 +274,11 @@ scl_status controls_plain_close(controls_plain *self, int64_t timeout_ns);
         SCL_POINTER(controls_controller, self), \
         SCL_POINTER(controls_controller_peer, peer), \
         (options_json))
-#define controls_controller_update_parameters(self, changed) \
-    controls_controller_update_parameters(SCL_POINTER(controls_controller, self), SCL_POINTER(bool, changed))
+#define controls_controller_update_parameters(self, timeout_ns, changed) \
+    controls_controller_update_parameters( \
+        SCL_POINTER(controls_controller, self), \
+        (timeout_ns), \
+        SCL_POINTER(bool, changed))
 #define controls_controller_ready(self, timeout_ns) \
     controls_controller_ready(SCL_POINTER(controls_controller, self), (timeout_ns))
 #define controls_controller_close(self, timeout_ns) \

@@ -63,15 +63,15 @@ static void live_parameters_are_taken_over(void)
     controls_controller_peer peer;
     bool changed = true;
     OK(controls_controller_test(&controller, &peer));
-    OK(controls_controller_update_parameters(&controller, &changed));
+    OK(controls_controller_update_parameters(&controller, 0, &changed));
     CHECK(!changed);
     OK(scl_set_parameter(controller.component, "mode", "auto"));
     OK(scl_set_parameter(controller.component, "names", "[c]"));
     CHECK(controller.parameters.mode == CONTROLS_CONTROLLER_MODE_MANUAL);
-    OK(controls_controller_update_parameters(&controller, &changed));
+    OK(controls_controller_update_parameters(&controller, 0, &changed));
     CHECK(changed && controller.parameters.mode == CONTROLS_CONTROLLER_MODE_AUTO && controller.parameters.gain == 0.8);
     CHECK(controller.parameters.names_count == 1 && strcmp(controller.parameters.names[0], "c") == 0);
-    CHECK(controls_controller_update_parameters(NULL, &changed) == SCL_ARGUMENT);
+    CHECK(controls_controller_update_parameters(NULL, 0, &changed) == SCL_ARGUMENT);
     OK(controls_controller_close(&controller, 0));
     OK(controls_controller_peer_close(&peer, 0));
 }

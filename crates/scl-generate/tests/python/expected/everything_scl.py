@@ -213,42 +213,46 @@ _PLAN = r"""
 "message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:42:9","endpoint": null,
 "tap": "import.name.tap","contract": "ggd3urou","max_size": 67108864,"queue": 100,
 "when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
-"in_flight": 1,"undecodable": "skip","connections": []},{"name": "ready","kind": "pub","payload": {
-"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:43:9","endpoint": null,
-"tap": "import.ready.tap","contract": "ggd3urou","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
-"in_flight": 1,"undecodable": "skip","connections": []},{"name": "ready_async","kind": "pub",
-"payload": {"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:44:9",
-"endpoint": null,"tap": "import.ready_async.tap","contract": "ggd3urou","max_size": 67108864,
+"in_flight": 1,"undecodable": "skip","connections": []},{"name": "parameters_changed","kind": "pub",
+"payload": {"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:43:9",
+"endpoint": null,"tap": "import.parameters_changed.tap","contract": "ggd3urou","max_size": 67108864,
 "queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
-"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": []},{
-"name": "set_parameter","kind": "pub","payload": {"message": "every.Job"},"codec": "protobuf",
-"declared_at": "everything.yaml:45:9","endpoint": null,"tap": "import.set_parameter.tap",
-"contract": "ggd3urou","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
-"undecodable": "skip","connections": []},{"name": "system","kind": "pub","payload": {
-"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:46:9","endpoint": null,
-"tap": "import.system.tap","contract": "ggd3urou","max_size": 67108864,"queue": 100,
-"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
-"in_flight": 1,"undecodable": "skip","connections": []},{"name": "update_parameters","kind": "pub",
-"payload": {"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:47:9",
-"endpoint": null,"tap": "import.update_parameters.tap","contract": "ggd3urou","max_size": 67108864,
-"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
-"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": []},{"name": "wait",
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": []},{"name": "ready",
 "kind": "pub","payload": {"message": "every.Job"},"codec": "protobuf",
-"declared_at": "everything.yaml:48:9","endpoint": null,"tap": "import.wait.tap",
+"declared_at": "everything.yaml:44:9","endpoint": null,"tap": "import.ready.tap",
 "contract": "ggd3urou","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
 "backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
-"undecodable": "skip","connections": []},{"name": "my-gate","kind": "sub","payload": {
+"undecodable": "skip","connections": []},{"name": "ready_async","kind": "pub","payload": {
+"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:45:9","endpoint": null,
+"tap": "import.ready_async.tap","contract": "ggd3urou","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": []},{"name": "set_parameter","kind": "pub",
+"payload": {"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:46:9",
+"endpoint": null,"tap": "import.set_parameter.tap","contract": "ggd3urou","max_size": 67108864,
+"queue": 100,"when_full": "drop_oldest","backpressure": false,"latched": false,
+"timeout_ns": 1000000000,"in_flight": 1,"undecodable": "skip","connections": []},{"name": "system",
+"kind": "pub","payload": {"message": "every.Job"},"codec": "protobuf",
+"declared_at": "everything.yaml:47:9","endpoint": null,"tap": "import.system.tap",
+"contract": "ggd3urou","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
+"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
+"undecodable": "skip","connections": []},{"name": "update_parameters","kind": "pub","payload": {
+"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:48:9","endpoint": null,
+"tap": "import.update_parameters.tap","contract": "ggd3urou","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": []},{"name": "wait","kind": "pub","payload": {
 "message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:49:9","endpoint": null,
-"tap": null,"contract": "ggd3urou","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
-"undecodable": "skip","connections": []},{"name": "_private","kind": "sub","payload": {
-"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:50:9","endpoint": null,
-"tap": null,"contract": "ggd3urou","max_size": 67108864,"queue": 100,"when_full": "drop_oldest",
-"backpressure": false,"latched": false,"timeout_ns": 1000000000,"in_flight": 1,
-"undecodable": "skip","connections": []}]},{"name": "none","declared_at": "everything.yaml:51:11",
-"schema": null,"gates": []}],"schemas": {
+"tap": "import.wait.tap","contract": "ggd3urou","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": []},{"name": "my-gate","kind": "sub",
+"payload": {"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:50:9",
+"endpoint": null,"tap": null,"contract": "ggd3urou","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": []},{"name": "_private","kind": "sub",
+"payload": {"message": "every.Job"},"codec": "protobuf","declared_at": "everything.yaml:51:9",
+"endpoint": null,"tap": null,"contract": "ggd3urou","max_size": 67108864,"queue": 100,
+"when_full": "drop_oldest","backpressure": false,"latched": false,"timeout_ns": 1000000000,
+"in_flight": 1,"undecodable": "skip","connections": []}]},{"name": "none",
+"declared_at": "everything.yaml:52:11","schema": null,"gates": []}],"schemas": {
 "piethqborvbhclctt6m7masqwf": "Cv8BCh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvEg9nb29nbGUucHJvdG9idWYiOwoJVGltZXN0YW1wEhgKB3NlY29uZHMYASABKANSB3NlY29uZHMSFAoFbmFub3MYAiABKAVSBW5hbm9zQoUBChNjb20uZ29vZ2xlLnByb3RvYnVmQg5UaW1lc3RhbXBQcm90b1ABWjJnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi90aW1lc3RhbXBwYvgBAaICA0dQQqoCHkdvb2dsZS5Qcm90b2J1Zi5XZWxsS25vd25UeXBlc2IGcHJvdG8zCvsBCh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiI6CghEdXJhdGlvbhIYCgdzZWNvbmRzGAEgASgDUgdzZWNvbmRzEhQKBW5hbm9zGAIgASgFUgVuYW5vc0KDAQoTY29tLmdvb2dsZS5wcm90b2J1ZkINRHVyYXRpb25Qcm90b1ABWjFnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi9kdXJhdGlvbnBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMK4gUKHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiKYAQoGU3RydWN0EjsKBmZpZWxkcxgBIAMoCzIjLmdvb2dsZS5wcm90b2J1Zi5TdHJ1Y3QuRmllbGRzRW50cnlSBmZpZWxkcxpRCgtGaWVsZHNFbnRyeRIQCgNrZXkYASABKAlSA2tleRIsCgV2YWx1ZRgCIAEoCzIWLmdvb2dsZS5wcm90b2J1Zi5WYWx1ZVIFdmFsdWU6AjgBIrICCgVWYWx1ZRI7CgpudWxsX3ZhbHVlGAEgASgOMhouZ29vZ2xlLnByb3RvYnVmLk51bGxWYWx1ZUgAUgludWxsVmFsdWUSIwoMbnVtYmVyX3ZhbHVlGAIgASgBSABSC251bWJlclZhbHVlEiMKDHN0cmluZ192YWx1ZRgDIAEoCUgAUgtzdHJpbmdWYWx1ZRIfCgpib29sX3ZhbHVlGAQgASgISABSCWJvb2xWYWx1ZRI8CgxzdHJ1Y3RfdmFsdWUYBSABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0SABSC3N0cnVjdFZhbHVlEjsKCmxpc3RfdmFsdWUYBiABKAsyGi5nb29nbGUucHJvdG9idWYuTGlzdFZhbHVlSABSCWxpc3RWYWx1ZUIGCgRraW5kIjsKCUxpc3RWYWx1ZRIuCgZ2YWx1ZXMYASADKAsyFi5nb29nbGUucHJvdG9idWYuVmFsdWVSBnZhbHVlcyobCglOdWxsVmFsdWUSDgoKTlVMTF9WQUxVRRAAQn8KE2NvbS5nb29nbGUucHJvdG9idWZCC1N0cnVjdFByb3RvUAFaL2dvb2dsZS5nb2xhbmcub3JnL3Byb3RvYnVmL3R5cGVzL2tub3duL3N0cnVjdHBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMKvgsKEGV2ZXJ5dGhpbmcucHJvdG8SBWV2ZXJ5Gh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvGh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8aHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8ixgkKCkV2ZXJ5dGhpbmcSGQoIYV9kb3VibGUYASABKAFSB2FEb3VibGUSFwoHYV9mbG9hdBgCIAEoAlIGYUZsb2F0EhkKCGFuX2ludDMyGAMgASgFUgdhbkludDMyEhkKCGFfdWludDY0GAQgASgEUgdhVWludDY0EhUKBmFfYm9vbBgFIAEoCFIFYUJvb2wSGQoIYV9zdHJpbmcYBiABKAlSB2FTdHJpbmcSHQoKc29tZV9ieXRlcxgHIAEoDFIJc29tZUJ5dGVzEiIKBWxldmVsGAggASgOMgwuZXZlcnkuTGV2ZWxSBWxldmVsEi0KBWlubmVyGAkgASgLMhcuZXZlcnkuRXZlcnl0aGluZy5Jbm5lclIFaW5uZXISGAoHbnVtYmVycxgKIAMoA1IHbnVtYmVycxIkCgZsZXZlbHMYCyADKA4yDC5ldmVyeS5MZXZlbFIGbGV2ZWxzEi8KBmlubmVycxgMIAMoCzIXLmV2ZXJ5LkV2ZXJ5dGhpbmcuSW5uZXJSBmlubmVycxI2CgdieV9uYW1lGA0gAygLMh0uZXZlcnkuRXZlcnl0aGluZy5CeU5hbWVFbnRyeVIGYnlOYW1lEjwKCWJ5X251bWJlchgOIAMoCzIfLmV2ZXJ5LkV2ZXJ5dGhpbmcuQnlOdW1iZXJFbnRyeVIIYnlOdW1iZXISGQoHYXNfdGV4dBgPIAEoCUgAUgZhc1RleHQSHQoJYXNfbnVtYmVyGBAgASgESABSCGFzTnVtYmVyEjQKCGFzX2lubmVyGBEgASgLMhcuZXZlcnkuRXZlcnl0aGluZy5Jbm5lckgAUgdhc0lubmVyEhIKA3llcxgSIAEoCEgBUgN5ZXMSEAoCbm8YEyABKAhIAVICbm8SGQoFbWF5YmUYFCABKAVIAlIFbWF5YmWIAQESKgoCYXQYFSABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wUgJhdBItCgR0b29rGBYgASgLMhkuZ29vZ2xlLnByb3RvYnVmLkR1cmF0aW9uUgR0b29rEjYKCmFueV9vYmplY3QYFyABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0UglhbnlPYmplY3QSEgoEZnJvbRgYIAEoCVIEZnJvbRISCgRzZWxmGBkgASgJUgRzZWxmGqEBCgVJbm5lchISCgR0ZXh0GAEgASgJUgR0ZXh0EicKBW91dGVyGAIgASgLMhEuZXZlcnkuRXZlcnl0aGluZ1IFb3V0ZXISMwoFY29sb3IYAyABKA4yHS5ldmVyeS5FdmVyeXRoaW5nLklubmVyLkNvbG9yUgVjb2xvciImCgVDb2xvchIOCgpDT0xPUl9OT05FEAASDQoJQ09MT1JfUkVEEAEaUgoLQnlOYW1lRW50cnkSEAoDa2V5GAEgASgJUgNrZXkSLQoFdmFsdWUYAiABKAsyFy5ldmVyeS5FdmVyeXRoaW5nLklubmVyUgV2YWx1ZToCOAEaOwoNQnlOdW1iZXJFbnRyeRIQCgNrZXkYASABKANSA2tleRIUCgV2YWx1ZRgCIAEoCFIFdmFsdWU6AjgBQggKBmNob2ljZUIOCgxvdGhlcl9jaG9pY2VCCAoGX21heWJlIh0KA0pvYhIWCgZudW1iZXIYASABKAVSBm51bWJlciIjCgZTdGF0dXMSGQoIaXNfcmVhZHkYASABKAhSB2lzUmVhZHkiBwoFRW1wdHkqJgoFTGV2ZWwSDQoJTEVWRUxfTE9XEAASDgoKTEVWRUxfSElHSBABYgZwcm90bzMKPAoMc2Vjb25kLnByb3RvEgZzZWNvbmQiHAoGU3RhdHVzEhIKBHRleHQYASABKAlSBHRleHRiBnByb3RvMwq6BQoJb2xkLnByb3RvEgNvbGQiGgoES2luZBISCgRuYW1lGAEgASgJUgRuYW1lIt4DCgNPbGQSFgoGbnVtYmVyGAEgAigFUgZudW1iZXISFwoDaW50GAIgASgJOgVzZXZlblIDaW50Eh0KBEtpbmQYAyADKAsyCS5vbGQuS2luZFIES2luZBIhCgRwYXJ0GAQgASgKMg0ub2xkLk9sZC5QYXJ0UgRwYXJ0EhoKCHByb3BlcnR5GAYgASgJUghwcm9wZXJ0eRIeCgpERVNDUklQVE9SGAcgASgJUgpERVNDUklQVE9SEhgKCF9faGlkZGVuGAggASgJUgZIaWRkZW4SGgoISGFzRmllbGQYCSABKAlSCEhhc0ZpZWxkEiQKBHdvcmQYCiABKA4yCS5vbGQuV29yZDoFTUlOVVNSBHdvcmQSIAoFY2xhc3MYCyABKAsyCi5vbGQuY2xhc3NSBWNsYXNzEiwKCmlubmVyX3dvcmQYDCABKAsyDS5vbGQuT2xkLldvcmRSCWlubmVyV29yZBIoCgpvdXRlcl93b3JkGA0gASgOMgkub2xkLldvcmRSCW91dGVyV29yZBoaCgRQYXJ0EhIKBGxpc3QYBSABKAhSBGxpc3QaLwoEV29yZBIUCgV0cnV0aBgBIAEoCFIFdHJ1dGgiEQoEYm9vbBIJCgVGQUxTRRAAKgUIZBDJASJDCgVjbGFzcxIUCgRlbHNlGAEgASgISABSBGVsc2USHgoJb3RoZXJ3aXNlGAIgASgISABSCW90aGVyd2lzZUIECgJpZipICgRXb3JkEggKBE5vbmUQABILCgdOb3RoaW5nEAASEgoFTUlOVVMQ////////////ARIHCgNtcm8QAhIICgRuYW1lEAMaAhABOhwKBG1vcmUSCC5vbGQuT2xkGGQgASgJUgRtb3Jl",
 "wu5rlvedb4na7iar5q57lfccxd": "Cv8BCh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvEg9nb29nbGUucHJvdG9idWYiOwoJVGltZXN0YW1wEhgKB3NlY29uZHMYASABKANSB3NlY29uZHMSFAoFbmFub3MYAiABKAVSBW5hbm9zQoUBChNjb20uZ29vZ2xlLnByb3RvYnVmQg5UaW1lc3RhbXBQcm90b1ABWjJnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi90aW1lc3RhbXBwYvgBAaICA0dQQqoCHkdvb2dsZS5Qcm90b2J1Zi5XZWxsS25vd25UeXBlc2IGcHJvdG8zCvsBCh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiI6CghEdXJhdGlvbhIYCgdzZWNvbmRzGAEgASgDUgdzZWNvbmRzEhQKBW5hbm9zGAIgASgFUgVuYW5vc0KDAQoTY29tLmdvb2dsZS5wcm90b2J1ZkINRHVyYXRpb25Qcm90b1ABWjFnb29nbGUuZ29sYW5nLm9yZy9wcm90b2J1Zi90eXBlcy9rbm93bi9kdXJhdGlvbnBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMK4gUKHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8SD2dvb2dsZS5wcm90b2J1ZiKYAQoGU3RydWN0EjsKBmZpZWxkcxgBIAMoCzIjLmdvb2dsZS5wcm90b2J1Zi5TdHJ1Y3QuRmllbGRzRW50cnlSBmZpZWxkcxpRCgtGaWVsZHNFbnRyeRIQCgNrZXkYASABKAlSA2tleRIsCgV2YWx1ZRgCIAEoCzIWLmdvb2dsZS5wcm90b2J1Zi5WYWx1ZVIFdmFsdWU6AjgBIrICCgVWYWx1ZRI7CgpudWxsX3ZhbHVlGAEgASgOMhouZ29vZ2xlLnByb3RvYnVmLk51bGxWYWx1ZUgAUgludWxsVmFsdWUSIwoMbnVtYmVyX3ZhbHVlGAIgASgBSABSC251bWJlclZhbHVlEiMKDHN0cmluZ192YWx1ZRgDIAEoCUgAUgtzdHJpbmdWYWx1ZRIfCgpib29sX3ZhbHVlGAQgASgISABSCWJvb2xWYWx1ZRI8CgxzdHJ1Y3RfdmFsdWUYBSABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0SABSC3N0cnVjdFZhbHVlEjsKCmxpc3RfdmFsdWUYBiABKAsyGi5nb29nbGUucHJvdG9idWYuTGlzdFZhbHVlSABSCWxpc3RWYWx1ZUIGCgRraW5kIjsKCUxpc3RWYWx1ZRIuCgZ2YWx1ZXMYASADKAsyFi5nb29nbGUucHJvdG9idWYuVmFsdWVSBnZhbHVlcyobCglOdWxsVmFsdWUSDgoKTlVMTF9WQUxVRRAAQn8KE2NvbS5nb29nbGUucHJvdG9idWZCC1N0cnVjdFByb3RvUAFaL2dvb2dsZS5nb2xhbmcub3JnL3Byb3RvYnVmL3R5cGVzL2tub3duL3N0cnVjdHBi+AEBogIDR1BCqgIeR29vZ2xlLlByb3RvYnVmLldlbGxLbm93blR5cGVzYgZwcm90bzMKvgsKEGV2ZXJ5dGhpbmcucHJvdG8SBWV2ZXJ5Gh9nb29nbGUvcHJvdG9idWYvdGltZXN0YW1wLnByb3RvGh5nb29nbGUvcHJvdG9idWYvZHVyYXRpb24ucHJvdG8aHGdvb2dsZS9wcm90b2J1Zi9zdHJ1Y3QucHJvdG8ixgkKCkV2ZXJ5dGhpbmcSGQoIYV9kb3VibGUYASABKAFSB2FEb3VibGUSFwoHYV9mbG9hdBgCIAEoAlIGYUZsb2F0EhkKCGFuX2ludDMyGAMgASgFUgdhbkludDMyEhkKCGFfdWludDY0GAQgASgEUgdhVWludDY0EhUKBmFfYm9vbBgFIAEoCFIFYUJvb2wSGQoIYV9zdHJpbmcYBiABKAlSB2FTdHJpbmcSHQoKc29tZV9ieXRlcxgHIAEoDFIJc29tZUJ5dGVzEiIKBWxldmVsGAggASgOMgwuZXZlcnkuTGV2ZWxSBWxldmVsEi0KBWlubmVyGAkgASgLMhcuZXZlcnkuRXZlcnl0aGluZy5Jbm5lclIFaW5uZXISGAoHbnVtYmVycxgKIAMoA1IHbnVtYmVycxIkCgZsZXZlbHMYCyADKA4yDC5ldmVyeS5MZXZlbFIGbGV2ZWxzEi8KBmlubmVycxgMIAMoCzIXLmV2ZXJ5LkV2ZXJ5dGhpbmcuSW5uZXJSBmlubmVycxI2CgdieV9uYW1lGA0gAygLMh0uZXZlcnkuRXZlcnl0aGluZy5CeU5hbWVFbnRyeVIGYnlOYW1lEjwKCWJ5X251bWJlchgOIAMoCzIfLmV2ZXJ5LkV2ZXJ5dGhpbmcuQnlOdW1iZXJFbnRyeVIIYnlOdW1iZXISGQoHYXNfdGV4dBgPIAEoCUgAUgZhc1RleHQSHQoJYXNfbnVtYmVyGBAgASgESABSCGFzTnVtYmVyEjQKCGFzX2lubmVyGBEgASgLMhcuZXZlcnkuRXZlcnl0aGluZy5Jbm5lckgAUgdhc0lubmVyEhIKA3llcxgSIAEoCEgBUgN5ZXMSEAoCbm8YEyABKAhIAVICbm8SGQoFbWF5YmUYFCABKAVIAlIFbWF5YmWIAQESKgoCYXQYFSABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wUgJhdBItCgR0b29rGBYgASgLMhkuZ29vZ2xlLnByb3RvYnVmLkR1cmF0aW9uUgR0b29rEjYKCmFueV9vYmplY3QYFyABKAsyFy5nb29nbGUucHJvdG9idWYuU3RydWN0UglhbnlPYmplY3QSEgoEZnJvbRgYIAEoCVIEZnJvbRISCgRzZWxmGBkgASgJUgRzZWxmGqEBCgVJbm5lchISCgR0ZXh0GAEgASgJUgR0ZXh0EicKBW91dGVyGAIgASgLMhEuZXZlcnkuRXZlcnl0aGluZ1IFb3V0ZXISMwoFY29sb3IYAyABKA4yHS5ldmVyeS5FdmVyeXRoaW5nLklubmVyLkNvbG9yUgVjb2xvciImCgVDb2xvchIOCgpDT0xPUl9OT05FEAASDQoJQ09MT1JfUkVEEAEaUgoLQnlOYW1lRW50cnkSEAoDa2V5GAEgASgJUgNrZXkSLQoFdmFsdWUYAiABKAsyFy5ldmVyeS5FdmVyeXRoaW5nLklubmVyUgV2YWx1ZToCOAEaOwoNQnlOdW1iZXJFbnRyeRIQCgNrZXkYASABKANSA2tleRIUCgV2YWx1ZRgCIAEoCFIFdmFsdWU6AjgBQggKBmNob2ljZUIOCgxvdGhlcl9jaG9pY2VCCAoGX21heWJlIh0KA0pvYhIWCgZudW1iZXIYASABKAVSBm51bWJlciIjCgZTdGF0dXMSGQoIaXNfcmVhZHkYASABKAhSB2lzUmVhZHkiBwoFRW1wdHkqJgoFTGV2ZWwSDQoJTEVWRUxfTE9XEAASDgoKTEVWRUxfSElHSBABYgZwcm90bzM="
 }}
@@ -468,6 +472,7 @@ class Import(_scl.GeneratedComponent, plan=_PLAN, component="import"):
         fileno_: `pub` publishes `every.Job` to no peer
         gates_: `pub` publishes `every.Job` to no peer
         name_: `pub` publishes `every.Job` to no peer
+        parameters_changed_: `pub` publishes `every.Job` to no peer
         ready_: `pub` publishes `every.Job` to no peer
         ready_async_: `pub` publishes `every.Job` to no peer
         set_parameter_: `pub` publishes `every.Job` to no peer
@@ -508,59 +513,65 @@ class Import(_scl.GeneratedComponent, plan=_PLAN, component="import"):
     Declared at `everything.yaml:42:9`.
     """
 
-    ready_: _scl.Pub[Job]
+    parameters_changed_: _scl.Pub[Job]
     """`pub`: publishes `every.Job` to no peer.
 
     Declared at `everything.yaml:43:9`.
     """
 
-    ready_async_: _scl.Pub[Job]
+    ready_: _scl.Pub[Job]
     """`pub`: publishes `every.Job` to no peer.
 
     Declared at `everything.yaml:44:9`.
     """
 
-    set_parameter_: _scl.Pub[Job]
+    ready_async_: _scl.Pub[Job]
     """`pub`: publishes `every.Job` to no peer.
 
     Declared at `everything.yaml:45:9`.
     """
 
-    system_: _scl.Pub[Job]
+    set_parameter_: _scl.Pub[Job]
     """`pub`: publishes `every.Job` to no peer.
 
     Declared at `everything.yaml:46:9`.
     """
 
-    update_parameters_: _scl.Pub[Job]
+    system_: _scl.Pub[Job]
     """`pub`: publishes `every.Job` to no peer.
 
     Declared at `everything.yaml:47:9`.
     """
 
-    wait_: _scl.Pub[Job]
+    update_parameters_: _scl.Pub[Job]
     """`pub`: publishes `every.Job` to no peer.
 
     Declared at `everything.yaml:48:9`.
     """
 
+    wait_: _scl.Pub[Job]
+    """`pub`: publishes `every.Job` to no peer.
+
+    Declared at `everything.yaml:49:9`.
+    """
+
     my_gate: _scl.Sub[Job]
     """`sub`: subscribes to `every.Job` from no peer.
 
-    Declared at `everything.yaml:49:9`.
+    Declared at `everything.yaml:50:9`.
     """
 
     gate_private: _scl.Sub[Job]
     """`sub`: subscribes to `every.Job` from no peer.
 
-    Declared at `everything.yaml:50:9`.
+    Declared at `everything.yaml:51:9`.
     """
 
 
 class None_(_scl.GeneratedComponent, plan=_PLAN, component="none"):
     """A component without gates.
 
-    The component `none` of `everything`, declared at `everything.yaml:51:11`.
+    The component `none` of `everything`, declared at `everything.yaml:52:11`.
     """
 
 
