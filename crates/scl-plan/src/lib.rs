@@ -40,6 +40,8 @@ mod error;
 mod json;
 mod kind;
 pub mod memory;
+#[cfg(feature = "json")]
+mod nanoseconds;
 mod options;
 mod parameter;
 mod plan;

@@ -92,15 +92,13 @@ pub struct ConnectionPlan {
     /// has sent each.
     #[cfg_attr(
         feature = "json",
-        serde(rename = "max_age_ns", skip_serializing_if = "Option::is_none", serialize_with = "nanoseconds")
+        serde(
+            rename = "max_age_ns",
+            skip_serializing_if = "Option::is_none",
+            serialize_with = "crate::nanoseconds::of_interval"
+        )
     )]
     pub max_age: Option<Duration>,
-}
-
-#[cfg(feature = "json")]
-fn nanoseconds<S: serde::Serializer>(duration: &Option<Duration>, serializer: S) -> Result<S::Ok, S::Error> {
-    let nanoseconds = duration.map(|duration| u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX));
-    serde::Serialize::serialize(&nanoseconds, serializer)
 }
 
 /// What a gate carries.

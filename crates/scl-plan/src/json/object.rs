@@ -6,6 +6,7 @@ use scl_text::list::quoted_list;
 use scl_text::suggest::closest_name;
 use serde_json::{Map, Value};
 use std::fmt::Display;
+use std::time::Duration;
 
 /// A value, and its path in the document.
 pub(super) struct At<'v> {
@@ -64,6 +65,11 @@ impl<'v> At<'v> {
     pub(super) fn number<N: TryFrom<u64> + Display>(&self, max: N) -> Result<N, PlanError> {
         let number = self.value.as_u64().and_then(|number| N::try_from(number).ok());
         number.ok_or_else(|| self.wrong(&format!("a whole number from 0 to {max}")))
+    }
+
+    /// A duration in nanoseconds.
+    pub(super) fn duration(&self) -> Result<Duration, PlanError> {
+        self.number(u64::MAX).map(Duration::from_nanos)
     }
 
     /// The meaning of a word, which must be one of `words`.

@@ -10,7 +10,6 @@ use crate::plan::{ConnectionPlan, GatePlan, Payload, Plan, Schema};
 use crate::system::{KindPlan, SystemPlan};
 use crate::version::VERSION;
 use serde_json::Value;
-use std::time::Duration;
 
 impl SystemPlan {
     /// Reads what [`to_json`](Self::to_json) has written.
@@ -129,10 +128,8 @@ fn read_option(at: &At<'_>, access: OptionAccess, options: &mut GateOptions) -> 
     match access {
         OptionAccess::Number(number) => *number(options) = at.number(u32::MAX)?,
         OptionAccess::Size(size) => *size(options) = at.number(u64::MAX)?,
-        OptionAccess::Duration(duration) => *duration(options) = Duration::from_nanos(at.number(u64::MAX)?),
-        OptionAccess::Interval(interval) => {
-            *interval(options) = Some(Duration::from_nanos(at.number(u64::MAX)?));
-        }
+        OptionAccess::Duration(duration) => *duration(options) = at.duration()?,
+        OptionAccess::Interval(interval) => *interval(options) = Some(at.duration()?),
         OptionAccess::Flag(flag) => *flag(options) = at.flag()?,
         OptionAccess::Policy(policy) => *policy(options) = at.word(&WhenFull::WORDS, WhenFull::of)?,
         OptionAccess::Undecodable(choice) => *choice(options) = at.word(&Undecodable::WORDS, Undecodable::of)?,
@@ -164,7 +161,7 @@ fn connection(at: &At<'_>) -> Result<ConnectionPlan, PlanError> {
         "max_size",
         "max_age_ns",
     ])?;
-    let max_age = fields.has("max_age_ns").then(|| fields.field("max_age_ns")?.number(u64::MAX));
+    let max_age = fields.has("max_age_ns").then(|| fields.field("max_age_ns")?.duration());
     Ok(ConnectionPlan {
         peer_component: fields.text("peer_component")?,
         peer_gate: fields.text("peer_gate")?,
@@ -174,6 +171,6 @@ fn connection(at: &At<'_>) -> Result<ConnectionPlan, PlanError> {
         queue: fields.field("queue")?.number(u32::MAX)?,
         when_full: fields.field("when_full")?.word(&WhenFull::WORDS, WhenFull::of)?,
         max_size: fields.field("max_size")?.number(u64::MAX)?,
-        max_age: max_age.transpose()?.map(Duration::from_nanos),
+        max_age: max_age.transpose()?,
     })
 }

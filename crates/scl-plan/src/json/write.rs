@@ -2,13 +2,13 @@
 
 use crate::base64;
 use crate::kind::{GateKind, Undecodable, WhenFull};
+use crate::nanoseconds::nanoseconds;
 use crate::options::{GateOptions, OptionAccess};
 use crate::plan::{Plan, Schema};
 use crate::system::{KindPlan, SystemPlan};
 use crate::version::VERSION;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::collections::BTreeMap;
-use std::time::Duration;
 
 impl SystemPlan {
     /// The plans as JSON, indented, with a line break at the end.
@@ -48,11 +48,6 @@ impl Serialize for Schema {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.hash.serialize(serializer)
     }
-}
-
-/// `validate` rejects durations that do not fit: more than 584 years.
-fn nanoseconds(duration: Duration) -> u64 {
-    u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX)
 }
 
 impl Serialize for GateOptions {
