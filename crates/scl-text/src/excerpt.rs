@@ -11,7 +11,12 @@ const MOST: usize = 40;
 /// assert_eq!(excerpt(&"ä".repeat(41)), format!("{}...", "ä".repeat(40)));
 /// ```
 pub fn excerpt(text: &str) -> String {
-    match text.char_indices().nth(MOST) {
+    start_of(text, MOST)
+}
+
+/// [`excerpt`] with another number of characters.
+pub fn start_of(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
         Some((end, _)) => format!("{}...", &text[..end]),
         None => text.to_owned(),
     }

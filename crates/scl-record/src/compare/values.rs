@@ -3,6 +3,7 @@
 use super::CompareOptions;
 use super::side::{Side, Waiting};
 use scl_terminal::{Problem, escape};
+use scl_text::excerpt::start_of;
 use scl_value::{FieldPath, MessageType, Opaque, Value, key_text, to_json};
 
 /// Maximum number of characters shown of a value.
@@ -141,11 +142,7 @@ fn shown(value: &Value) -> String {
 }
 
 fn cut(text: &str) -> String {
-    let text = escape(text);
-    match text.char_indices().nth(SHOWN) {
-        Some((end, _)) => format!("{}...", &text[..end]),
-        None => text.into_owned(),
-    }
+    start_of(&escape(text), SHOWN)
 }
 
 #[cfg(test)]
