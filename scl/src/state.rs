@@ -102,7 +102,7 @@ impl Drop for SetOnDrop {
     }
 }
 
-/// Reports that a peer connected or disconnected.
+/// Reports that something has changed that calls wait for: a peer, a parameter, or that the component is closed.
 #[derive(Clone, Default)]
 pub(crate) struct Changes(Arc<Notify>);
 

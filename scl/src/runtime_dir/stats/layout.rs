@@ -1,6 +1,7 @@
 //! The bytes of a stats file, as `docs/stats.md` describes them.
 
 use super::{ComponentStats, ConnectionFigures, GateFigures};
+use crate::time::nanoseconds;
 use bytes::{Buf, BufMut};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
@@ -33,7 +34,7 @@ pub(super) fn encode(stats: &ComponentStats, counter: u64, block: &mut Vec<u8>) 
     block.put_u32_le(count(length));
     block.put_u64_le(counter);
     block.put_u64_le(nanos(Some(stats.written)));
-    block.put_u64_le(u64::try_from(stats.period.as_nanos()).unwrap_or(u64::MAX));
+    block.put_u64_le(nanoseconds(stats.period));
     block.put_u64_le(nanos(Some(stats.started)) / 1_000_000);
     block.put_u32_le(stats.pid);
     block.put_u32_le(stats.ready.into());
@@ -177,7 +178,7 @@ fn take_connection(rest: &mut &[u8], lengths: &Lengths) -> Option<ConnectionFigu
 
 fn nanos(time: Option<SystemTime>) -> u64 {
     let since = time.and_then(|time| time.duration_since(UNIX_EPOCH).ok()).unwrap_or_default();
-    u64::try_from(since.as_nanos()).unwrap_or(u64::MAX)
+    nanoseconds(since)
 }
 
 fn time(nanos: u64) -> Option<SystemTime> {

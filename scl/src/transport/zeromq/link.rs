@@ -11,7 +11,7 @@ use super::topics::Topics;
 use super::waiting_report::WaitingReport;
 use super::zmtp::{FLUSH, Header, PeerReady, latched, sent};
 use crate::runtime_dir::SystemDir;
-use crate::time::stamp_of;
+use crate::time::{nanoseconds, stamp_of};
 use crate::transport::link_count::LinkAlive;
 use crate::transport::{Disconnected, Driven, Frame, Link, Loan, Resumed, Sent};
 use bytes::{BufMut, BytesMut};
@@ -290,7 +290,7 @@ impl Link for SendLink {
         if !self.find_room(cx) {
             return self.refused(message);
         }
-        let age = u64::try_from(age.as_nanos()).unwrap_or(u64::MAX);
+        let age = nanoseconds(age);
         // A plain ZeroMQ program gets the message without its age.
         let told = if self.credit.is_some() { self.session.write(&latched(age)) } else { Ok(()) };
         match told.map_err(Closed::from).and_then(|()| self.send_one(cx, &mut message)) {
