@@ -78,7 +78,7 @@ fn too_old(draft: &Draft<'_>, sink: usize, senders: &[usize], max_age: Duration)
         .labels(written(&draft.gates[sink], "max_age").map(|place| (place, "what is older is dropped".to_owned())))
         .labels(promises);
     Some(found.suggest(
-        format!("write `queue: {useful}` at `{receiver}`: so many messages come in {}", text(max_age)),
+        format!("write `queue: {useful}` at `{receiver}`: that is how many come in {}", text(max_age)),
         [draft.with_option(sink, "queue", &useful.to_string())],
     ))
 }
@@ -86,7 +86,7 @@ fn too_old(draft: &Draft<'_>, sink: usize, senders: &[usize], max_age: Duration)
 #[cfg(test)]
 mod tests {
     use super::TOO_OLD;
-    use crate::check::testing::{advice_with, rule_example};
+    use crate::check::testing::{advice_of_pairs, rule_example};
     use expect_test::expect;
 
     #[test]
@@ -103,7 +103,7 @@ mod tests {
                 7 |       - rates: {sub: Rates, queue: 20, max_age: 50ms}
                   |                             ^^^^^^^^^  ------------- what is older is dropped
                   |
-                  = help: write `queue: 6` at `autopilot.rates`: so many messages come in 50ms
+                  = help: write `queue: 6` at `autopilot.rates`: that is how many come in 50ms
             "#]],
         );
     }
@@ -128,17 +128,12 @@ mod tests {
             ("pub: T, rate: 100Hz", "sub: T, max_age: 50ms"),
             ("pub: T", "sub: T, queue: 1000, max_age: 50ms"),
         ];
-        let told: String = pairs
-            .iter()
-            .map(|(sender, receiver)| {
-                format!("{sender} -> {receiver}: {}\n", advice_with(&TOO_OLD, &file(sender, receiver), &["T"]))
-            })
-            .collect();
+        let told = advice_of_pairs(&[&TOO_OLD], &pairs, file);
         expect![[r#"
-            pub: T, rate: 100Hz -> sub: T, queue: 7, max_age: 50ms: a full queue of `c.one` has messages that are older than 50ms: 1 of 7 [write `queue: 6` at `c.one`: so many messages come in 50ms]
+            pub: T, rate: 100Hz -> sub: T, queue: 7, max_age: 50ms: a full queue of `c.one` has messages that are older than 50ms: 1 of 7 [write `queue: 6` at `c.one`: that is how many come in 50ms]
             pub: T, rate: 100Hz -> sub: T, queue: 6, max_age: 50ms: 
-            pub: T, rate: 100Hz -> sub: T, queue: 13, max_age: 50ms: a full queue of `c.one` has messages that are older than 50ms: 7 of 13 [write `queue: 6` at `c.one`: so many messages come in 50ms]; a full queue of `c.two` has messages that are older than 50ms: 1 of 13 [write `queue: 12` at `c.two`: so many messages come in 50ms]
-            pub: T, period: 1s -> sub: T, queue: 2, max_age: 1ms: a full queue of `c.one` has messages that are older than 1ms: 1 of 2 [write `queue: 1` at `c.one`: so many messages come in 1ms]
+            pub: T, rate: 100Hz -> sub: T, queue: 13, max_age: 50ms: a full queue of `c.one` has messages that are older than 50ms: 7 of 13 [write `queue: 6` at `c.one`: that is how many come in 50ms]; a full queue of `c.two` has messages that are older than 50ms: 1 of 13 [write `queue: 12` at `c.two`: that is how many come in 50ms]
+            pub: T, period: 1s -> sub: T, queue: 2, max_age: 1ms: a full queue of `c.one` has messages that are older than 1ms: 1 of 2 [write `queue: 1` at `c.one`: that is how many come in 1ms]
             pub: T, period: 1s -> sub: T, queue: 1, max_age: 1ms: 
             pub: T, rate: 1000000Hz -> sub: T, queue: 1000000, max_age: 24h: 
             push: T, period: 1s, queue: 9 -> pull: T, queue: 9, max_age: 1s: 

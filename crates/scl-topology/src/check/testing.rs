@@ -83,6 +83,16 @@ pub(crate) fn advice_with(rule: &Rule, yaml: &str, messages: &[&str]) -> String 
     told.collect::<Vec<_>>().join("; ")
 }
 
+/// A line for each pair of a sender and a receiver: what these rules say of the file that `file` makes of them.
+pub(crate) fn advice_of_pairs(rules: &[&Rule], pairs: &[(&str, &str)], file: impl Fn(&str, &str) -> String) -> String {
+    let line = |(sender, receiver): &(&str, &str)| {
+        let yaml = file(sender, receiver);
+        let found: String = rules.iter().map(|rule| advice_with(rule, &yaml, &["T"])).collect();
+        format!("{sender} -> {receiver}: {found}\n")
+    };
+    pairs.iter().map(line).collect()
+}
+
 /// All problems of a text, and its sources.
 pub(crate) fn problems(yaml: &str, messages: Option<&[&str]>) -> (Vec<Diagnostic>, Sources) {
     let (_, found, sources) = run(yaml, messages);

@@ -175,7 +175,7 @@ pub(super) fn written(gate: &DraftGate<'_>, key: &str) -> Option<Span> {
 #[cfg(test)]
 mod tests {
     use super::{NO_PROMISE, TOO_SHORT, TWICE};
-    use crate::check::testing::{advice_with, rule_example};
+    use crate::check::testing::{advice_of_pairs, advice_with, rule_example};
     use expect_test::expect;
 
     #[test]
@@ -279,14 +279,7 @@ connections:
             ("pub: T", "sub: T, deadline: 2s"),
             ("pub: T, period: 1s", "sub: T"),
         ];
-        let told: String = pairs
-            .iter()
-            .map(|(sender, receiver)| {
-                let yaml = file(sender, receiver);
-                let found = [&TOO_SHORT, &NO_PROMISE].map(|rule| advice_with(rule, &yaml, &["T"]));
-                format!("{sender} -> {receiver}: {}\n", found.concat())
-            })
-            .collect();
+        let told = advice_of_pairs(&[&TOO_SHORT, &NO_PROMISE], &pairs, file);
         expect![[r#"
             pub: T, rate: 100Hz -> sub: T, deadline: 10ms: 
             pub: T, rate: 100Hz -> sub: T, deadline: 9999us: `b.i` needs a message every 9999us, and `a.o` promises one every 10ms [write `deadline: 20ms` at `b.i`, which leaves room for a late message | or have the sender send more often]
