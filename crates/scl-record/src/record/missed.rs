@@ -7,6 +7,7 @@ use scl::runtime_dir::{ComponentStats, GateFigures};
 use scl_observe::System;
 use scl_plan::{GatePlan, Plan};
 use std::collections::BTreeMap;
+use std::iter::repeat;
 use std::time::SystemTime;
 
 /// The counts since the recording began.
@@ -70,17 +71,16 @@ impl Missed {
         for ((gate, now), before) in plan.gates.iter().zip(&now).zip(&before) {
             debug_assert!(now.all >= before.all, "counts only rise");
             let added = now.all.saturating_sub(before.all);
-            if added > 0 {
-                has_changed = true;
-                self.gates.entry(path(plan, gate)).or_insert_with(|| none_missed(plan, gate)).missed += added;
+            if added == 0 {
+                continue;
             }
-            let peers = now
-                .peers
-                .iter()
-                .enumerate()
-                .map(|(index, now)| now.saturating_sub(before.peers.get(index).copied().unwrap_or_default()));
-            if let Some(known) = self.gates.get_mut(&path(plan, gate)) {
-                known.peers.iter_mut().zip(peers).for_each(|(peer, added)| peer.missed += added);
+            has_changed = true;
+            let missed = self.gates.entry(path(plan, gate)).or_insert_with(|| none_missed(plan, gate));
+            missed.missed += added;
+            // A process that has just started had counted nothing of any peer.
+            let before = before.peers.iter().chain(repeat(&0));
+            for ((peer, now), before) in missed.peers.iter_mut().zip(&now.peers).zip(before) {
+                peer.missed += now.saturating_sub(*before);
             }
         }
         has_changed
