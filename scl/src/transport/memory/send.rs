@@ -108,7 +108,9 @@ impl Link for MemoryLink {
         sent: &mut dyn FnMut(usize),
     ) {
         debug_assert_eq!(queue.len(), times.len(), "each message has its time");
-        while let (Some(message), Some(time)) = (queue.pop_front(), times.front()) {
+        while let Some(time) = times.front()
+            && let Some(message) = queue.pop_front()
+        {
             let length = message.len();
             match self.send_timed(cx, message, *time).returned() {
                 None => sent(length),
