@@ -1,6 +1,5 @@
 /* The GPS receiver: measures the simulated world, and publishes five fixes a second. */
 #include "arcade_scl.h"
-#include "readings.h"
 #include "receiver.h"
 
 #include <inttypes.h>
@@ -25,8 +24,7 @@ static scl_status read_parameters(arcade_gps_sensor *gates, receiver_parameters 
     scl_status status = arcade_gps_sensor_update_parameters(gates, 0, &changed);
     parameters->rate = gates->parameters.rate;
     if (status == SCL_OK && (status = arcade_gps_sensor_limits_latest(gates, &limits)) == SCL_OK) {
-        parameters->home = home_from_message(limits);
-        parameters->home_is_known = true;
+        parameters->limits = limits_from_message(limits);
         arcade_gps_sensor_limits_free(limits);
     }
     return status == SCL_NOTHING ? SCL_OK : status;

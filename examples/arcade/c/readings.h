@@ -38,13 +38,9 @@ typedef struct command {
     double yaw, speed;
 } command;
 
-static inline home home_from_message(const Arcade__Limits *message) {
-    return (home){message->home_latitude, message->home_longitude, message->home_altitude};
-}
-
 static inline limits limits_from_message(const Arcade__Limits *message) {
     return (limits){
-        .home = home_from_message(message),
+        .home = {message->home_latitude, message->home_longitude, message->home_altitude},
         .fence_radius = message->fence_radius,
         .fence_height = message->fence_height,
         .speed = message->speed,

@@ -75,10 +75,10 @@ bool receiver_measure(receiver *self, const receiver_parameters *parameters, con
     *fix = (Arcade__Fix)ARCADE__FIX__INIT;
     fix->time_us = world->time_us;
     fix->satellites = (uint32_t)satellites(self, world->time_us);
-    if (fix->satellites < SATELLITES_FOR_3D || !parameters->home_is_known) {
+    if (fix->satellites < SATELLITES_FOR_3D || !limits_are_known(&parameters->limits)) {
         return true; /* of quality NONE, without a position */
     }
-    geodetic_position position = geodesy_from_local(parameters->home, position_with_errors(self, world->position));
+    geodetic_position position = geodesy_from_local(parameters->limits.home, position_with_errors(self, world->position));
     fix->quality = ARCADE__FIX_QUALITY__FIX_QUALITY_3D;
     fix->latitude = position.latitude;
     fix->longitude = position.longitude;

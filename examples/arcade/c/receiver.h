@@ -3,15 +3,14 @@
 #define RECEIVER_H
 
 #include "arcade.pb-c.h"
-#include "geodesy.h"
 #include "noise.h"
+#include "readings.h"
 
 #include <stdbool.h>
 
 typedef struct receiver_parameters {
     double rate; /* fixes a second */
-    home home;
-    bool home_is_known;
+    limits limits; /* all 0 until they are known */
 } receiver_parameters;
 
 /* A time without reception, in seconds of the vehicle's clock. */

@@ -6,7 +6,7 @@
 #include <math.h>
 
 static const receiver_parameters AT_5_HZ = {
-    .rate = 5.0, .home = {.latitude = 50.6866, .longitude = 10.9190}, .home_is_known = true};
+    .rate = 5.0, .limits = {.home = {.latitude = 50.6866, .longitude = 10.9190}, .fence_radius = 100.0}};
 static const outage NONE = {0};
 enum { WORLD_STEP_US = 20000 }; /* 50 Hz */
 
@@ -72,7 +72,7 @@ static void errors_are_centred_and_as_large_as_they_should_be(void) {
         Arcade__Fix fix;
         run(&self, &AT_5_HZ, 0, 2000000, &fix);
         geodetic_position measured = {fix.latitude, fix.longitude, fix.altitude};
-        local_position position = geodesy_to_local(AT_5_HZ.home, measured);
+        local_position position = geodesy_to_local(AT_5_HZ.limits.home, measured);
         east += position.east - 10.0;
         squares += (position.north - 20.0) * (position.north - 20.0);
         speed += fix.east_speed;
