@@ -4,6 +4,7 @@
 mod checked;
 mod deny;
 mod fix;
+mod refusals;
 mod report;
 mod source;
 mod watch;

@@ -10,8 +10,10 @@ pub use senders::{SenderValue, Senders};
 
 use prost_types::FileDescriptorSet;
 use scl_loader::Loaded;
-use scl_plan::{SystemPlan, UnknownComponent};
+use scl_plan::{Plan, SystemPlan, UnknownComponent};
 use scl_topology::source::Span;
+use scl_topology::topology::ComponentId;
+use std::collections::HashMap;
 use std::path::Path;
 
 /// A system, or the components of it that were asked for.
@@ -38,7 +40,9 @@ impl System {
         let topology_file = loaded.file.map(|file| file_name(loaded.sources.file(file).path())).unwrap_or_default();
         let location = |span: Span| loaded.place(span, &topology_file);
         let plan = loaded.system_plan_with(&location)?;
-        let components = topology.types().filter_map(|of| Component::of(topology, of, &plan, &location)).collect();
+        let plans: HashMap<ComponentId, &Plan> =
+            topology.components().map(|(id, _)| id).zip(&plan.components).collect();
+        let components = topology.types().map(|of| Component::of(topology, of, plans[&of.id], &location)).collect();
         Some(Self {
             name: topology.system().to_owned(),
             components,

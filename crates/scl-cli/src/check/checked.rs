@@ -1,17 +1,12 @@
 //! The result of checking one file: its diagnostics and its exit code.
 
 use super::CheckArguments;
-#[cfg(feature = "generate")]
-use super::Format;
 use super::deny::deny;
 use super::fix::{Outcome, fix_file};
+use super::refusals::Refusals;
 use super::source::Source;
 use crate::exit::COULD_NOT_DO;
-#[cfg(feature = "generate")]
-use crate::generate::Language;
 use crate::load::shown_path;
-#[cfg(feature = "generate")]
-use clap::ValueEnum;
 use scl_loader::Loaded;
 use scl_topology::diagnostic::{Diagnostic, MOST_LISTED, Severity, limit};
 use std::collections::BTreeMap;
@@ -38,47 +33,14 @@ pub(super) fn check_file(path: &Path, arguments: &CheckArguments) -> Checked {
     let source = Source::new(path, arguments);
     let mut loaded = source.load();
     let outcome = arguments.fix.then(|| fix_file(&source, &mut loaded, arguments.dry_run)).flatten();
-    let all = std::mem::take(&mut loaded.diagnostics).into_iter().chain(refusals(&loaded, arguments));
+    let refusals = Refusals::of(&loaded, arguments);
+    let all = std::mem::take(&mut loaded.diagnostics).into_iter().chain(refusals.problems);
     let all = all.map(|it| deny(it, &arguments.deny));
     let all: Vec<Diagnostic> = all.filter(|it| arguments.lints || it.severity != Severity::Lint).collect();
     let mut numbers = BTreeMap::new();
     all.iter().for_each(|it| *numbers.entry(it.severity).or_default() += 1);
     let shown = limit(all, MOST_LISTED, &shown_path(path));
-    let notes = other_refusals(&loaded, arguments);
-    Checked { path: path.to_path_buf(), notes, loaded, shown, numbers, outcome }
-}
-
-/// Returns the name clashes for which `scl generate` would refuse a topology without errors, in the languages given
-/// with `--for`.
-#[cfg(feature = "generate")]
-fn refusals(loaded: &Loaded, arguments: &CheckArguments) -> Vec<Diagnostic> {
-    let Some(system) = scl_generate::System::of(loaded) else { return Vec::new() };
-    let targets = arguments.languages.iter().map(|language| language.target());
-    targets.flat_map(|target| scl_generate::find_clashes(&system, target)).collect()
-}
-
-/// Names that clash only in a language that was not asked for are no problem of the file, unless it has such programs.
-#[cfg(feature = "generate")]
-fn other_refusals(loaded: &Loaded, arguments: &CheckArguments) -> Vec<String> {
-    let others = [Language::C, Language::Cpp, Language::Python].into_iter();
-    let others = others.filter(|other| arguments.format == Format::Text && !arguments.languages.contains(other));
-    let Some(system) = scl_generate::System::of(loaded) else { return Vec::new() };
-    let notes = others.filter_map(|other| {
-        let clash = scl_generate::find_clashes(&system, other.target()).into_iter().next()?;
-        let word = other.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
-        Some(format!("{}; `scl check --for {word}` shows where\n", clash.message))
-    });
-    notes.collect()
-}
-
-#[cfg(not(feature = "generate"))]
-fn other_refusals(_: &Loaded, _: &CheckArguments) -> Vec<String> {
-    Vec::new()
-}
-
-#[cfg(not(feature = "generate"))]
-fn refusals(_: &Loaded, _: &CheckArguments) -> Vec<Diagnostic> {
-    Vec::new()
+    Checked { path: path.to_path_buf(), notes: refusals.notes, loaded, shown, numbers, outcome }
 }
 
 impl Checked {

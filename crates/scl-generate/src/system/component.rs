@@ -2,7 +2,7 @@
 
 use super::parameter::{Choice, Parameter};
 use super::senders::Senders;
-use scl_plan::{GatePlan, Plan, SystemPlan};
+use scl_plan::{GatePlan, Plan};
 use scl_text::list::listed;
 use scl_topology::rust_name::gate_field;
 use scl_topology::source::Span;
@@ -111,14 +111,13 @@ impl Component {
     pub(super) fn of(
         topology: &Topology,
         of: ComponentType<'_>,
-        plan: &SystemPlan,
+        plan: &Plan,
         location: &dyn Fn(Span) -> String,
-    ) -> Option<Self> {
-        let plan = plan.component(of.component.name()).ok()?;
+    ) -> Self {
         let gates = of.component.gates().iter().zip(&plan.gates);
         let parameters = of.component.parameters().iter().zip(&plan.parameters);
         let instances = of.kind.map_or(&[][..], |kind| kind.components());
-        Some(Self {
+        Self {
             name: of.name().to_owned(),
             class_name: of.rust_name().to_owned(),
             snake_name: gate_field(of.name()),
@@ -131,7 +130,7 @@ impl Component {
             plan: plan.clone(),
             counterpart: None,
             counterpart_of: None,
-        })
+        }
     }
 
     /// Whether it is a kind of components.
