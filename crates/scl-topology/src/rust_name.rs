@@ -1,6 +1,6 @@
 //! The Rust names that components and gates get.
 
-/// Words that are keywords in some edition from 2015 to 2024, or reserved for one to come.
+/// Words that are keywords in some edition from 2015 to 2024, or reserved for one to come; sorted.
 const KEYWORDS: [&str; 48] = [
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn", "else", "enum",
     "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro", "match", "mod", "move",
@@ -31,6 +31,9 @@ pub fn component_type(name: &str) -> String {
 /// The field of a gate, without `r#`: `setPoint` and `set-point` become `set_point`. Of a component, the word for it in
 /// names of functions: `left_arm.planner` becomes `left_arm_planner`.
 pub fn gate_field(name: &str) -> String {
+    if name.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_') {
+        return name.to_owned();
+    }
     let mut out = String::with_capacity(name.len() + 4);
     let letters: Vec<char> = name.chars().collect();
     for (at, &letter) in letters.iter().enumerate() {
@@ -51,7 +54,7 @@ fn starts_word(letters: &[char], at: usize) -> bool {
 
 /// Whether a field of this name is written with `r#`.
 pub fn is_keyword(name: &str) -> bool {
-    KEYWORDS.contains(&name)
+    KEYWORDS.binary_search(&name).is_ok()
 }
 
 /// Whether the word cannot be a name even with `r#`.
@@ -86,6 +89,11 @@ mod tests {
         for (name, expected) in cases {
             assert_eq!(component_type(name), expected);
         }
+    }
+
+    #[test]
+    fn every_keyword_is_found() {
+        assert!(KEYWORDS.iter().all(|word| is_keyword(word)) && !is_keyword("sensor"));
     }
 
     #[test]
