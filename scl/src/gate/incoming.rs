@@ -229,6 +229,8 @@ impl<T> Incoming<T> {
     }
 
     /// Decodes a message; `None` for one that the program does not get, because it is too old or cannot be read.
+    // A call would move each message twice more, for `max_age`, which few gates have.
+    #[inline(always)]
     fn usable<R>(&mut self, arrived: Arrived, decode: impl Decode<T, R>) -> Option<Result<R, RecvError>> {
         if let (Some(most), Some(sent)) = (self.spec.options.max_age, arrived.sent)
             && sent.elapsed() > most

@@ -93,8 +93,12 @@ impl Inbound {
 
     /// Returns when the message returned last was sent, if the sender has told.
     pub(super) fn take_sent(&mut self) -> Option<Instant> {
-        let returned = self.returned();
-        while let Some((number, sent)) = self.sent.pop_front_if(|(number, _)| *number <= returned) {
+        while let Some(&(number, sent)) = self.sent.front() {
+            let returned = self.returned();
+            if number > returned {
+                return None;
+            }
+            self.sent.pop_front();
             if number == returned {
                 return Some(sent);
             }
