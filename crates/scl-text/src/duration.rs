@@ -73,7 +73,8 @@ pub fn parse_duration(text: &str) -> Result<Duration, String> {
         DurationError::UnknownUnit => {
             format!("unknown unit `{}`; the units are {}", split(text).1, UNITS.map(|(unit, _)| unit).join(", "))
         }
-        DurationError::Negative | DurationError::TooLarge => format!("`{text}` is not a usable duration"),
+        DurationError::Negative => format!("`{text}` is negative"),
+        DurationError::TooLarge => format!("`{text}` is too long"),
     })
 }
 
@@ -142,8 +143,8 @@ mod tests {
             ("s", "expected a number and a unit, like `5s`"),
             ("", "expected a number and a unit, like `5s`"),
             ("5 days", "unknown unit `days`; the units are us, ms, s, min, m, h"),
-            ("-5s", "`-5s` is not a usable duration"),
-            ("9999999999999999999999999h", "`9999999999999999999999999h` is not a usable duration"),
+            ("-5s", "`-5s` is negative"),
+            ("9999999999999999999999999h", "`9999999999999999999999999h` is too long"),
         ];
         for (text, expected) in cases {
             assert_eq!(parse_duration(text), Err(expected.to_owned()), "{text}");

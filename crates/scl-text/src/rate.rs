@@ -1,7 +1,10 @@
 //! Rates as people write them: a number, perhaps with a fraction, and a unit, for example `100Hz`.
 
-use crate::number;
+use crate::{duration, number};
 use std::time::Duration;
+
+/// In nanoseconds.
+const SECOND: u128 = 1_000_000_000;
 
 /// The units, each with its messages per second, the smallest first.
 pub const UNITS: [(&str, f64); 2] = [("Hz", 1.0), ("kHz", 1e3)];
@@ -56,6 +59,19 @@ pub fn meant(text: &str) -> Option<String> {
     parse(&rate).is_ok().then_some(rate)
 }
 
+/// The time from one to the next that a rate means, in whatever spelling, but with its unit: of `20 hz`, 50 ms.
+pub fn period(text: &str) -> Option<Duration> {
+    let rate = meant(text).filter(|_| text.trim_end().to_lowercase().ends_with("hz"))?;
+    parse(&rate).ok().filter(|period| !period.is_zero())
+}
+
+/// The rate of what happens once in a duration, if it is a whole number of Hz: of `10ms`, `100Hz`.
+pub fn of_period(duration: &str) -> Option<String> {
+    let nanoseconds = duration::parse(duration).ok()?.as_nanos();
+    let is_whole = nanoseconds > 0 && SECOND.is_multiple_of(nanoseconds);
+    is_whole.then(|| format!("{}Hz", SECOND / nanoseconds))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -93,5 +109,17 @@ mod tests {
         for text in ["fast", "100ms", "0"] {
             assert_eq!(meant(text), None, "{text}");
         }
+    }
+
+    #[test]
+    fn rates_and_periods_mean_each_other() {
+        for (text, milliseconds) in [("20Hz", 50), ("20 hz", 50), ("1KHZ", 1)] {
+            assert_eq!(period(text), Some(Duration::from_millis(milliseconds)), "{text}");
+        }
+        for text in ["20", "fast", "0Hz", "50ms", ""] {
+            assert_eq!(period(text), None, "{text}");
+        }
+        assert_eq!(["10ms", "1us", "1 s"].map(of_period), ["100Hz", "1000000Hz", "1Hz"].map(|it| Some(it.to_owned())));
+        assert_eq!(["3ms", "2s", "0s", "100Hz", "10"].map(of_period), [None, None, None, None, None]);
     }
 }

@@ -59,7 +59,7 @@ fn of_text(key: &str, text: &str, shape: Shape) -> Meant {
     let (values, is_certain) = match shape {
         Shape::Number { .. } => numbers(text),
         Shape::Duration { .. } => durations(text),
-        Shape::Rate { .. } => (rate::meant(text).into_iter().collect(), true),
+        Shape::Rate { .. } => (rate::meant(text).or_else(|| rate::of_period(text)).into_iter().collect(), true),
         Shape::Size { .. } => sizes(text),
         Shape::Boolean => match habits::boolean(text) {
             Some(word) => (vec![word.to_owned()], true),
@@ -169,6 +169,9 @@ fn durations(text: &str) -> (Vec<String>, bool) {
         let seconds = clock.iter().fold(0.0, |sum, part| sum * 60.0 + part);
         return (total(vec![seconds]).into_iter().collect(), clock.len() == 3);
     }
+    if let Some(period) = rate::period(&lower).filter(|period| period.subsec_nanos() % 1000 == 0) {
+        return (vec![duration::text(period)], false);
+    }
     (with_units(lower.strip_prefix("pt").unwrap_or(&lower)).into_iter().collect(), true)
 }
 
@@ -239,13 +242,11 @@ mod tests {
         let numbers = told(numbers, &texts);
         assert_eq!(numbers, ["16", "16", "1000", "1000", "1000", "1000", "1000 1", "5", "1000", "2000", "2", "", ""]);
         let texts = [
-            "2000", "5", "0", "0.1", "1,5s", "2 sec", "PT1.5S", "00:00:02", "1m30s", "500MS", "2d", "-1", "soon", "0.0",
+            "2000", "5", "0", "0.1", "1,5s", "2 sec", "PT1.5S", "00:00:02", "1m30s", "500MS", "2d", "-1", "soon",
+            "0.0", "200 Hz", "300Hz",
         ];
         let durations = told(durations, &texts);
-        assert_eq!(
-            durations,
-            ["2000ms 2000s", "5s 5ms", "", "0.1s", "1.5s", "2s", "1.5s", "2s", "90s", "500ms", "", "", "", ""]
-        );
+        assert_eq!(durations.join(","), "2000ms 2000s,5s 5ms,,0.1s,1.5s,2s,1.5s,2s,90s,500ms,,,,,5ms,");
         let texts = ["8MB", "8_000_000", "1,5 MiB", "1,000 KB", "0x100000", "large"];
         let sizes = told(sizes, &texts);
         assert_eq!(sizes, ["8MiB", "8000000B", "1536KiB", "1000KiB 1KiB", "1048576B 1MiB", ""]);

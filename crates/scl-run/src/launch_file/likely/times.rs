@@ -2,7 +2,7 @@
 
 use super::super::forms::{limit, restart_delay, restart_limit};
 use super::Likely;
-use scl_text::duration;
+use scl_text::{duration, rate};
 use std::time::Duration;
 
 /// The unit that a word means, and how many of it.
@@ -43,14 +43,7 @@ pub(super) fn time(text: &str) -> Likely {
 
 /// The time between two events of a rate, as in `20Hz`.
 pub(in super::super) fn period(text: &str) -> Option<String> {
-    let text = text.to_lowercase();
-    let (number, thousands) = match text.strip_suffix("hz")? {
-        rest if rest.ends_with('k') => (rest.trim_end_matches('k'), 1_000.0),
-        rest => (rest, 1.0),
-    };
-    let rate = number.trim().parse::<f64>().ok().filter(|rate| *rate > 0.0)? * thousands;
-    let period = Duration::try_from_secs_f64(1.0 / rate).ok().filter(|period| !period.is_zero())?;
-    Some(duration::text(period))
+    rate::period(text).map(duration::text)
 }
 
 /// A time as this format writes it: one part as it is, several as their sum.
