@@ -9,6 +9,7 @@ use scl_observe::{Component, System, block_on, problem_of};
 use scl_plan::{Assignment, ParameterPlan};
 use scl_terminal::{Problem, Table, escape, parse_duration, print_err, print_out};
 use scl_text::gate_name::component_and_gate;
+use scl_topology::parse::meant_values;
 use serde_json::{Map, Value, json};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -155,11 +156,13 @@ fn checked(system: &System, assignment: &Assignment) -> Result<Component, Proble
     }
     match declared.read(value) {
         Ok(_) => Ok(found),
-        Err(reason) => Err(Problem::new(format!("wrong value of `{path}`: {}", escape(&reason))).note(format!(
-            "it is {}, declared at {}",
-            declared.described(),
-            declared.declared_at
-        ))),
+        Err(reason) => {
+            let problem = Problem::new(format!("wrong value of `{path}`: {}", escape(&reason)));
+            let meant = meant_values(declared, value).into_iter();
+            let problem =
+                meant.fold(problem, |problem, meant| problem.help(format!("did you mean `{}`?", escape(&meant))));
+            Err(problem.note(format!("it is {}, declared at {}", declared.described(), declared.declared_at)))
+        }
     }
 }
 

@@ -214,7 +214,8 @@ fn values_are_checked_against_the_topology() {
     "#]]
     .assert_eq(&with(&launch, &["--set", "right_motor.pin=4"], Some("left_motor.mode=speed")));
     expect![[r#"
-        error: wrong value of `left_motor.mode` in `SCL_SET`: did you mean `speed`?
+        error: wrong value of `left_motor.mode` in `SCL_SET`: expected `speed` or `torque`, found `spede`
+          = help: did you mean `speed`?
           = note: `SCL_SET` is in the environment of `scl`
 
         error: unknown parameter `right_motor.pni` in `--set`

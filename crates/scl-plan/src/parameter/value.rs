@@ -5,7 +5,6 @@ use super::{ParameterPlan, ParameterType, Scalar};
 use scl_text::duration::parse_duration;
 use scl_text::excerpt::excerpt;
 use scl_text::list::either;
-use scl_text::suggest::closest_name;
 use std::cmp::Ordering;
 use std::time::Duration;
 
@@ -74,11 +73,9 @@ impl ParameterType {
             ParameterType::One(scalar) => scalar.read(text),
             ParameterType::OneOf(words) => {
                 let word = text.trim();
-                let near = || closest_name(word, words.iter().map(|word| &**word));
-                let near = |expected| near().map_or(expected, |near| format!("did you mean `{near}`?"));
                 match words.iter().any(|known| known == word) {
                     true => Ok(ParameterValue::Text(word.to_owned())),
-                    false => Err(near(format!("expected {}", either(words)))),
+                    false => Err(format!("expected {}, found `{}`", either(words), excerpt(word))),
                 }
             }
             ParameterType::List(scalar, length) => {

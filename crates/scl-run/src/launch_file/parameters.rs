@@ -1,16 +1,13 @@
 //! `parameters`: values for the parameters of components, checked against their declarations in the topology.
 
-use super::likely::likely;
 use super::reader::{Keys, Reader, value_span, wrong};
 use super::rules::{UNKNOWN_NAME, WRONG_VALUE};
-use super::value::{number, shown, text, texts};
-use super::words::{bare, flow_word, is_bare};
+use super::value::{shown, text, texts};
+use super::words::flow_word;
 use scl_plan::{ParameterPlan, ParameterType, Scalar, list_text};
 use scl_terminal::quoted_list;
-use scl_text::list::either;
-use scl_text::suggest::boolean;
 use scl_topology::diagnostic::{Diagnostic, Edit};
-use scl_topology::parse::Field;
+use scl_topology::parse::{Field, meant_values};
 use scl_topology::suggest::similar;
 use scl_topology::yaml::{Node, NodeKind};
 
@@ -101,7 +98,8 @@ impl Reader<'_> {
         let message = format!("parameter `{owner}.{name}` cannot have this value");
         let problem = WRONG_VALUE.at(message, value_span(field), reason);
         let problem = self.with_template(problem, field.value);
-        meant(plan, field.value).into_iter().filter(|value| plan.read(value).is_ok()).fold(problem, |problem, value| {
+        let text = field.value.text();
+        text.map(|text| meant_values(plan, text)).unwrap_or_default().into_iter().fold(problem, |problem, value| {
             let value = if value.starts_with('[') { value } else { flow_word(&value) };
             problem.suggest(format!("did you mean `{name}: {value}`?"), [Edit::new(field.value.span, value)])
         })
@@ -116,34 +114,7 @@ fn check(plan: &ParameterPlan, node: &Node, value: &str) -> Result<(), String> {
             Err("expected one value, found a list".to_owned())
         }
         ParameterType::List(..) if !is_list => Err("a list is written in brackets: `[1, 2]`".to_owned()),
-        // The words that are near are proposed as changes.
-        ParameterType::OneOf(words) => {
-            plan.read(value).map(drop).map_err(|_| format!("expected {}, found `{value}`", either(words)))
-        }
         _ => plan.read(value).map(drop),
-    }
-}
-
-/// Values that a wrong one may mean; not all of them need be right.
-fn meant(plan: &ParameterPlan, value: &Node) -> Vec<String> {
-    let Some(text) = value.text() else { return Vec::new() };
-    match &plan.kind {
-        ParameterType::OneOf(words) => {
-            let word = bare(text);
-            let same = words.iter().find(|known| is_bare(known, &word)).map(|known| vec![known.to_string()]);
-            let near = || similar(text, words.iter().map(|known| &**known)).into_iter().map(str::to_owned).collect();
-            same.unwrap_or_else(near)
-        }
-        ParameterType::One(Scalar::Bool) => boolean(&bare(text)).map(str::to_owned).into_iter().collect(),
-        ParameterType::One(Scalar::Duration) => likely("stop_within", value).values,
-        ParameterType::One(scalar) if scalar.is_number() => {
-            let other_base = number(value).map(|number| number.to_string());
-            let without_marks = text.contains('_').then(|| text.replace('_', ""));
-            other_base.or(without_marks).into_iter().collect()
-        }
-        ParameterType::List(..) if text.starts_with('[') => vec![text.to_owned()],
-        ParameterType::List(..) => vec![format!("[{text}]")],
-        ParameterType::One(_) => Vec::new(),
     }
 }
 

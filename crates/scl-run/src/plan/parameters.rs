@@ -6,6 +6,7 @@ use super::super::launch_file::{LaunchComponent, Opens, Source};
 use super::super::system_names::SystemNames;
 use scl_plan::{Assignment, ParameterPlan, SET_VARIABLE, assignments, set_text};
 use scl_terminal::{Problem, quoted_list};
+use scl_topology::parse::meant_values;
 use std::collections::{HashMap, HashSet};
 use std::ffi::OsString;
 
@@ -190,7 +191,9 @@ fn problem(
         })));
     };
     let reason = plan.read(value).err()?;
-    Some(noted(Problem::new(format!("wrong value of `{}` {in_origin}: {reason}", given.path()))))
+    let problem = Problem::new(format!("wrong value of `{}` {in_origin}: {reason}", given.path()));
+    let meant = meant_values(plan, value).into_iter();
+    Some(noted(meant.fold(problem, |problem, meant| problem.help(format!("did you mean `{meant}`?")))))
 }
 
 /// One value for each parameter, the last one, at the place of the first.

@@ -15,6 +15,7 @@ use scl_plan::{ConstText, ParameterPlan, ParameterType, Scalar};
 use scl_text::list::quoted_list;
 use std::sync::Arc;
 
+use crate::parse::LIST_FORM;
 pub(crate) use crate::parse::NO_PARAMETER;
 pub(crate) use name::TAKEN;
 pub(crate) use value::WRONG_VALUE;
@@ -139,7 +140,7 @@ fn report_type(parameter: &ParameterModel, problems: &mut Diagnostics) {
     let at = parameter.value.as_ref().map_or(parameter.kind.span, WrittenValue::span);
     let found = NO_PARAMETER.at("`list` names the type of its items", at, "");
     let found = found.note(format!("types of items: {}", quoted_list(Scalar::WORDS)));
-    problems.push(found.help("write for example `{list: f64, length: 3, default: [0, 0, 0]}`"));
+    problems.push(found.help(LIST_FORM));
 }
 
 /// Reports keys that the type does not have.

@@ -1,6 +1,9 @@
 //! What a value of the wrong form may mean: numbers, durations and sizes as other formats and other people write them.
 
+mod parameter;
 mod product;
+
+pub use parameter::meant_values;
 
 use crate::grammar::Shape;
 use crate::habits;

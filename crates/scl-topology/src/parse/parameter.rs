@@ -5,7 +5,7 @@ mod meant;
 use super::field::{Field, Fields, spanned_key};
 use super::{Reader, pitfall, scalar, shape};
 use crate::diagnostic::{Diagnostic, Edit, Rule, Severity};
-use crate::grammar::parameter::{PARAMETER_KEYS, TYPES};
+use crate::grammar::parameter::{LIST, PARAMETER_KEYS, TYPES};
 use crate::model::{ParameterModel, WrittenValue};
 use crate::source::{Span, Spanned};
 use crate::suggest::similar;
@@ -33,6 +33,16 @@ pub(crate) const NO_PARAMETER: Rule = Rule {
 
 /// How a parameter is declared, for help.
 const FORM: &str = "a parameter is a name and a type: `- gain: f64`, or with a default: `- gain: {f64: 0.8}`";
+
+/// How a list is declared, for help.
+pub(crate) const LIST_FORM: &str = "write for example `{list: f64, length: 3, default: [0, 0, 0]}`";
+
+/// How a range is written, for help.
+const RANGE_FORM: &str = "write the least and the largest value: `range: [0, 10]`";
+
+/// The words for the least and the largest value of a range.
+const ENDS: [(&str, &str); 5] =
+    [("min", "max"), ("least", "largest"), ("lower", "upper"), ("low", "high"), ("from", "to")];
 
 impl Reader<'_> {
     pub(super) fn read_parameters(&mut self, field: Field<'_>) -> Vec<ParameterModel> {
@@ -153,9 +163,7 @@ impl Reader<'_> {
                         .help("each item is a number, a text, a duration, or `true` or `false`"),
                 }
             }
-            NodeKind::Mapping { .. } => NO_PARAMETER
-                .at(format!("`{}` is a single value, or a list", field.key), field.value.span, "this is a mapping")
-                .help("a parameter has no parts: declare a parameter for each"),
+            NodeKind::Mapping { entries } => mapping(field, entries),
         };
         self.report(problem);
         None
@@ -188,6 +196,28 @@ impl Reader<'_> {
             true => found.help(FORM),
             false => found.propose(format!("write `{}: {typed}`", name.value), [Edit::new(value.span, typed.clone())]),
         }
+    }
+}
+
+/// A mapping in the place of a value.
+fn mapping(field: Field<'_>, entries: &[(Node, Node)]) -> Diagnostic {
+    let (key, span) = (field.key, field.value.span);
+    let headline = format!("`{key}` is a single value, or a list");
+    let found = NO_PARAMETER.at(headline, span, "this is a mapping");
+    let value =
+        |word: &str| entries.iter().find(|(key, _)| key.text() == Some(word)).and_then(|(_, value)| value.text());
+    let ends = ENDS.iter().find_map(|(least, largest)| Some((value(least)?, value(largest)?)));
+    match (key, ends) {
+        ("range", Some((least, largest))) if entries.len() == 2 => {
+            let range = format!("[{least}, {largest}]");
+            found.propose(format!("write `range: {range}`"), [Edit::new(span, range)])
+        }
+        ("range", _) => found.help(RANGE_FORM),
+        (LIST, _) => found.help(LIST_FORM),
+        _ if TYPES.contains(&key) => found.help(format!(
+            "the default stands behind the type, and anything else beside it: `{{{key}: ..., doc: ...}}`"
+        )),
+        _ => found.help("a parameter has no parts: declare a parameter for each"),
     }
 }
 

@@ -132,6 +132,7 @@ fn a_value_that_the_parameter_cannot_have_is_told_with_what_may_be_meant() {
             # period: 5
             parameter `controller.period` cannot have this value [the unit is missing: write `5s` or `5ms`]
               ?> period: 5s
+              ?> period: 5ms
             # period: 5 msec
             parameter `controller.period` cannot have this value [unknown unit `msec`; the units are us, ms, s, min, m, h]
               ?> period: 5ms

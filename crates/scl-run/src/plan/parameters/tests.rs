@@ -153,7 +153,8 @@ fn values_that_no_parameter_can_have_are_told_with_their_origin() {
           = note: component `sensor` has no parameters
         error: wrong value of `controller.gain` in `--set`: expected a finite number, found `fast`
         error: wrong value of `controller.gain` in `--set`: `20` is not from 0 to 10
-        error: wrong value of `controller.mode` in `--set`: did you mean `auto`?
+        error: wrong value of `controller.mode` in `--set`: expected `manual` or `auto`, found `atuo`
+          = help: did you mean `auto`?
     "#]]
     .assert_eq(&told(&problems));
     let problems = Values::new(&options(&[]), Some("controller.gain"), &[], Some(&known)).unwrap_err();

@@ -1,4 +1,4 @@
-use super::{NO_EFFECT, NO_PARAMETER, OF_KIND, TAKEN, WORDS, WRONG_VALUE};
+use super::{NO_EFFECT, NO_PARAMETER, OF_KIND, TAKEN, WORDS};
 use crate::check::testing::{advice, codes, rule_example, topology};
 use expect_test::expect;
 use scl_plan::ParameterPlan;
@@ -69,6 +69,10 @@ fn entries_that_are_no_parameters_are_told_with_what_is_meant() {
         "gain: {f64: 0.8, rnage: [0, 1]}",
         "gain: {f64: {a: 1}}",
         "gain: {f64: 0.8, range: [[0], 1]}",
+        "gain: {f64: 0.8, range: {max: 1, min: 0}}",
+        "gain: {f64: 0.8, range: {min: 0}}",
+        "gain: {list: {f64: 1}}",
+        "gain: {list: f64, default: {x: 1}}",
         "gain: {f64: 0.8, unit: }",
         "gain:",
         "mode: {one_of: manual}",
@@ -105,9 +109,17 @@ fn entries_that_are_no_parameters_are_told_with_what_is_meant() {
         gain: {f64: 0.8, rnage: [0, 1]}
             SCL1901 unknown key `rnage` of a parameter [did you mean `range`?]
         gain: {f64: {a: 1}}
-            SCL1901 `f64` is a single value, or a list [a parameter has no parts: declare a parameter for each]
+            SCL1901 `f64` is a single value, or a list [the default stands behind the type, and anything else beside it: `{f64: ..., doc: ...}`]
         gain: {f64: 0.8, range: [[0], 1]}
             SCL1901 `range` is a list of single values [each item is a number, a text, a duration, or `true` or `false`]
+        gain: {f64: 0.8, range: {max: 1, min: 0}}
+            SCL1901 `range` is a single value, or a list [write `range: [0, 1]`]
+        gain: {f64: 0.8, range: {min: 0}}
+            SCL1901 `range` is a single value, or a list [write the least and the largest value: `range: [0, 10]`]
+        gain: {list: {f64: 1}}
+            SCL1901 `list` is a single value, or a list [write for example `{list: f64, length: 3, default: [0, 0, 0]}`]
+        gain: {list: f64, default: {x: 1}}
+            SCL1901 `default` is a single value, or a list [a parameter has no parts: declare a parameter for each]
         gain: {f64: 0.8, unit: }
             SCL0110 the value of `unit` is empty [a value follows the colon | remove `unit`]
         gain:
@@ -125,82 +137,6 @@ fn entries_that_are_no_parameters_are_told_with_what_is_meant() {
         gain: {f64: 1}, pin: u8
             SCL0125 `, pin: u8` is not expected here after `}` [write it inside the braces, after a comma, or remove it]
     "#]].assert_eq(&told);
-}
-
-#[test]
-fn wrong_values_are_told_with_the_reason() {
-    let cases = [
-        "pin: {u8: 256}",
-        "pin: {u8: 1.5}",
-        "gain: {f64: high}",
-        "gain: {f64: [1]}",
-        "gain: {f64: 11, range: [0, 10]}",
-        "gain: {f64: 1, range: [10, 0]}",
-        "gain: {f64: 1, range: 10}",
-        "gain: {f64: 1, range: [0, 1, 2]}",
-        "gain: {f64: 1, range: [0, many]}",
-        "period: {duration: 10}",
-        "enabled: {bool: yes}",
-        "mode: {one_of: [manual, auto], default: atuo}",
-        "offsets: {list: f64, length: 3, default: [0, 0]}",
-        "offsets: {list: f64, length: 0}",
-        "offsets: {list: f64, default: 1}",
-        "offsets: {list: f64, default: [0, a]}",
-        "offsets: {list: u8, default: [0, 9], range: [0, 5]}",
-        "gain: {f64: 1, unit: [m/s]}",
-        "gain: {f64: 1, doc: [a, b]}",
-        "gain: {f64: 1, live: yes}",
-        "gain: {f64: 1, live: sometimes}",
-        "gain: {f64: 1, live: [true]}",
-    ];
-    let told: String = cases.iter().map(|case| format!("{case}\n    {}\n", advice(&file(case)))).collect();
-    expect![[r#"
-        pin: {u8: 256}
-            SCL1902 the default of parameter `pin` cannot be its value []
-        pin: {u8: 1.5}
-            SCL1902 the default of parameter `pin` cannot be its value []
-        gain: {f64: high}
-            SCL1902 the default of parameter `gain` cannot be its value []
-        gain: {f64: [1]}
-            SCL1902 the default of parameter `gain` cannot be its value []
-        gain: {f64: 11, range: [0, 10]}
-            SCL1902 the default of parameter `gain` cannot be its value []
-        gain: {f64: 1, range: [10, 0]}
-            SCL1902 the range of `gain` is empty [write the smaller end first: `[0, 10]`]
-        gain: {f64: 1, range: 10}
-            SCL1902 `range` has two ends [write `range: [0, 10]`]
-        gain: {f64: 1, range: [0, 1, 2]}
-            SCL1902 `range` has two ends [write the least and the largest value: `range: [0, 10]`]
-        gain: {f64: 1, range: [0, many]}
-            SCL1902 `many` cannot be an end of the range of `gain` []
-        period: {duration: 10}
-            SCL1902 the default of parameter `period` cannot be its value []
-        enabled: {bool: yes}
-            SCL1902 the default of parameter `enabled` cannot be its value []
-        mode: {one_of: [manual, auto], default: atuo}
-            SCL1902 the default of parameter `mode` cannot be its value []
-        offsets: {list: f64, length: 3, default: [0, 0]}
-            SCL1902 the default of parameter `offsets` cannot be its value []
-        offsets: {list: f64, length: 0}
-            SCL1902 `length` is a whole number from 1 to 10000 [without it, a list may have any length]
-        offsets: {list: f64, default: 1}
-            SCL1902 the default of parameter `offsets` cannot be its value []
-        offsets: {list: f64, default: [0, a]}
-            SCL1902 the default of parameter `offsets` cannot be its value []
-        offsets: {list: u8, default: [0, 9], range: [0, 5]}
-            SCL1902 the default of parameter `offsets` cannot be its value []
-        gain: {f64: 1, unit: [m/s]}
-            SCL1902 `unit` is a text, not a list [write `unit: m/s`]
-        gain: {f64: 1, doc: [a, b]}
-            SCL1902 `doc` is a text, not a list [write one text: `doc: "..."`]
-        gain: {f64: 1, live: yes}
-            SCL1902 `live` is `true` or `false` [write `live: true`]
-        gain: {f64: 1, live: sometimes}
-            SCL1902 `live` is `true` or `false` [a parameter with `live: true` can be changed while its program runs]
-        gain: {f64: 1, live: [true]}
-            SCL1902 `live` is `true` or `false` [a parameter with `live: true` can be changed while its program runs]
-    "#]]
-    .assert_eq(&told);
 }
 
 #[test]
@@ -231,13 +167,13 @@ fn names_and_words_must_be_free() {
         a b: u8
             SCL0303 a parameter name cannot contain a space [write `a_b`]
         mode: {one_of: [manual, manual]}
-            SCL1906 two words of parameter `mode` would become `Manual` []
+            SCL1906 parameter `mode` lists `manual` twice [remove one of them]
         mode: {one_of: [set-point, setPoint]}
-            SCL1906 two words of parameter `mode` would become `SetPoint` []
+            SCL1906 two words of parameter `mode` would become `SetPoint` [rename one of them]
         mode: {one_of: [1, 2]}
             SCL1906 `1` cannot be a word of parameter `mode` [a word consists of letters, digits, `_` and `-`, and starts with a letter]; SCL1906 `2` cannot be a word of parameter `mode` [a word consists of letters, digits, `_` and `-`, and starts with a letter]
         mode: {one_of: [self]}
-            SCL1906 `self` cannot be a word of parameter `mode` [a word consists of letters, digits, `_` and `-`, and starts with a letter]
+            SCL1906 `self` cannot be a word of parameter `mode` [`Self` is a keyword of Rust: choose another word]
         peer: {one_of: [a, b]}
             SCL1906 the words of `controller.peer` would become the type `ControllerPeer`, like the counterpart of `controller` in tests [give one of them another name]
         parameters: {one_of: [a, b]}
@@ -291,22 +227,6 @@ fn not_a_parameter() {
           |               ^^^ a value, where a type is expected
           |
           = help: write `gain: {f64: 0.8}`
-    "#]],
-    );
-}
-
-#[test]
-fn value_that_a_parameter_cannot_have() {
-    rule_example(
-        &WRONG_VALUE,
-        expect![[r#"
-        error: [SCL1902] the default of parameter `gain` cannot be its value
-         --> topology.yaml:4:21
-          |
-        4 |       - gain: {f64: 20, range: [0, 10]}
-          |                     ^^         ------- its range
-          |                     |
-          |                     `20` is not from 0 to 10
     "#]],
     );
 }
@@ -370,13 +290,15 @@ fn words_that_cannot_become_an_enum() {
     rule_example(
         &WORDS,
         expect![[r#"
-        error: [SCL1906] two words of parameter `mode` would become `Manual`
-         --> topology.yaml:4:33
-          |
-        4 |       - mode: {one_of: [manual, Manual]}
-          |                         ------  ^^^^^^ the second one
-          |                         |
-          |                         the first one
-    "#]],
+            error: [SCL1906] two words of parameter `mode` would become `Manual`
+             --> topology.yaml:4:33
+              |
+            4 |       - mode: {one_of: [manual, Manual]}
+              |                         ------  ^^^^^^ the second one
+              |                         |
+              |                         the first one
+              |
+              = help: rename one of them
+        "#]],
     );
 }

@@ -82,16 +82,24 @@ fn check_words(parameter: &ParameterModel, problems: &mut Diagnostics) {
     let Some(WrittenValue::Many(words, _)) = &parameter.value else { return };
     for word in words {
         let variant = component_type(&word.value);
-        if !is_well_formed(&word.value) || !word.value.starts_with(char::is_alphabetic) || is_unescapable(&variant) {
+        let is_spelt = is_well_formed(&word.value) && word.value.starts_with(char::is_alphabetic);
+        if !is_spelt || is_unescapable(&variant) {
             let headline = format!("`{}` cannot be a word of parameter `{}`", word.value, parameter.name.value);
             let found = WORDS.at(headline, word.span, "");
-            problems.push(found.help("a word consists of letters, digits, `_` and `-`, and starts with a letter"));
+            problems.push(match is_spelt {
+                true => found.help(format!("`{variant}` is a keyword of Rust: choose another word")),
+                false => found.help("a word consists of letters, digits, `_` and `-`, and starts with a letter"),
+            });
         }
     }
     let repeated = with_first(words.iter(), component_type).filter(|(first, word)| !std::ptr::eq(*first, *word));
     for (first, word) in repeated {
-        let variant = component_type(&word.value);
-        let headline = format!("two words of parameter `{}` would become `{variant}`", parameter.name.value);
-        problems.push(WORDS.at(headline, word.span, "the second one").label(first.span, "the first one"));
+        let (variant, name) = (component_type(&word.value), &parameter.name.value);
+        let (headline, help) = match first.value == word.value {
+            true => (format!("parameter `{name}` lists `{}` twice", word.value), "remove one of them"),
+            false => (format!("two words of parameter `{name}` would become `{variant}`"), "rename one of them"),
+        };
+        let found = WORDS.at(headline, word.span, "the second one").label(first.span, "the first one");
+        problems.push(found.help(help));
     }
 }
