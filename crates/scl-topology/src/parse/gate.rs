@@ -33,7 +33,9 @@ impl Reader<'_> {
                         component.gates_unread = true;
                         continue;
                     }
-                    self.read_gate(gate, component);
+                    if !self.read_nameless(&[gate], gate.key_span.to(gate.value.span), component) {
+                        self.read_gate(gate, component);
+                    }
                 }
             }
             // A component without gates gets its own warning.
@@ -56,6 +58,11 @@ impl Reader<'_> {
             self.report(shape::long_gate::diagnose(item, &fields, self.source));
             let gate = name.zip(kind).map(|(name, kind)| bare_gate(name, kind, item.span));
             return component.gates.extend(gate.map(|gate| self.read_long_gate(gate, &fields)));
+        }
+        let flow = self.source.snippet(item.span).starts_with('{').then_some(item.span);
+        let block = || Some(fields.list.first()?.key_span.to(fields.list.last()?.value.span));
+        if flow.or_else(block).is_some_and(|at| self.read_nameless(&fields.list, at, component)) {
+            return;
         }
         let mut others = fields.list.iter();
         let Some(first) = others.next() else {
@@ -83,6 +90,16 @@ impl Reader<'_> {
             self.report(shape::gate::several_in_one_item(*first, &gates, self.source));
         }
         gates.into_iter().for_each(|gate| self.read_gate(*gate, component));
+    }
+
+    /// Reports a gate without a name; false if it has one.
+    fn read_nameless(&mut self, fields: &[Field<'_>], at: Span, component: &mut ComponentModel) -> bool {
+        if !shape::nameless_gate::is_nameless(fields) {
+            return false;
+        }
+        component.gates_unread = true;
+        self.problems.extend(shape::nameless_gate::diagnose(fields, at, self.source));
+        true
     }
 
     /// `{name: measurements, kind: pub, type: Fix, queue: 4}`: type and options.

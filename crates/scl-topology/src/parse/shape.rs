@@ -8,6 +8,7 @@ pub(super) mod long_gate;
 pub(super) mod missing;
 mod moved;
 pub(super) mod nameless;
+pub(super) mod nameless_gate;
 pub(super) mod option_value;
 pub(super) mod pairs;
 mod ports;
