@@ -216,6 +216,8 @@ fn names_of_groups_may_be_taken() {
         ("as: right_arm", "as: right arm"),
         ("as: right_arm", "as:"),
         ("as: right_arm", "with: right_arm"),
+        ("file: parts/arm.yaml, as: right_arm", "path: parts/arm.yaml, as: right_arm"),
+        ("file: parts/arm.yaml, as: right_arm", "fiel: parts/arm.yaml, as: right_arm"),
         ("file: parts/arm.yaml, as: right_arm", "as: right_arm"),
         ("{file: parts/arm.yaml, as: right_arm}", "{file: t.yaml, as: right_arm}"),
         ("[controller.right, right_arm.command]", "[controller.right, left_arm.command]"),
@@ -237,6 +239,10 @@ fn names_of_groups_may_be_taken() {
         t.yaml:4:28 SCL0110 the name of the group is empty [a value follows the colon]
         with: right_arm
         t.yaml:4:28 SCL1602 unknown key `with` in an entry of `include` [write `as`]
+        path: parts/arm.yaml, as: right_arm
+        t.yaml:4:6 SCL1602 unknown key `path` in an entry of `include` [write `file`]
+        fiel: parts/arm.yaml, as: right_arm
+        t.yaml:4:6 SCL1602 unknown key `fiel` in an entry of `include` [write `file`]
         as: right_arm
         t.yaml:4:5 SCL1602 an entry of `include` names no file [write `file:` and the path, or the path alone]
         {file: t.yaml, as: right_arm}

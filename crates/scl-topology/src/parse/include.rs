@@ -5,11 +5,18 @@ use super::field::Field;
 use crate::diagnostic::Edit;
 use crate::grammar::{EXPORTS, INCLUDE_KEYS};
 use crate::groups::{BAD_ENTRY, BAD_EXPORT};
+use crate::habits;
 use crate::model::{ExportModel, IncludeModel};
 use crate::source::Spanned;
 use crate::suggest::similar;
 use crate::yaml::{Node, NodeKind};
 use scl_text::list::quoted_list;
+
+/// Whether a key is `file` misspelt, or its name in other tools.
+fn is_file(key: &str) -> bool {
+    let other = ["path", "filename", "source", "src", "from", "include", "topology", "yaml"];
+    other.contains(&habits::compact(key).as_str()) || !similar(key, [INCLUDE_KEYS[0]]).is_empty()
+}
 
 impl Reader<'_> {
     pub(super) fn read_includes(&mut self, section: Field<'_>) -> Vec<IncludeModel> {
@@ -26,12 +33,16 @@ impl Reader<'_> {
         };
         let fields = self.fields(entries, "this entry of `include`");
         let [file, group] = INCLUDE_KEYS;
+        let file_meant = fields.list.iter().copied().find(|field| fields.get(file).is_none() && is_file(field.key));
         for field in fields.list.iter().filter(|field| !INCLUDE_KEYS.contains(&field.key)) {
             // It may be the name of the group.
             self.model.components_unread = true;
             let found =
                 BAD_ENTRY.at(format!("unknown key `{}` in an entry of `include`", field.key), field.key_span, "");
             let found = match fields.get(group) {
+                _ if file_meant.is_some_and(|meant| meant.key_span == field.key_span) => {
+                    found.propose(format!("write `{file}`"), [Edit::new(field.key_span, file)])
+                }
                 // Whatever a path has beside it is the name of the group.
                 None => found.propose(format!("write `{group}`"), [Edit::new(field.key_span, group)]),
                 Some(_) => found.did_you_mean(field.key, &similar(field.key, INCLUDE_KEYS)),
@@ -48,7 +59,7 @@ impl Reader<'_> {
             },
             None => None,
         };
-        let Some(field) = fields.get(file) else {
+        let Some(field) = fields.get(file).or(file_meant) else {
             self.model.cut_off = true;
             if !fields.damaged {
                 let found = BAD_ENTRY.at("an entry of `include` names no file", item.span, "no `file`");
