@@ -54,9 +54,10 @@ fn after_the_folder_is_removed_a_restarted_peer_is_found_again() {
 fn after_the_folder_is_removed_a_second_program_for_a_component_is_refused() {
     let system = System::new();
     let mut sink = open(&system, "sink");
-    let lock = system.runtime_dir().join("six/sink.lock");
+    let announcement = system.runtime_dir().join("six/sink.json");
     fs::remove_dir_all(system.runtime_dir().join("six")).expect("removed");
-    wait_until("the running program has put its lock back", || lock.exists());
+    // The file of the lock is there before the lock is taken.
+    wait_until("the running program has its lock again, and is announced", || announcement.exists());
     let exit = system.start(PEER, &["sink"]).wait_for_exit();
     assert!(!exit.status.success(), "{exit:?}");
     assert!(exit.text().contains(&sink.id().to_string()), "the running process is named: {exit:?}");
