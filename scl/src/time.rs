@@ -19,11 +19,6 @@ use std::io;
 use std::time::Duration;
 use tokio::time::Instant;
 
-/// For files and messages. A duration that does not fit, of more than 584 years, is the longest one.
-pub(crate) fn nanoseconds(duration: Duration) -> u64 {
-    u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX)
-}
-
 /// A periodic timer. The runtime's own timers round to milliseconds; this one uses the operating system's (timerfd).
 ///
 /// Made by [`interval`].

@@ -121,7 +121,7 @@ impl<'a> GateEntry<'a> {
             queue: plan.options.queue,
             when_full: plan.options.when_full.word(),
             max_size: plan.options.max_size,
-            timeout_ns: u64::try_from(plan.options.timeout.as_nanos()).unwrap_or(u64::MAX),
+            timeout_ns: scl_text::duration::nanoseconds(plan.options.timeout),
         }
     }
 }

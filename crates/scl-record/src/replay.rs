@@ -274,7 +274,7 @@ fn span(recording: &Recording, survey: &Survey, options: &ReplayOptions) -> Resu
     if end.is_some_and(|end| end <= start) {
         return Err(Problem::new("nothing is left to replay: `--end` is not after `--start`"));
     }
-    let at = |position: Duration| first.saturating_add(u64::try_from(position.as_nanos()).unwrap_or(u64::MAX));
+    let at = |position: Duration| first.saturating_add(scl_text::duration::nanoseconds(position));
     let from = if start.is_zero() { 0 } else { at(start) };
     Ok((first, from..end.map_or(u64::MAX, at)))
 }

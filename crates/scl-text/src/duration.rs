@@ -78,6 +78,11 @@ pub fn parse_duration(text: &str) -> Result<Duration, String> {
     })
 }
 
+/// Nanoseconds for files and messages. A duration that does not fit, of more than 584 years, is the longest one.
+pub fn nanoseconds(duration: Duration) -> u64 {
+    u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX)
+}
+
 /// A duration in the largest unit up to seconds in which it is a whole number: `1500ms`. Parts of a microsecond are
 /// left out.
 pub fn text(duration: Duration) -> String {

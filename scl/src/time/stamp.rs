@@ -1,7 +1,7 @@
 //! Times that another process of this machine understands.
 
-use super::nanoseconds;
 use rustix::time::{ClockId, clock_gettime};
+use scl_text::duration::nanoseconds;
 use std::time::{Duration, Instant};
 
 /// Returns the time in nanoseconds of `CLOCK_MONOTONIC`, which all processes of a machine share.

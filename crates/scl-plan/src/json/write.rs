@@ -2,11 +2,11 @@
 
 use crate::base64;
 use crate::kind::{GateKind, Undecodable, WhenFull};
-use crate::nanoseconds::nanoseconds;
 use crate::options::{GateOptions, OptionAccess};
 use crate::plan::{Plan, Schema};
 use crate::system::{KindPlan, SystemPlan};
 use crate::version::VERSION;
+use scl_text::duration::nanoseconds;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::collections::BTreeMap;
 

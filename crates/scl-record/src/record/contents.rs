@@ -74,5 +74,5 @@ pub(crate) fn attach_latest(recording: &mut RecordingFile, name: &str, latest: &
 /// Returns the current time in nanoseconds since 1970 by `CLOCK_REALTIME`, the clock of the taps.
 pub(crate) fn now_ns() -> u64 {
     let elapsed = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or(Duration::ZERO);
-    u64::try_from(elapsed.as_nanos()).unwrap_or(u64::MAX)
+    scl_text::duration::nanoseconds(elapsed)
 }

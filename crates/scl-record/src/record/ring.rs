@@ -27,7 +27,7 @@ pub(crate) struct Ring {
 impl Ring {
     /// A ring for the messages of `window`, but for no more than `limit` bytes.
     pub(crate) fn new(names: FileNames, window: Duration, limit: usize, save_at_end: bool) -> Self {
-        let window_ns = u64::try_from(window.as_nanos()).unwrap_or(u64::MAX);
+        let window_ns = scl_text::duration::nanoseconds(window);
         Self { window_ns, limit, save_at_end, names, messages: VecDeque::new(), bytes: 0, written: Vec::new() }
     }
 

@@ -32,7 +32,7 @@ impl Pace {
     /// The process has no file descriptor left.
     pub(super) fn new(rate: Rate, max_gap: Option<Duration>) -> Result<Self, Problem> {
         let timer = Timer::new().map_err(|error| Problem::new(format!("cannot create a timer: {error}")))?;
-        let max_gap = max_gap.map(|gap| u64::try_from(gap.as_nanos()).unwrap_or(u64::MAX));
+        let max_gap = max_gap.map(scl_text::duration::nanoseconds);
         let (epoch, lateness) = (Instant::now(), Distribution::default());
         Ok(Self { rate, timer, epoch, base: None, max_gap, latest: None, skipped: 0, lateness })
     }

@@ -1,8 +1,8 @@
 //! The bytes of a stats file, as `docs/stats.md` describes them.
 
 use super::{ComponentStats, ConnectionFigures, GateFigures};
-use crate::time::nanoseconds;
 use bytes::{Buf, BufMut};
+use scl_text::duration::nanoseconds;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 const MAGIC: &[u8; 8] = b"SCLSTATS";
