@@ -330,6 +330,9 @@ pub(crate) fn of_value(option: &str, word: &str) -> Option<&'static Habit> {
     table.find(word)
 }
 
+/// Other names of the key `file` in an entry of `include`, as [`compact`] makes them.
+pub(crate) const FILE: [&str; 8] = ["path", "filename", "source", "src", "from", "include", "topology", "yaml"];
+
 /// `true` or `false` in the words of other formats.
 pub(crate) fn boolean(word: &str) -> Option<&'static str> {
     scl_text::suggest::boolean(&compact(word))

@@ -12,7 +12,7 @@ use scl_text::suggest::boolean;
 use scl_topology::yaml::Node;
 use times::{delay_range, time};
 
-pub(super) use times::{limit_of_restarts, period};
+pub(super) use times::limit_of_restarts;
 
 /// What may be meant by a wrong value.
 #[derive(Debug, Default, PartialEq, Eq)]

@@ -3,11 +3,12 @@
 use super::super::policy::{Policy, Restart, RestartDelay, RestartLimit};
 use super::forms::{any_duration, limit, priority, restart_delay, restart_limit};
 use super::keys::{Form, form_of};
-use super::likely::{Likely, likely, period};
+use super::likely::{Likely, likely};
 use super::reader::{Keys, Reader, wrong};
 use super::rules::WRONG_VALUE;
 use super::value::{flag, number, path, processors, shown, texts};
 use super::words::bare;
+use scl_text::rate;
 use scl_topology::diagnostic::{Diagnostic, Edit};
 use scl_topology::parse::Field;
 use scl_topology::yaml::{Node, NodeKind};
@@ -125,7 +126,7 @@ impl Reader<'_> {
             }
             _ if text.contains('…') => Some("`…` is a single character: write two dots"),
             "cpu" if text.starts_with("0x") => Some("processors are counted from 0, and a mask is written as a list"),
-            _ if period(text).is_some() => Some("a time is the period of a rate, not the rate"),
+            _ if rate::period(text).is_some() => Some("a time is the period of a rate, not the rate"),
             _ if !values.is_empty() => None,
             "cpu" if text.contains(|letter: char| letter == '.' || letter == '%' || letter.is_alphabetic()) => {
                 Some("an amount of computing time cannot be set")

@@ -9,13 +9,13 @@ mod words;
 use crate::diagnostic::{Diagnostics, Rule, Severity, removal};
 use crate::grammar::parameter::ONE_OF;
 use crate::model::{ComponentModel, Model, ParameterModel, WrittenValue};
+use crate::parse::LIST_FORM;
 use crate::source::Sources;
 use crate::topology::Parameter;
 use scl_plan::{ConstText, ParameterPlan, ParameterType, Scalar};
 use scl_text::list::quoted_list;
 use std::sync::Arc;
 
-use crate::parse::LIST_FORM;
 pub(crate) use crate::parse::NO_PARAMETER;
 pub(crate) use name::TAKEN;
 pub(crate) use value::WRONG_VALUE;

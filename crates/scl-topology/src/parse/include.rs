@@ -14,8 +14,7 @@ use scl_text::list::quoted_list;
 
 /// Whether a key is `file` misspelt, or its name in other tools.
 fn is_file(key: &str) -> bool {
-    let other = ["path", "filename", "source", "src", "from", "include", "topology", "yaml"];
-    other.contains(&habits::compact(key).as_str()) || !similar(key, [INCLUDE_KEYS[0]]).is_empty()
+    habits::FILE.contains(&habits::compact(key).as_str()) || !similar(key, [INCLUDE_KEYS[0]]).is_empty()
 }
 
 impl Reader<'_> {

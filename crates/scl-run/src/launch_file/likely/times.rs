@@ -25,8 +25,8 @@ pub(super) fn time(text: &str) -> Likely {
         let values = units.iter().map(|unit| format!("{plain}{unit}"));
         return Likely::possible(values.filter(|value| limit(value).is_some()));
     }
-    if let Some(period) = period(&plain) {
-        return Likely::possible([period]);
+    if let Some(period) = rate::period(&plain) {
+        return Likely::possible([duration::text(period)]);
     }
     let clock: Option<Vec<u64>> = text.split(':').map(|part| part.parse().ok()).collect();
     if let Some([hours, minutes, seconds]) = clock.as_deref() {
@@ -39,11 +39,6 @@ pub(super) fn time(text: &str) -> Likely {
         Some(once) => Likely::certain(Some(once)),
         None => Likely::certain(time_of(text).filter(|value| limit(value).is_some())),
     }
-}
-
-/// The time between two events of a rate, as in `20Hz`.
-pub(in super::super) fn period(text: &str) -> Option<String> {
-    rate::period(text).map(duration::text)
 }
 
 /// A time as this format writes it: one part as it is, several as their sum.

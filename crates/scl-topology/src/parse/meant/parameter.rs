@@ -4,7 +4,7 @@ use super::{decimal, durations, numbers, words};
 use crate::habits;
 use scl_plan::{ParameterPlan, ParameterType, Scalar};
 
-/// The values of a parameter that a text may mean which is none of them, the most probable first.
+/// The values that may be meant by a text that the parameter cannot have, the most probable first.
 pub fn meant_values(plan: &ParameterPlan, text: &str) -> Vec<String> {
     let text = text.trim();
     let mut values = match &plan.kind {

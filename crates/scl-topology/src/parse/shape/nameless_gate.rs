@@ -7,6 +7,7 @@ use crate::parse::field::Field;
 use crate::parse::words::{is_kind, is_like_option};
 use crate::rust_name::gate_field;
 use crate::source::{SourceFile, Span};
+use crate::spelling::is_word;
 use crate::suggest;
 
 /// Whether a kind with a type stands where the name of a gate is expected, perhaps with options behind it.
@@ -40,9 +41,7 @@ pub(in crate::parse) fn diagnose(fields: &[Field<'_>], at: Span, source: &Source
 fn example_name(payload: &str) -> String {
     let request = payload.split("->").next().unwrap_or(payload).trim();
     let word = request.rsplit(['.', ':']).next().unwrap_or(request);
-    let is_name = word.starts_with(char::is_alphabetic)
-        && word.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
-    if is_name { gate_field(word) } else { "name".to_owned() }
+    if is_word(word) { gate_field(word) } else { "name".to_owned() }
 }
 
 #[cfg(test)]
