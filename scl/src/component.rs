@@ -9,6 +9,7 @@ mod needs;
 mod opener;
 mod outcome;
 mod realtime;
+mod simulation;
 mod transports;
 
 pub(crate) use kind::started_as;

@@ -62,6 +62,8 @@ mod request;
 #[cfg(feature = "run")]
 mod run;
 mod schema;
+#[cfg(feature = "simulate")]
+mod simulate;
 #[cfg(feature = "observe")]
 mod top;
 
@@ -172,6 +174,11 @@ commands! {
     Schema(schema::SchemaArguments) => schema::schema;
     #[cfg(feature = "observe")]
     Set(parameters::SetArguments) => parameters::set;
+    #[cfg(feature = "simulate")]
+    Simulate(simulate::SimulateArguments) => simulate::simulate;
+    #[cfg(feature = "simulate")]
+    #[command(name = simulate::RUN_WORD, hide = true)]
+    SimulateHere(simulate::HereArguments) => simulate::simulate_here;
     #[cfg(feature = "run")]
     Stop(request::StopArguments) => request::stop;
     #[cfg(feature = "observe")]

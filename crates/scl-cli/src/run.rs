@@ -4,8 +4,8 @@ use crate::load::{MaxSize, load_file, show_errors};
 use clap::Args;
 use scl_loader::Loaded;
 use scl_plan::Assignment;
-use scl_run::SystemNames;
-use scl_terminal::{Problem, parse_duration};
+use scl_run::{SeatArgument, SystemNames};
+use scl_terminal::{Problem, parse_duration, print_err};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -23,6 +23,22 @@ pub(crate) use scl_run::{GUARD_WORD, KEYS_WORD, START_WORD, keep_watch, tell_key
 #[derive(Args)]
 #[command(after_help = after_help())]
 pub(crate) struct RunArguments {
+    #[command(flatten)]
+    programs: ProgramArguments,
+    /// Start the components of this host of the launch file, and its gateway to the other hosts.
+    #[arg(long, value_name = "HOST")]
+    host: Option<String>,
+    /// Stop after this time, for example `5s`, and succeed.
+    #[arg(long = "for", value_name = "TIME", value_parser = parse_duration)]
+    run_for: Option<Duration>,
+    /// How long components without a `stop_within` in the launch file may take to stop before they are killed.
+    #[arg(long, value_name = "TIME", default_value = "5s", value_parser = parse_duration)]
+    grace: Duration,
+}
+
+/// Which programs to start, and how.
+#[derive(Args)]
+pub(crate) struct ProgramArguments {
     /// The system's folder, or a launch file.
     #[arg(default_value = ".")]
     folder: PathBuf,
@@ -35,24 +51,31 @@ pub(crate) struct RunArguments {
     /// Start all components but these.
     #[arg(long, value_name = "COMPONENT,...", value_delimiter = ',', conflicts_with = "only")]
     without: Vec<String>,
-    /// Start the components of this host of the launch file, and its gateway to the other hosts.
-    #[arg(long, value_name = "HOST")]
-    host: Option<String>,
     /// Give a parameter this value, for example `controller.gain=2`; wins over the launch file. May be repeated.
     #[arg(long, value_name = "COMPONENT.PARAMETER=VALUE", value_parser = Assignment::parse)]
     set: Vec<Assignment>,
-    /// Stop after this time, for example `5s`, and succeed.
-    #[arg(long = "for", value_name = "TIME", value_parser = parse_duration)]
-    run_for: Option<Duration>,
-    /// How long components without a `stop_within` in the launch file may take to stop before they are killed.
-    #[arg(long, value_name = "TIME", default_value = "5s", value_parser = parse_duration)]
-    grace: Duration,
     /// Build the cargo package with optimizations.
     #[arg(long)]
     release: bool,
     /// Start the programs as they are, without building anything; `scl restart` builds nothing either.
     #[arg(long, conflicts_with = "release")]
     no_build: bool,
+}
+
+impl ProgramArguments {
+    /// The options of a run of these programs on all hosts, without a limit.
+    pub(crate) fn options(&self) -> scl_run::Options {
+        scl_run::Options {
+            folder: self.folder.clone(),
+            profiles: self.profiles.clone(),
+            only: self.only.clone(),
+            without: self.without.clone(),
+            set: self.set.clone(),
+            release: self.release,
+            no_build: self.no_build,
+            ..scl_run::Options::default()
+        }
+    }
 }
 
 fn after_help() -> String {
@@ -89,6 +112,9 @@ pub(crate) struct StartArguments {
     /// How many file descriptors it may open.
     #[arg(long)]
     descriptors: Option<u64>,
+    /// What it needs to take part in a simulation.
+    #[arg(long)]
+    seat: Option<OsString>,
     /// The program and its arguments.
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, required = true)]
     command: Vec<OsString>,
@@ -96,18 +122,8 @@ pub(crate) struct StartArguments {
 
 /// The body of `scl run`.
 pub(crate) fn run(arguments: &RunArguments) -> Result<ExitCode, Vec<Problem>> {
-    let options = scl_run::Options {
-        folder: arguments.folder.clone(),
-        profiles: arguments.profiles.clone(),
-        only: arguments.only.clone(),
-        without: arguments.without.clone(),
-        host: arguments.host.clone(),
-        set: arguments.set.clone(),
-        release: arguments.release,
-        no_build: arguments.no_build,
-        run_for: arguments.run_for,
-        grace: arguments.grace,
-    };
+    let RunArguments { programs, host, run_for, grace } = arguments;
+    let options = scl_run::Options { host: host.clone(), run_for: *run_for, grace: *grace, ..programs.options() };
     let all_ended_well = scl_run::run(&options, &component_names)?;
     Ok(if all_ended_well { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
@@ -116,7 +132,13 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<ExitCode, Vec<Problem>> {
 pub(crate) fn start_component(arguments: &StartArguments) -> ExitCode {
     let StartArguments { cpu, fifo, descriptors, .. } = arguments;
     let placement = scl_run::Placement { cpu: cpu.clone(), fifo: *fifo, descriptors: *descriptors };
-    scl_run::start_component(arguments.parent, &placement, &arguments.command)
+    match arguments.seat.as_deref().map(SeatArgument::parse).transpose() {
+        Ok(seat) => scl_run::start_component(arguments.parent, &placement, seat.as_ref(), &arguments.command),
+        Err(expected) => {
+            print_err(&format!("scl: {expected}\n"));
+            ExitCode::from(2)
+        }
+    }
 }
 
 pub(crate) fn component_names(topology: &Path) -> Option<SystemNames> {

@@ -105,6 +105,8 @@ mod run_terminal;
 mod run_transports;
 #[cfg(feature = "run")]
 mod run_twice;
+#[cfg(feature = "simulate")]
+mod simulate;
 #[cfg(feature = "record")]
 mod stop_signals;
 mod system;

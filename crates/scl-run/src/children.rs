@@ -1,5 +1,6 @@
 //! The running programs, of components and builds: each in its own process group, each with threads that watch it.
 
+use super::conductor::Seat;
 use super::ending::Ending;
 use super::event::Event;
 use super::family::{Family, MARK, with_inherited};
@@ -32,6 +33,8 @@ pub(crate) struct Start<'a> {
     pub(crate) terminal: Option<Terminal>,
     /// A variable in place of the program's own, with what is kept of its last process.
     pub(crate) kept: Option<(String, String)>,
+    /// What it needs to take part in a simulation.
+    pub(crate) seat: Option<Seat>,
 }
 
 /// A running program. It is reaped when this value is dropped, so that its process group id is not reused
@@ -63,8 +66,8 @@ impl Running {
         events: &Sender<Event>,
     ) -> io::Result<Self> {
         let Member { program, label, role, policy, messages, .. } = member;
-        let Start { process: number, notify, terminal, kept } = start;
-        let mut command = bound_command(&program.command, &program.placement);
+        let Start { process: number, notify, terminal, kept, seat } = start;
+        let mut command = bound_command(&program.command, &program.placement, seat.as_ref());
         // These variables are meant for this process: they were set by systemd or an outer `scl run`.
         for name in ["NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID", COMPONENT] {
             command.env_remove(name);

@@ -10,6 +10,7 @@ mod cargo;
 mod children;
 mod command_line;
 mod component;
+mod conductor;
 pub mod control;
 mod deployment;
 mod ending;
@@ -33,10 +34,12 @@ mod policy;
 mod process_group;
 mod process_stat;
 mod program;
+mod recorder;
 mod requests;
 mod restarts;
 mod run_clock;
 mod run_state;
+mod seat;
 mod selection;
 mod sockets;
 mod summary;
@@ -45,6 +48,7 @@ mod system_names;
 mod terminal;
 mod units;
 
+pub use conductor::{Conductor, Pause, Seat};
 pub use deployment::{Deployment, Host};
 pub use launch_file::EXAMPLE as EXAMPLE_LAUNCH_FILE;
 pub use launch_file::{CheckedLaunchFile, LaunchTopology, check_launch_file, launch_keys};
@@ -53,6 +57,7 @@ pub use log_file::{LogEntry, LogFolder, LogReader, LogStream};
 pub use orphan_guard::{GUARD_WORD, START_WORD, keep_watch, start_component};
 pub use placement::Placement;
 pub use plan::{ComponentNames, DeployedSystem, read_deployment};
+pub use seat::SeatArgument;
 pub use system_names::{SystemNames, running_systems};
 pub use terminal::{KEYS_WORD, tell_keys};
 pub use units::{Unit, UnitOptions, systemd_units};
@@ -108,6 +113,15 @@ pub struct Options {
     pub grace: Duration,
 }
 
+/// How a system is simulated.
+#[derive(Debug)]
+pub struct Simulation<'c> {
+    /// Gives the programs their turns.
+    pub conductor: &'c mut dyn Conductor,
+    /// The file into which the messages of all gates are recorded, which must not exist.
+    pub recording: Option<PathBuf>,
+}
+
 /// Builds and starts the components, and waits until all have ended. Returns true unless an essential component failed.
 ///
 /// `component_names` reads the topology file.
@@ -116,17 +130,45 @@ pub struct Options {
 ///
 /// Every reason why the system could not be started.
 pub fn run(options: &Options, component_names: ComponentNames<'_>) -> Result<bool, Vec<Problem>> {
+    run_with(options, component_names, None)
+}
+
+/// Like [`run`], in simulated time, which begins once everything is built.
+///
+/// # Errors
+///
+/// Every reason why the system could not be started, or the simulation not go on.
+pub fn simulate(
+    options: &Options,
+    component_names: ComponentNames<'_>,
+    simulation: Simulation<'_>,
+) -> Result<bool, Vec<Problem>> {
+    run_with(options, component_names, Some(simulation))
+}
+
+fn run_with(
+    options: &Options,
+    component_names: ComponentNames<'_>,
+    simulation: Option<Simulation<'_>>,
+) -> Result<bool, Vec<Problem>> {
     let mut plan = plan::plan_run(options, component_names)?;
     already_running::check(&plan).map_err(|problem| vec![problem])?;
     plan.gateway.as_ref().map_or(Ok(()), gateway_program::check)?;
+    if let Some(recording) = simulation.as_ref().and_then(|simulation| simulation.recording.as_deref()) {
+        let (folder, _) = plan::find_folder(&options.folder).map_err(|problem| vec![problem])?;
+        plan.recorder = Some(recorder::plan_recorder(&plan, folder, recording).map_err(|problem| vec![problem])?);
+    }
+    let conductor = simulation.map(|simulation| simulation.conductor);
     let builds = plan.builds.iter().map(Build::label);
     let names = builds.chain(plan.programs().map(|component| component.name.as_str()));
     let names = names.map(str::to_owned).collect();
     let (sender, events) = channel();
     let signals = listen_for_signals(sender.clone());
     signals.map_err(|error| vec![Problem::new(format!("cannot handle signals: {error}"))])?;
-    let output = Output::start(names, open_logs(&plan), sender.clone());
-    let ended = run_plan(&mut plan, options, Surroundings { output: &output, events, sender });
+    // What a simulation prints is no record of what has happened.
+    let logs = if conductor.is_some() { plan.programs().map(|_| None).collect() } else { open_logs(&plan) };
+    let output = Output::start(names, logs, sender.clone());
+    let ended = run_plan(&mut plan, options, Surroundings { output: &output, events, sender }, conductor);
     output.finish(options.grace);
     ended
 }
@@ -142,7 +184,12 @@ fn open_logs(plan: &RunPlan) -> Vec<Option<LogFile>> {
     plan.programs().map(open).collect()
 }
 
-fn run_plan(plan: &mut RunPlan, options: &Options, surroundings: Surroundings<'_>) -> Result<bool, Vec<Problem>> {
+fn run_plan(
+    plan: &mut RunPlan,
+    options: &Options,
+    surroundings: Surroundings<'_>,
+    conductor: Option<&mut dyn Conductor>,
+) -> Result<bool, Vec<Problem>> {
     let failed = |message: &str, error: io::Error| vec![Problem::new(format!("cannot {message}: {error}"))];
     let (output, sender) = (surroundings.output, surroundings.sender.clone());
     orphans::adopt().map_err(|error| failed("take care of orphaned processes", error))?;
@@ -163,7 +210,9 @@ fn run_plan(plan: &mut RunPlan, options: &Options, surroundings: Surroundings<'_
         return Err(problems);
     }
     let gateways = plan.gateway.iter().map(|gateway| (gateway, Role::Gateway));
-    let programs = gateways.chain(plan.components.iter().map(|component| (component, Role::Component)));
+    let recorders = plan.recorder.iter().map(|recorder| (recorder, Role::Recorder));
+    let programs =
+        gateways.chain(recorders).chain(plan.components.iter().map(|component| (component, Role::Component)));
     let members = programs.enumerate();
     let members = members.map(|(index, (program, role))| member(program, role, plan.builds.len() + index));
     let members: Vec<Member<'_>> = members.collect();
@@ -173,8 +222,10 @@ fn run_plan(plan: &mut RunPlan, options: &Options, surroundings: Surroundings<'_
     let builds = if options.no_build { &[][..] } else { plan.builds.as_slice() };
     // Processes that a build leaves behind, such as a compiler's server, are not ended.
     let left_by_builds = orphans::adopted();
+    supervisor.follow_conductor(conductor);
     let outcome = supervisor.run(&members, builds, options.run_for);
     orphans::kill_adopted(&left_by_builds);
+    supervisor.broken().map_or(Ok(()), |problem| Err(vec![problem]))?;
     Ok(!matches!(outcome, Outcome::Failed(_)))
 }
 
@@ -182,7 +233,7 @@ fn run_plan(plan: &mut RunPlan, options: &Options, surroundings: Surroundings<'_
 fn run_builds(
     builds: &[Build],
     grace: Duration,
-    supervisor: &mut Supervisor<'_>,
+    supervisor: &mut Supervisor<'_, '_>,
     output: &Output,
 ) -> Result<Built, Problem> {
     let mut built = Built::new();

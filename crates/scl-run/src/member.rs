@@ -33,6 +33,8 @@ pub(crate) enum Role {
     Component,
     /// It connects the components to those of other hosts.
     Gateway,
+    /// It records what the components say.
+    Recorder,
 }
 
 /// What a build writes to its standard output for `scl run` and not for the user.

@@ -7,9 +7,11 @@
 //! - One `scl __guard` holds the read end of a pipe whose write end only `scl run` holds. When the pipe ends, it kills
 //!   the whole process group of each component, and all processes that come from the programs of this run.
 
+use super::conductor::Seat;
 use super::family::{kill_run, run_mark};
 use super::orphans;
 use super::placement::Placement;
+use super::seat::SeatArgument;
 use rustix::process::{Pid, Signal, getppid, set_parent_process_death_signal};
 use scl_terminal::print_err;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -21,8 +23,8 @@ use std::os::unix::process::CommandExt;
 use std::process::{Child, ChildStdin, Command, ExitCode, Stdio};
 use std::sync::Arc;
 
-/// The hidden command that starts one component: `scl __start PARENT [--cpu N]... [--fifo N] [--descriptors N] --
-/// COMMAND...`.
+/// The hidden command that starts one component: `scl __start PARENT [--cpu N]... [--fifo N] [--descriptors N]
+/// [--seat SEAT] -- COMMAND...`.
 pub const START_WORD: &str = "__start";
 /// The hidden command that keeps watch: `scl __guard MARK`.
 pub const GUARD_WORD: &str = "__guard";
@@ -31,9 +33,10 @@ pub const GUARD_WORD: &str = "__guard";
 const CANNOT_EXECUTE: u8 = 126;
 
 /// Returns the command that starts `command` in such a way that it is killed when this process ends.
-pub(crate) fn bound_command(command: &[OsString], placement: &Placement) -> Command {
+pub(crate) fn bound_command(command: &[OsString], placement: &Placement, seat: Option<&Seat>) -> Command {
     let mut bound = this_program();
-    bound.arg(START_WORD).arg(std::process::id().to_string()).args(placement.arguments()).arg("--").args(command);
+    bound.arg(START_WORD).arg(std::process::id().to_string()).args(placement.arguments());
+    bound.args(seat.iter().flat_map(|seat| seat.arguments())).arg("--").args(command);
     bound
 }
 
@@ -49,7 +52,12 @@ pub(crate) fn this_program() -> Command {
 
 /// The body of `scl __start`: becomes the program `command`, which ends when the process `parent` ends. Returns only if
 /// the program cannot be executed.
-pub fn start_component(parent: u32, placement: &Placement, command: &[OsString]) -> ExitCode {
+pub fn start_component(
+    parent: u32,
+    placement: &Placement,
+    seat: Option<&SeatArgument>,
+    command: &[OsString],
+) -> ExitCode {
     if let Err(error) = set_parent_process_death_signal(Some(Signal::KILL)) {
         print_err(&format!("scl: cannot prepare the start: {error}\n"));
         return ExitCode::from(CANNOT_EXECUTE);
@@ -59,7 +67,8 @@ pub fn start_component(parent: u32, placement: &Placement, command: &[OsString])
         return ExitCode::from(CANNOT_EXECUTE);
     }
     let [program, rest @ ..] = command else { return ExitCode::from(CANNOT_EXECUTE) };
-    let error = Command::new(program).args(rest).envs(placement.apply()).exec();
+    let seated = seat.map(SeatArgument::take).unwrap_or_default();
+    let error = Command::new(program).args(rest).envs(placement.apply()).envs(seated).exec();
     print_err(&format!("scl: cannot execute `{}`: {error}\n", program.display()));
     ExitCode::from(CANNOT_EXECUTE)
 }

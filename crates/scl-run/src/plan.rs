@@ -47,6 +47,8 @@ pub(crate) struct RunPlan {
     pub(crate) components: Vec<Component>,
     /// The program that connects this host to the others, with `--host`.
     pub(crate) gateway: Option<Component>,
+    /// The program that records a simulation.
+    pub(crate) recorder: Option<Component>,
 }
 
 /// The programs that each build has made, as far as cargo says so.
@@ -110,14 +112,14 @@ impl RunPlan {
         builds.chain(programs).filter_map(Result::err).collect()
     }
 
-    /// The gateway, if there is one, and the components: in the order in which they are started.
+    /// The gateway and the recorder, if there are any, and the components: in the order in which they are started.
     pub(crate) fn programs(&self) -> impl Iterator<Item = &Component> {
-        self.gateway.iter().chain(&self.components)
+        self.gateway.iter().chain(&self.recorder).chain(&self.components)
     }
 }
 
 /// The system's folder, and the path of its launch file, which need not exist.
-fn find_folder(place: &Path) -> Result<(PathBuf, PathBuf), Problem> {
+pub(crate) fn find_folder(place: &Path) -> Result<(PathBuf, PathBuf), Problem> {
     let folder = if place.is_file() { place.parent().unwrap_or(Path::new("")) } else { place };
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     // Programs run elsewhere, so their paths must not depend on our working folder.
@@ -202,7 +204,7 @@ fn plan_from_launch_file(
         planned
     };
     let components = chosen.iter().map(plan).collect();
-    Ok(RunPlan { system, named_after, builds, components, gateway })
+    Ok(RunPlan { system, named_after, builds, components, gateway, recorder: None })
 }
 
 fn read_text(launch_path: &Path) -> Result<String, Vec<Problem>> {

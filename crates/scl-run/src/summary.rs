@@ -21,7 +21,7 @@ fn line(member: &Member<'_>, component: &Lifecycle) -> Option<String> {
     let has_failed = component.state == State::Ended(Verdict::Failed);
     let name = member.name;
     let kind = match (member.role, component.policy.essential) {
-        (Role::Gateway, _) => "program",
+        (Role::Gateway | Role::Recorder, _) => "program",
         (_, true) => "component",
         (_, false) => "non-essential component",
     };

@@ -15,9 +15,12 @@
 //! [`run_state`](super::run_state).
 
 mod process;
+mod simulated;
+mod texts;
 
 use super::children::{Running, Start};
 use super::command_line::shell_text;
+use super::conductor::Conductor;
 use super::control::{BuildCommand, Command, ReceivedRequest, Response};
 use super::ending::{Ending, name_of};
 use super::event::Event;
@@ -35,10 +38,13 @@ use super::summary;
 use super::terminal::{Key, StandardInput, Terminal};
 use process::Process;
 use rustix::process::Signal;
+use scl_terminal::Problem;
+use simulated::Simulated;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender};
 use std::time::{Duration, Instant};
+use texts::{end_text, stopped_by_terminal, wrong_program};
 
 /// How the programs ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,13 +65,14 @@ pub(crate) struct Surroundings<'a> {
 }
 
 /// Runs programs, each with at most one process at any time.
-pub(crate) struct Supervisor<'a> {
+pub(crate) struct Supervisor<'a, 'c> {
     surroundings: Surroundings<'a>,
     notify: Option<&'a NotifySocket>,
     // Dropped before the processes: the guard must not kill a group whose number may be reused.
     guard: OrphanGuard,
     processes: Vec<Option<Process>>,
     next_process: usize,
+    simulated: Option<Simulated<'c>>,
 }
 
 /// A run in progress.
@@ -75,27 +82,35 @@ struct Run<'r> {
     builds: &'r [Build],
     state: RunState,
     clock: RunClock,
-    began: Instant,
     requests: Requests,
     said_ready: bool,
 }
 
-impl<'a> Supervisor<'a> {
+impl<'a, 'c> Supervisor<'a, 'c> {
     pub(crate) fn new(surroundings: Surroundings<'a>, guard: OrphanGuard, notify: Option<&'a NotifySocket>) -> Self {
-        Self { surroundings, notify, guard, processes: Vec::new(), next_process: 0 }
+        Self { surroundings, notify, guard, processes: Vec::new(), next_process: 0, simulated: None }
+    }
+
+    /// From now on, a run is one in the time of this conductor, if there is one.
+    pub(crate) fn follow_conductor(&mut self, conductor: Option<&'c mut dyn Conductor>) {
+        self.simulated = conductor.map(Simulated::new);
+    }
+
+    /// Why the simulation could not go on, if it could not.
+    pub(crate) fn broken(&mut self) -> Option<Problem> {
+        self.simulated.as_mut()?.broken.take()
     }
 
     /// Starts the programs and waits until all have ended. They are stopped after `run_for`, if given. `builds` are
     /// reported to `scl restart`, which runs them.
     pub(crate) fn run(&mut self, members: &[Member<'_>], builds: &[Build], run_for: Option<Duration>) -> Outcome {
-        let last = members.iter().position(|member| member.role == Role::Gateway);
+        let last = members.iter().position(|member| matches!(member.role, Role::Gateway | Role::Recorder));
         let state = RunState::new(members.iter().map(|member| member.policy.clone()), last, run_for);
-        let began = Instant::now();
-        let clock = RunClock::start(began);
-        let mut run = Run { members, builds, state, clock, began, requests: Requests::default(), said_ready: false };
+        let clock = RunClock::start(Instant::now());
+        let mut run = Run { members, builds, state, clock, requests: Requests::default(), said_ready: false };
         self.processes = members.iter().map(|_| None).collect();
         self.apply(&mut run, RunEvent::Time);
-        while !(run.state.is_over() && self.processes.iter().flatten().all(Process::is_silent)) {
+        while !(self.is_broken() || run.state.is_over() && self.processes.iter().flatten().all(Process::is_silent)) {
             match self.next_event(&mut run) {
                 Some(event) => self.take(&mut run, event),
                 None => self.apply(&mut run, RunEvent::Time),
@@ -120,8 +135,20 @@ impl<'a> Supervisor<'a> {
         }
     }
 
+    /// The time of the run.
+    fn now(&self, run: &Run<'_>) -> Time {
+        self.simulated.as_ref().map_or_else(|| run.clock.at(Instant::now()), Simulated::now)
+    }
+
+    fn is_broken(&self) -> bool {
+        self.simulated.as_ref().is_some_and(|simulated| simulated.broken.is_some())
+    }
+
     /// Waits for the next event. Returns `None` if something may be due before.
-    fn next_event(&self, run: &mut Run<'_>) -> Option<Event> {
+    fn next_event(&mut self, run: &mut Run<'_>) -> Option<Event> {
+        if let Some(simulated) = self.simulated.as_mut().filter(|_| !run.state.is_over()) {
+            return simulated.next_event(&self.surroundings.events, self.notify, run.state.due());
+        }
         let events = &self.surroundings.events;
         let now = Instant::now();
         run.look(now, Duration::ZERO);
@@ -228,7 +255,7 @@ impl<'a> Supervisor<'a> {
 
     /// Feeds an event to the state and carries out the resulting actions, until none is left.
     fn apply(&mut self, run: &mut Run<'_>, event: RunEvent) {
-        let mut actions: VecDeque<_> = run.state.step(run.now(), event).into();
+        let mut actions: VecDeque<_> = run.state.step(self.now(run), event).into();
         while let Some((index, action)) = actions.pop_front() {
             match action {
                 Action::Start if run.state.components()[index].state == State::Starting => {
@@ -237,19 +264,23 @@ impl<'a> Supervisor<'a> {
                         Ok(()) => Input::Started,
                         Err(error) => Input::CannotStart(error.to_string()),
                     };
-                    actions.extend(run.state.step(run.now(), RunEvent::One(index, input)));
+                    actions.extend(run.state.step(self.now(run), RunEvent::One(index, input)));
                 }
                 // The component was stopped before it could be started.
                 Action::Start => {}
                 Action::Signal(signal) => {
-                    let Some(running) = self.processes[index].as_ref().map(|process| &process.running) else {
-                        continue;
+                    let Some(process) = &self.processes[index] else { continue };
+                    let stopped = match signal {
+                        Signal::KILL => {
+                            process.running.kill();
+                            Vec::new()
+                        }
+                        signal => process.running.ask_to_end(signal),
                     };
-                    if signal == Signal::KILL {
-                        running.kill();
-                        continue;
+                    if let Some(simulated) = &mut self.simulated {
+                        simulated.signalled(process.number);
                     }
-                    for process in running.ask_to_end(signal) {
+                    for process in stopped {
                         let text =
                             format!("process {process} was stopped, as by SIGSTOP; sent SIGCONT so that it can end");
                         self.report(index, &run.members[index], text);
@@ -279,13 +310,14 @@ impl<'a> Supervisor<'a> {
                 .ok(),
         };
         let number = self.next_process;
+        let seat = self.simulated.as_mut().map(|simulated| simulated.seat(number, member.name)).transpose()?;
         let kept = if is_first {
             member.kept.forget();
             None
         } else {
             member.kept.variable(&member.program.environment)
         };
-        let start = Start { process: number, notify, terminal, kept };
+        let start = Start { process: number, notify, terminal, kept, seat };
         let Surroundings { output, sender, .. } = &self.surroundings;
         let running = Running::start(member, start, &mut self.guard, output, sender)?;
         self.next_process += 1;
@@ -320,7 +352,7 @@ impl<'a> Supervisor<'a> {
     fn follow(&mut self, run: &mut Run<'_>) {
         if !run.said_ready && run.state.is_ready() {
             run.said_ready = true;
-            let after = run.began.elapsed().as_secs_f64();
+            let after = self.now(run).as_secs_f64();
             self.surroundings.output.announce(&format!("all components are ready after {after:.1} s"));
         }
         let pid = |index: usize| {
@@ -337,10 +369,6 @@ impl<'a> Supervisor<'a> {
 }
 
 impl Run<'_> {
-    fn now(&self) -> Time {
-        self.clock.at(Instant::now())
-    }
-
     /// Notes that this process is running, after a wait that was meant to take `waited`.
     fn look(&mut self, now: Instant, waited: Duration) {
         let lost = self.clock.look(now, waited);
@@ -354,39 +382,4 @@ fn unusable(run: &Run<'_>, components: &[String]) -> Option<String> {
     let chosen = run.members.iter().filter(|member| components.iter().any(|name| name == member.name));
     let mut checks = chosen.map(|member| member.program.check("program", &format!("component `{}`", member.name)));
     checks.find_map(Result::err).map(|problem| problem.message().to_owned())
-}
-
-/// The report on a program that opens another component than the one that it was started as.
-fn wrong_program(member: &Member<'_>, opened: &str) -> String {
-    let shown = match opened.split_once('.') {
-        Some((system, name)) => format!("`{name}` of system `{system}`"),
-        None => format!("`{opened}`"),
-    };
-    let program =
-        member.program.command.first().map_or_else(String::new, |program| format!("`{}` ", program.display()));
-    let place = member.entry.map_or_else(String::new, |place| format!("; its entry is at {place}"));
-    format!("wrong program: {program}opens component {shown}, but was started as `{}`{place}", member.name)
-}
-
-/// The report on a program that uses a terminal that it does not have.
-fn stopped_by_terminal(member: &Member<'_>, signal: Signal) -> String {
-    let signal = name_of(signal);
-    match member.program.input {
-        StandardInput::Empty => {
-            format!(
-                "stopped by {signal}: it uses the terminal; write `input: terminal` in the entry of `{}`",
-                member.name
-            )
-        }
-        StandardInput::Terminal => format!("stopped by {signal}: it uses the terminal, which it was not given"),
-    }
-}
-
-fn end_text(role: Role, ending: Ending, after: Duration) -> String {
-    let after = after.as_secs_f64();
-    match (role, ending) {
-        (Role::Component | Role::Gateway, _) => format!("{ending} after {after:.1} s"),
-        (Role::Build, Ending::Exited(0)) => format!("built after {after:.1} s"),
-        (Role::Build, _) => format!("build {ending} after {after:.1} s"),
-    }
 }

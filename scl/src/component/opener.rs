@@ -1,7 +1,7 @@
 //! Opening a component: its registration, then its gates one by one.
 
 use super::transports::{Transports, transport};
-use super::{ComponentHandle, expected, needs};
+use super::{ComponentHandle, expected, needs, simulation};
 use crate::codec::Codec;
 use crate::error::{GateName, OpenError};
 use crate::figures::FigureSource;
@@ -238,6 +238,7 @@ struct Registering {
 fn register(spec: &'static ComponentSpec, options: &OpenOptions, values: &[Value]) -> Result<Registering, OpenError> {
     let variables = &|name: &str| options.variable(name);
     expected::check(spec, variables)?;
+    simulation::check(spec, variables)?;
     let (system, choice) = (options.system_name(variables, spec.system)?, options.transport_choice(variables)?);
     let stats = stats_period(variables)?;
     let failed = |source| OpenError::RuntimeDir { component: spec.name, source };

@@ -56,6 +56,15 @@ pub enum OpenError {
         /// What it was started as, for messages: `` `gps` of system `rover` ``.
         expected: String,
     },
+    /// The process was started by one that takes part in a simulation, and does not take part itself.
+    #[error(
+        "component `{component}` takes no part in the simulation: only the process that `scl simulate` starts does, and \
+         not one that this starts; name the program itself in the launch file"
+    )]
+    OutsideSimulation {
+        /// The component.
+        component: &'static str,
+    },
     /// The plan has no component of this name.
     #[error(transparent)]
     UnknownComponent(#[from] scl_plan::UnknownComponent),

@@ -28,7 +28,7 @@ pub(super) fn run(build: &BuildCommand) -> Result<(), Problem> {
 
 fn start(build: &BuildCommand) -> io::Result<ExitStatus> {
     let words: Vec<OsString> = build.command.iter().map(OsString::from).collect();
-    let mut command = bound_command(&words, &Placement::default());
+    let mut command = bound_command(&words, &Placement::default(), None);
     command.current_dir(&build.folder).env_clear().envs(&build.environment).stdin(Stdio::null());
     command.stdout(io::stderr().as_fd().try_clone_to_owned()?).status()
 }

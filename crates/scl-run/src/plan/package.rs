@@ -60,5 +60,6 @@ pub(super) fn plan_from_package(folder: &Path, names: SystemNames, options: &Opt
         builds: vec![Build { components: Vec::new(), program: program(build), cargo_choices: Some(Vec::new()) }],
         components: started.iter().map(plan).collect(),
         gateway: None,
+        recorder: None,
     })
 }

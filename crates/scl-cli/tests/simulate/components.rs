@@ -1,0 +1,209 @@
+//! Components of SCL in simulated time: async, blocking, and with several threads.
+
+use super::{errors, simulate, text};
+use crate::system::{ChildGuard, SpawnGuarded, System};
+use scl::bytes::Bytes;
+use scl::plan::{Plan, SystemPlan};
+use scl::untyped::Component;
+use std::collections::HashMap;
+use std::fs;
+use std::io::Read;
+use std::process::{Command, Output};
+use std::sync::mpsc::channel;
+use std::thread;
+use std::time::{Duration, Instant};
+
+const TOPOLOGY: &str = "\
+system: mill
+components:
+  - name: sensor
+    gates:
+      - values: pub
+      - settings: rep
+  - name: controller
+    gates:
+      - values: {sub: , queue: 1}
+      - commands: pub
+      - settings: {req: , timeout: 1s}
+  - name: logger
+    gates:
+      - commands: sub
+connections:
+  - [sensor.values, controller.values]
+  - [controller.settings, sensor.settings]
+  - [controller.commands, logger.commands]
+";
+
+/// Names the program that a process is.
+const PLAYS: &str = "SCL_TEST_SIMULATE_PLAYS";
+/// The file on which the sensor depends, if it exists: then it sends what it contains, and changes it.
+const OUTSIDE: &str = "outside";
+const MS: Duration = Duration::from_millis(1);
+
+/// Starts the programs of the system in this order.
+fn system(test: &str, order: &[&str]) -> System {
+    let program = std::env::current_exe().unwrap();
+    let command = format!("[{program:?}, --exact, {test}, --nocapture, --test-threads, 2]");
+    let entry = |name: &&str| {
+        format!(
+            "  {name}: {{command: {command}, environment: {{{PLAYS}: {name}}}, restart: on_failure, \
+             restart_delay: 100ms..1s, restart_limit: 100 in 1h}}\n"
+        )
+    };
+    let launch = format!("components:\n{}", order.iter().map(entry).collect::<String>());
+    let system = System::of_files(&[("topology.yaml", TOPOLOGY), ("launch.yaml", &launch)]);
+    let plan = system.scl(&["plan"]).output().unwrap();
+    assert!(plan.status.success(), "{}", text(&plan.stderr));
+    system.write("plan.json", &text(&plan.stdout));
+    system
+}
+
+fn plan(component: &str) -> Plan {
+    let system = SystemPlan::from_json(&fs::read_to_string("plan.json").unwrap()).unwrap();
+    system.component(component).unwrap().clone()
+}
+
+/// Plays the component that the environment names, or returns.
+fn play() -> bool {
+    match std::env::var(PLAYS).as_deref() {
+        Ok("sensor") => in_async(sense()),
+        Ok("controller") => control(),
+        Ok(_) => in_async(log()),
+        Err(_) => return false,
+    }
+    true
+}
+
+fn in_async(component: impl Future<Output = ()>) {
+    tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap().block_on(component);
+}
+
+/// Sends a value every 10 ms, answers meanwhile, and fails after 2 s.
+async fn sense() {
+    let mut sensor = Component::open(&plan("sensor")).await.unwrap();
+    let (mut values, mut settings) = (sensor.publisher("values").unwrap(), sensor.replier("settings").unwrap());
+    let mut tick = tokio::time::interval(10 * MS);
+    let mut answered = 0;
+    let started = Instant::now();
+    while started.elapsed() < 2000 * MS {
+        tokio::select! {
+            _ = tick.tick() => {
+                let outside = change_outside();
+                values.send(&format!("{answered} {:?}{outside}", started.elapsed()).into()).await.unwrap();
+            }
+            request = settings.recv() => {
+                answered += 1;
+                request.unwrap().reply(&Bytes::from(answered.to_string())).unwrap();
+            }
+        }
+    }
+    std::process::exit(3);
+}
+
+fn change_outside() -> String {
+    let Ok(outside) = fs::read_to_string(OUTSIDE) else { return String::new() };
+    fs::write(OUTSIDE, format!("{outside}+")).unwrap();
+    outside
+}
+
+/// Sends a command for each value, while another thread calls.
+fn control() {
+    let mut controller = Component::open_blocking(&plan("controller")).unwrap();
+    let (mut values, mut commands) =
+        (controller.subscriber("values").unwrap(), controller.publisher("commands").unwrap());
+    let mut settings = controller.requester("settings").unwrap();
+    let (sender, answers) = channel();
+    thread::spawn(move || {
+        loop {
+            thread::sleep(70 * MS);
+            let answer = settings.call_blocking(&Bytes::new());
+            sender.send(answer.map_or_else(|error| error.to_string(), |bytes| text(&bytes))).unwrap();
+        }
+    });
+    while let Ok(value) = values.recv_blocking() {
+        let answers: Vec<String> = answers.try_iter().collect();
+        let command = format!("{} {answers:?}", text(&value));
+        if commands.send_blocking(&command.into()).is_err() {
+            return;
+        }
+    }
+}
+
+/// Prints commands, in the order of a hash map, while blocking work is in progress.
+async fn log() {
+    let mut logger = Component::open(&plan("logger")).await.unwrap();
+    let mut commands = logger.subscriber("commands").unwrap();
+    let mut kept = HashMap::new();
+    while let Ok(command) = commands.recv().await {
+        let work: Vec<_> = (0..3).map(|number| tokio::task::spawn_blocking(move || number * 2)).collect();
+        let mut sum = 0;
+        for work in work {
+            sum += work.await.unwrap();
+        }
+        kept.insert(text(&command), sum);
+        if kept.len() == 50 {
+            kept.drain().for_each(|(command, sum)| println!("{command} {sum}"));
+        }
+    }
+}
+
+fn lines_of<'a>(output: &'a str, component: &str) -> Vec<&'a str> {
+    output.lines().filter(|line| line.starts_with(component)).collect()
+}
+
+#[test]
+fn everything_is_the_same_in_each_run_whatever_the_machine_does() {
+    if play() {
+        return;
+    }
+    let test = "simulate::components::everything_is_the_same_in_each_run_whatever_the_machine_does";
+    let run = |busy: bool| -> (Output, Vec<u8>) {
+        let system = system(test, &["sensor", "controller", "logger"]);
+        let load: Vec<ChildGuard> = (0..if busy { 8 } else { 0 }).map(|_| spin()).collect();
+        let output = simulate(&system, &["--until", "20s", "-o", "mill.mcap"]);
+        drop(load);
+        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+        let mut recording = Vec::new();
+        fs::File::open(system.path("mill.mcap")).unwrap().read_to_end(&mut recording).unwrap();
+        (output, recording)
+    };
+    let ((idle, first), (busy, second)) = (run(false), run(true));
+    // The launch file with its folder is a part of the recording.
+    assert!(first == second, "the recordings differ");
+    let (idle_out, busy_out) = (text(&idle.stdout), text(&busy.stdout));
+    let logged = lines_of(&idle_out, "logger");
+    assert_eq!(logged, lines_of(&busy_out, "logger"));
+    // The sensor sends for 2 s, 200 values, and is started again after 100 ms, 200 ms, and so on.
+    assert!(logged.len() > 1000, "{}", logged.len());
+    assert!(logged.iter().any(|line| line.contains("[\"14\"]")), "{logged:?}");
+    let told = |output: &Output| lines_of(&errors(output), "sensor").join("\n");
+    assert_eq!(told(&idle), told(&busy));
+    assert!(
+        told(&idle).contains("ended with exit code 3 after 2.0 s\nsensor      restarting in 200ms"),
+        "{}",
+        told(&idle)
+    );
+}
+
+/// A process that keeps a processor busy.
+fn spin() -> ChildGuard {
+    Command::new("sh").args(["-c", "while :; do :; done"]).spawn_guarded()
+}
+
+#[test]
+fn twice_names_what_depends_on_something_else() {
+    if play() {
+        return;
+    }
+    let test = "simulate::components::twice_names_what_depends_on_something_else";
+    let system = system(test, &["logger", "controller", "sensor"]);
+    let output = simulate(&system, &["--until", "1s", "--twice"]);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    assert!(text(&output.stderr).contains("both simulations did the same\n"), "{}", text(&output.stderr));
+    system.write(OUTSIDE, " ");
+    let output = simulate(&system, &["--until", "1s", "--twice"]);
+    let err = text(&output.stderr);
+    let expected = "error: two simulations with the same seed differ, first 0.000000 s after the first message, at `sensor.values`: message 1 has ";
+    assert!(err.contains(expected), "{err}");
+    assert_eq!(output.status.code(), Some(1), "{err}");
+}

@@ -1,0 +1,98 @@
+//! `scl simulate`: programs in simulated time.
+
+mod components;
+mod mistakes;
+
+use crate::system::System;
+use expect_test::{ExpectFile, expect_file};
+use std::process::{Command, Output};
+
+/// Runs a simulation in a system's folder.
+fn simulate(system: &System, arguments: &[&str]) -> Output {
+    system.scl(&[&["simulate"], arguments].concat()).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// What `scl simulate` has written, without the line that depends on the speed of the machine.
+#[track_caller]
+fn errors(output: &Output) -> String {
+    let (before, figures) = text(&output.stderr).split_once("scl: simulated ").map_or_else(
+        || (text(&output.stderr), String::new()),
+        |(before, figures)| (before.to_owned(), figures.to_owned()),
+    );
+    assert!(figures.is_empty() || figures.contains(" times as fast as real time, with "), "{figures}");
+    before
+}
+
+/// A system of one C program.
+fn of_program(source: &str, entry: &str, options: &[&str]) -> System {
+    let system = System::of_files(&[
+        ("program.c", source),
+        ("launch.yaml", &format!("components:\n  program: {{command: [./program]{entry}}}\n")),
+    ]);
+    let mut compiler = Command::new("cc");
+    compiler.args(["-std=gnu11", "-Wall", "-Wextra", "-Werror", "-pthread", "-o", "program"]).args(options);
+    let compiled = compiler.arg("program.c").current_dir(system.path("")).status().unwrap();
+    assert!(compiled.success());
+    system
+}
+
+#[track_caller]
+fn check(output: &Output, code: i32, expected: &ExpectFile) {
+    expected.assert_eq(&format!("{}---\n{}", text(&output.stdout), errors(output)));
+    assert_eq!(output.status.code(), Some(code));
+}
+
+#[test]
+fn all_waits_of_the_c_library_follow_simulated_time() {
+    let system = of_program(include_str!("waits.c"), "", &[]);
+    check(&simulate(&system, &[]), 0, &expect_file!["waits.txt"]);
+}
+
+#[test]
+fn restarts_and_limits_count_in_simulated_time() {
+    let source = "#include <stdio.h>\n#include <unistd.h>\nint main(void) { puts(\"starts\"); sleep(90); return 3; }\n";
+    let entry = ", restart: on_failure, restart_delay: 10s..1m, restart_limit: 3 in 1h";
+    let system = of_program(source, entry, &[]);
+    check(&simulate(&system, &[]), 1, &expect_file!["restarts.txt"]);
+    check(&simulate(&system, &["--until", "3min"]), 0, &expect_file!["until.txt"]);
+}
+
+#[test]
+fn the_first_thread_is_woken_by_the_signal_that_stops_the_program() {
+    let source = include_str!("stops.c");
+    for way in ["sleep", "pause", "poll", "sigwait", "read"] {
+        let system = of_program(source, &format!(", environment: {{WAY: {way}}}"), &[]);
+        let output = simulate(&system, &["--until", "1h"]);
+        assert_eq!(text(&output.stdout), format!("program | {way} was ended by a signal\n"), "{}", errors(&output));
+        assert_eq!(output.status.code(), Some(0));
+    }
+}
+
+#[test]
+fn a_shell_that_becomes_the_program_gives_its_seat_to_it() {
+    let source = "#include <stdio.h>\n#include <unistd.h>\nint main(void) { sleep(900); puts(\"done\"); }\n";
+    let system = of_program(source, "", &[]);
+    system.write("launch.yaml", "components:\n  program: {command: exec ./program}\n");
+    let output = simulate(&system, &[]);
+    assert_eq!(
+        (text(&output.stdout).as_str(), errors(&output).as_str()),
+        ("program | done\n", "program  ended with exit code 0 after 900.0 s\n")
+    );
+}
+
+#[test]
+fn random_numbers_come_from_the_seed() {
+    let source = "\
+#include <stdio.h>
+#include <sys/random.h>
+int main(void) { unsigned number; getrandom(&number, sizeof number, 0); printf(\"%u\\n\", number); }
+";
+    let system = of_program(source, "", &[]);
+    let number = |arguments: &[&str]| text(&simulate(&system, arguments).stdout);
+    assert_eq!(number(&[]), number(&["--seed", "0"]));
+    assert_ne!(number(&[]), number(&["--seed", "1"]));
+}

@@ -1,0 +1,128 @@
+// What the parts of the library share.
+//
+// The library takes the place of the C library's functions that wait or tell the time, in a program that
+// `scl simulate` has started:
+//
+// - Of the program's threads, one runs at a time: the one that holds the baton (threads.c). A thread that has to wait
+//   gives the baton to the next one that can go on.
+// - When none can go on, the program is idle. It says so to `scl simulate`, with the time at which it has to go on at
+//   the latest, and waits for its next turn, which brings the new time (turn.c).
+//
+// In all other processes, such as those that the program starts, the functions do what they always do.
+#ifndef SCL_SIM_H
+#define SCL_SIM_H
+
+#define _GNU_SOURCE
+#include <errno.h>
+#include <limits.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <sys/syscall.h>
+#include <sys/types.h>
+#include <time.h>
+
+#define EXPORT __attribute__((visibility("default")))
+
+// A time, in nanoseconds since the start of the simulation.
+typedef uint64_t instant;
+#define NEVER UINT64_MAX
+
+// real.c: the C library's own functions.
+#define REAL(name)                                                        \
+    ({                                                                    \
+        static typeof(&name) found;                                       \
+        if (found == NULL) found = (typeof(&name))(uintptr_t)sim_real(#name); \
+        found;                                                            \
+    })
+void *sim_real(const char *name);
+// A system call: like `syscall`, which this library replaces.
+long sim_call(long number, ...);
+
+// threads.c: which thread runs.
+
+// Why a wait is over.
+enum reason { READY, WOKEN, TIMED_OUT, INTERRUPTED };
+
+// A wait. Members that are not set do not end it, except `deadline`, which is always set.
+struct wait {
+    // Returns true if what the thread waits for has happened. Called by whichever thread holds the baton.
+    bool (*attempt)(struct wait *wait);
+    // Calls `sim_watch` for the descriptors that may end it.
+    void (*watch)(struct wait *wait);
+    // What `sim_wake` names, and of which any bit.
+    const void *address;
+    uint32_t bits;
+    // When it ends at the latest.
+    instant deadline;
+    // Whether a signal ends it.
+    bool interruptible;
+    bool woken;
+    uint64_t order;
+    enum reason reason;
+};
+
+// Returns true if the calling thread is one of a simulated program.
+bool sim_takes_part(void);
+// Waits while other threads run and time passes. Leaves `errno` as it is.
+enum reason sim_wait(struct wait *wait);
+// Lets the other threads run that can.
+void sim_yield(void);
+// As `sim_yield`, but only now and then: for calls that have nothing to wait for, and may follow each other for ever.
+void sim_pass(void);
+// Ends the waits for an address and any of these bits, at most `count` and the oldest first. Returns their number.
+int sim_wake(const void *address, uint32_t bits, int count);
+#define ALL_BITS UINT32_MAX
+// Notes that the calling thread has handled a signal.
+void sim_interrupt(void);
+// Notes that the program's first thread has, which the kernel prefers.
+void sim_interrupt_first(void);
+// Calls `watch` of all waits. Returns when the first of them ends at the latest.
+instant sim_watch_waits(void);
+
+// turn.c: the turns that `scl simulate` gives.
+
+// Notes that the threads are about to be looked at. `sim_take_turn` does nothing if one asks for a turn from then on.
+void sim_begin_looking(void);
+// Says that the program is idle, and returns with its next turn. `again` says that no thread could run in the last one.
+void sim_take_turn(bool again);
+// Makes `scl simulate` give the program a turn when a descriptor is ready for these events of `poll`.
+void sim_watch(int descriptor, short events);
+// Makes `scl simulate` give the program a turn although nothing it waits for has happened.
+void sim_ask_for_turn(void);
+// If `scl simulate` has started this process, returns true with its first turn.
+bool sim_join(void);
+// Returns false in a child that shares the memory of its parent until it becomes another program.
+bool sim_is_own_process(void);
+// Lets the process become another program that takes its part, or no longer.
+void sim_keep_seat(bool keep);
+// Ends the part that a forked child takes in the simulation of its parent.
+void sim_leave(void);
+
+// clock.c: the time.
+
+instant sim_now(void);
+void sim_set_now(instant now);
+// Returns false for clocks that do not follow the simulation: those of the processor.
+bool sim_follows(clockid_t clock);
+instant sim_instant(clockid_t clock, const struct timespec *time);
+// The instant that is this long from now, which the calling thread waits for.
+instant sim_after(const struct timespec *duration);
+struct timespec sim_timespec(uint64_t nanoseconds);
+bool sim_is_duration(const struct timespec *duration);
+
+// random.c: random numbers.
+void sim_seed(uint64_t seed);
+
+// timer.c: timerfd.
+
+// Lets the timers expire that are due. Returns when the next one is.
+instant sim_expire_timers(void);
+
+// poll.c: waiting for descriptors.
+
+// Before a call that blocks unless a descriptor is ready for these events: waits until it is. Returns false if a signal
+// came first.
+bool sim_wait_for_descriptor(int descriptor, short events);
+
+#endif

@@ -1,0 +1,115 @@
+// timerfd: the descriptor of a timer is an eventfd, which is read in the same way: how often it has expired.
+
+#include "sim.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#define MOST_TIMERS 4096
+
+struct timer {
+    bool used;
+    // The program's descriptor, and a copy of it, which stays valid if the program closes its own unseen.
+    int descriptor;
+    int own;
+    clockid_t clock;
+    // When it expires next, and how long after each time it does again, unless that is 0.
+    instant due;
+    uint64_t period;
+};
+
+static struct timer timers[MOST_TIMERS];
+// All timers are among the first `slots`.
+static int slots;
+
+static struct timer *timer_of(int descriptor) {
+    for (int i = 0; i < slots; i++) {
+        if (timers[i].used && timers[i].descriptor == descriptor) return &timers[i];
+    }
+    return NULL;
+}
+
+instant sim_expire_timers(void) {
+    instant first = NEVER, now = sim_now();
+    for (int i = 0; i < slots; i++) {
+        struct timer *timer = &timers[i];
+        if (!timer->used) continue;
+        if (timer->due <= now) {
+            uint64_t count = timer->period == 0 ? 1 : 1 + (now - timer->due) / timer->period;
+            timer->due = timer->period == 0 ? NEVER : timer->due + count * timer->period;
+            sim_call(SYS_write, timer->own, &count, sizeof count);
+        }
+        if (timer->due < first) first = timer->due;
+    }
+    return first;
+}
+
+EXPORT int timerfd_create(int clock, int flags) {
+    if (!sim_takes_part() || !sim_follows(clock)) return REAL(timerfd_create)(clock, flags);
+    for (int i = 0; i < MOST_TIMERS; i++) {
+        if (timers[i].used) continue;
+        // The flags of both have the values of `O_NONBLOCK` and `O_CLOEXEC`.
+        int descriptor = eventfd(0, flags);
+        if (descriptor < 0) return -1;
+        int own = fcntl(descriptor, F_DUPFD_CLOEXEC, 3);
+        if (own < 0) {
+            sim_call(SYS_close, descriptor);
+            return -1;
+        }
+        timers[i] = (struct timer){.used = true, .descriptor = descriptor, .own = own, .clock = clock, .due = NEVER};
+        if (i >= slots) slots = i + 1;
+        return descriptor;
+    }
+    errno = EMFILE;
+    return -1;
+}
+
+static struct itimerspec left_of(const struct timer *timer) {
+    struct itimerspec left = {.it_interval = sim_timespec(timer->period)};
+    instant now = sim_now();
+    if (timer->due != NEVER) left.it_value = sim_timespec(timer->due > now ? timer->due - now : 1);
+    return left;
+}
+
+EXPORT int timerfd_settime(int descriptor, int flags, const struct itimerspec *next, struct itimerspec *before) {
+    struct timer *timer = sim_takes_part() ? timer_of(descriptor) : NULL;
+    if (timer == NULL) return REAL(timerfd_settime)(descriptor, flags, next, before);
+    if (!sim_is_duration(&next->it_value) || !sim_is_duration(&next->it_interval)) {
+        errno = EINVAL;
+        return -1;
+    }
+    if (before != NULL) *before = left_of(timer);
+    // What has expired is forgotten.
+    struct pollfd expired = {.fd = timer->own, .events = POLLIN};
+    uint64_t count;
+    if (sim_call(SYS_ppoll, &expired, 1, &(struct timespec){0}, NULL, 0) == 1) {
+        sim_call(SYS_read, timer->own, &count, sizeof count);
+    }
+    const struct timespec *first = &next->it_value;
+    bool absolute = (flags & TFD_TIMER_ABSTIME) != 0;
+    timer->period = (uint64_t)next->it_interval.tv_sec * 1000000000 + (uint64_t)next->it_interval.tv_nsec;
+    timer->due = absolute ? sim_instant(timer->clock, first) : sim_after(first);
+    if (first->tv_sec == 0 && first->tv_nsec == 0) timer->due = NEVER;
+    return 0;
+}
+
+EXPORT int timerfd_gettime(int descriptor, struct itimerspec *left) {
+    struct timer *timer = sim_takes_part() ? timer_of(descriptor) : NULL;
+    if (timer == NULL) return REAL(timerfd_gettime)(descriptor, left);
+    *left = left_of(timer);
+    return 0;
+}
+
+// A child that shares the memory of its parent until it starts another program closes its own descriptors only.
+EXPORT int close(int descriptor) {
+    struct timer *timer = sim_takes_part() ? timer_of(descriptor) : NULL;
+    if (timer != NULL && sim_is_own_process()) {
+        timer->used = false;
+        sim_call(SYS_close, timer->own);
+    }
+    return (int)sim_call(SYS_close, descriptor);
+}

@@ -1,0 +1,161 @@
+// The turns of the program: what it says to `scl simulate`, and what it hears. Both take turns strictly; the program
+// begins. Messages have 24 bytes.
+
+#include "sim.h"
+
+#include <fcntl.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+// Its value: the format of the messages, the process, the socket, and the epoll descriptor that `scl simulate` watches.
+#define VARIABLE "SCL_SIMULATION"
+#define FORMAT 1
+
+struct said {
+    // The format, and the process in the upper half.
+    uint64_t head;
+    // When the program has to have its next turn at the latest.
+    instant due;
+    // How far it has moved the time by looking at the clock.
+    instant now;
+};
+
+struct heard {
+    instant now;
+    // Only in the first turn.
+    uint64_t seed;
+    // Whether the program was sent a signal, which it has handled by now.
+    uint64_t signalled;
+};
+
+static pid_t process;
+static int connection = -1;
+static int watched = -1;
+// Ready while the program asks for a turn although it is idle.
+static int attention = -1;
+static _Atomic bool idle;
+static _Atomic bool asks;
+
+// The descriptors that are watched, as far as they are still open.
+static int *noted;
+static size_t noted_count, noted_room;
+
+static void note(int descriptor) {
+    if (noted_count == noted_room) {
+        noted_room = noted_room == 0 ? 64 : 2 * noted_room;
+        noted = realloc(noted, noted_room * sizeof *noted);
+        if (noted == NULL) abort();
+    }
+    noted[noted_count++] = descriptor;
+}
+
+static void unwatch_all(void) {
+    for (size_t i = 0; i < noted_count; i++) {
+        if (noted[i] != attention) sim_call(SYS_epoll_ctl, watched, EPOLL_CTL_DEL, noted[i], NULL);
+    }
+    noted_count = 0;
+}
+
+static void say(instant due) {
+    struct said said = {.head = FORMAT | (uint64_t)process << 32, .due = due, .now = sim_now()};
+    // Without `scl simulate`, the program cannot go on.
+    if (sim_call(SYS_sendto, connection, &said, sizeof said, MSG_NOSIGNAL, NULL, 0) != sizeof said) _exit(126);
+}
+
+// A signal ends `recv` only because the socket has a limit: it would go on after handlers with `SA_RESTART`.
+static struct heard hear(void) {
+    struct heard heard;
+    size_t length = 0;
+    while (length < sizeof heard) {
+        ssize_t count = sim_call(SYS_recvfrom, connection, (char *)&heard + length, sizeof heard - length, 0, NULL, NULL);
+        if (count > 0) {
+            length += (size_t)count;
+        } else if (count < 0 && errno == EINTR) {
+            sim_interrupt();
+        } else if (count == 0 || errno != EAGAIN) {
+            _exit(126);
+        }
+    }
+    return heard;
+}
+
+void sim_begin_looking(void) {
+    asks = false;
+}
+
+void sim_watch(int descriptor, short events) {
+    // The events of `poll` have the same values.
+    struct epoll_event event = {.events = (uint32_t)(unsigned short)events};
+    if (sim_call(SYS_epoll_ctl, watched, EPOLL_CTL_MOD, descriptor, &event) == 0) return;
+    // It is new, or its number was used for another one before.
+    if (sim_call(SYS_epoll_ctl, watched, EPOLL_CTL_ADD, descriptor, &event) == 0) note(descriptor);
+}
+
+void sim_take_turn(bool again) {
+    idle = true;
+    if (!asks) {
+        // The turn was of no use: a descriptor is ready for which no thread waits any longer.
+        if (again) unwatch_all();
+        instant wait = sim_watch_waits();
+        instant timer = sim_expire_timers();
+        say(wait < timer ? wait : timer);
+        struct heard heard = hear();
+        sim_set_now(heard.now);
+        if (heard.signalled != 0) sim_interrupt_first();
+    }
+    idle = false;
+    uint64_t count;
+    if (asks) sim_call(SYS_read, attention, &count, sizeof count);
+}
+
+
+void sim_ask_for_turn(void) {
+    asks = true;
+    if (!idle) return;
+    int before = errno;
+    const uint64_t one = 1;
+    sim_call(SYS_write, attention, &one, sizeof one);
+    errno = before;
+}
+
+bool sim_join(void) {
+    const char *value = getenv(VARIABLE);
+    int format, seat, socket, epoll;
+    if (value == NULL || sscanf(value, "%d,%d,%d,%d", &format, &seat, &socket, &epoll) != 4) return false;
+    // The program's own children inherit the variable.
+    if (format != FORMAT || seat != getpid()) return false;
+    process = seat;
+    connection = socket;
+    watched = epoll;
+    const int own[] = {connection, watched, attention = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)};
+    for (int i = 0; i < 3; i++) fcntl(own[i], F_SETFD, FD_CLOEXEC);
+    const struct timeval year = {.tv_sec = 31536000};
+    setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &year, sizeof year);
+    sim_watch(attention, EPOLLIN);
+    say(0);
+    struct heard heard = hear();
+    sim_set_now(heard.now);
+    sim_seed(heard.seed);
+    return true;
+}
+
+bool sim_is_own_process(void) {
+    return getpid() == process;
+}
+
+void sim_keep_seat(bool keep) {
+    if (connection < 0 || !sim_is_own_process()) return;
+    const int own[] = {connection, watched};
+    for (int i = 0; i < 2; i++) sim_call(SYS_fcntl, own[i], F_SETFD, keep ? 0 : FD_CLOEXEC);
+}
+
+void sim_leave(void) {
+    const int own[] = {connection, watched, attention};
+    for (int i = 0; i < 3; i++) sim_call(SYS_close, own[i]);
+}

@@ -1,0 +1,281 @@
+//! Gives the programs their turns, and moves the time.
+
+use crate::participant::{Participant, Said};
+use crate::seed::seed_of;
+use crate::speed::Speed;
+use rustix::event::{Timespec, epoll};
+use rustix::io::Errno;
+use scl_run::{Pause, Seat};
+use scl_terminal::Problem;
+use std::fs;
+use std::io;
+use std::mem::MaybeUninit;
+use std::os::fd::OwnedFd;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// The library that programs load.
+const LIBRARY: &[u8] = include_bytes!(env!("SCL_SIM_LIBRARY"));
+/// How often to look outside while nothing happens in the simulation.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// How to simulate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Where random numbers come from.
+    pub seed: u64,
+    /// How many seconds of simulated time may pass in a second; as many as possible if `None`.
+    pub speed: Option<f64>,
+    /// How long in real time a program may run without waiting.
+    pub patience: Duration,
+    /// How many turns programs may have before time passes.
+    pub most_turns: u64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { seed: 0, speed: None, patience: Duration::from_secs(30), most_turns: 1_000_000 }
+    }
+}
+
+/// Gives the programs of a system their turns.
+///
+/// Of several that can go on, the one after the last that had a turn comes first, in the order in which they were
+/// started.
+#[derive(Debug)]
+pub struct Conductor {
+    options: Options,
+    library: PathBuf,
+    now: Duration,
+    speed: Speed,
+    /// In the order in which they were started.
+    participants: Vec<Participant>,
+    /// What they wait for, each with the number of its process.
+    ready: OwnedFd,
+    /// The process that runs, and since when.
+    running: Option<(usize, Instant)>,
+    /// The process that had the last turn.
+    last: Option<usize>,
+    turns: u64,
+    /// Number of turns since time has last passed.
+    turns_now: u64,
+    /// When the first program was started.
+    began: Option<Instant>,
+}
+
+impl Conductor {
+    /// Creates a conductor whose library is kept in a folder, which must exist as long as programs are started.
+    ///
+    /// # Errors
+    ///
+    /// If the library cannot be written.
+    pub fn new(options: Options, folder: &Path) -> io::Result<Self> {
+        let library = folder.join("libscl_sim.so");
+        fs::write(&library, LIBRARY)?;
+        let speed = Speed::new(options.speed);
+        Ok(Self {
+            options,
+            library,
+            now: Duration::ZERO,
+            speed,
+            participants: Vec::new(),
+            ready: epoll::create(epoll::CreateFlags::CLOEXEC)?,
+            running: None,
+            last: None,
+            turns: 0,
+            turns_now: 0,
+            began: None,
+        })
+    }
+
+    /// Returns how long the simulation has taken, in real time.
+    pub fn took(&self) -> Duration {
+        self.began.map_or(Duration::ZERO, |began| began.elapsed())
+    }
+
+    /// Returns how many turns the programs have had.
+    pub fn turns(&self) -> u64 {
+        self.turns
+    }
+
+    /// Waits up to `wait` for what programs wait for.
+    fn look(&mut self, wait: Duration) -> Result<(), Problem> {
+        let mut events = [MaybeUninit::<epoll::Event>::uninit(); 64];
+        let wait =
+            Timespec { tv_sec: wait.as_secs().try_into().unwrap_or(i64::MAX), tv_nsec: wait.subsec_nanos().into() };
+        let (found, _) = match epoll::wait(&self.ready, &mut events, Some(&wait)) {
+            Ok(found) => found,
+            Err(Errno::INTR) => return Ok(()),
+            Err(error) => return Err(failed("wait", error.into())),
+        };
+        for event in found {
+            let process = event.data.u64();
+            if let Some(it) = self.participants.iter_mut().find(|it| it.process as u64 == process) {
+                it.is_ready = true;
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the index of the program that has the next turn.
+    fn next(&self) -> Option<usize> {
+        let wants = |it: &(usize, &Participant)| it.1.wants_a_turn(self.now);
+        let all = || self.participants.iter().enumerate();
+        let mut after = all().filter(|(_, it)| self.last.is_none_or(|last| it.process > last));
+        after.find(wants).or_else(|| all().find(wants)).map(|(index, _)| index)
+    }
+
+    fn give_turn(&mut self, index: usize) -> Result<(), Problem> {
+        self.turns_now += 1;
+        if self.turns_now > self.options.most_turns {
+            return Err(self.endless());
+        }
+        let participant = &mut self.participants[index];
+        // A new program says that it is there before its first turn.
+        if participant.pid.is_some() {
+            participant.give_turn(self.now);
+            self.turns += 1;
+        }
+        (self.running, self.last) = (Some((participant.process, Instant::now())), Some(participant.process));
+        Ok(())
+    }
+
+    /// Listens to the program that runs. Returns its process if it has ended.
+    fn listen(&mut self, process: usize, since: Instant) -> Result<Option<usize>, Problem> {
+        let Some(index) = self.participants.iter().position(|it| it.process == process) else {
+            unreachable!("a program runs only while it takes part")
+        };
+        let participant = &mut self.participants[index];
+        match participant.listen().map_err(|error| failed("hear of a program", error))? {
+            Said::Waits(now) => {
+                self.now = self.now.max(now);
+                self.running = None;
+            }
+            Said::Nothing if since.elapsed() < self.options.patience || is_debugged(participant.pid) => {}
+            Said::Nothing => return Err(never_waits(participant, self.now, self.options.patience)),
+            Said::Ended => {
+                self.participants.remove(index);
+                self.running = None;
+                return Ok(Some(process));
+            }
+            Said::Nonsense => return Err(Problem::new(format!("component `{}` says nonsense", participant.component))),
+        }
+        Ok(None)
+    }
+
+    /// When the first program has to go on, if no other makes it go on before.
+    fn due(&self) -> Option<Duration> {
+        self.participants.iter().filter_map(|it| it.due).min()
+    }
+
+    fn pass_time(&mut self, next: Duration) {
+        debug_assert!(next >= self.now, "time does not go back");
+        self.now = next;
+        self.turns_now = 0;
+        self.participants.iter_mut().for_each(|it| it.turns = 0);
+    }
+
+    fn endless(&self) -> Problem {
+        let mut busy: Vec<&Participant> = self.participants.iter().collect();
+        busy.sort_by_key(|it| std::cmp::Reverse(it.turns));
+        let busy = busy.iter().filter(|it| it.turns > self.options.most_turns / 100);
+        let busy: Vec<String> = busy.map(|it| format!("`{}` ({} times)", it.component, it.turns)).collect();
+        let (time, busy) = (self.now.as_secs_f64(), busy.join(", "));
+        Problem::new(format!("no time passes any more at {time:.6} s: the programs keep each other busy: {busy}")).help(
+            "one of them has to wait, or to answer less than it is told; `--most-turns` lets them go on for longer",
+        )
+    }
+}
+
+impl scl_run::Conductor for Conductor {
+    fn seat(&mut self, process: usize, component: &str) -> io::Result<Seat> {
+        if self.began.is_none() {
+            self.began = Some(Instant::now());
+            use_one_processor();
+        }
+        let seed = seed_of(self.options.seed, component, process as u64);
+        let (participant, inherited) = Participant::new(process, component, seed)?;
+        let data = epoll::EventData::new_u64(process as u64);
+        epoll::add(&self.ready, &participant.watched, data, epoll::EventFlags::IN)?;
+        // Its end, if it is killed while it waits.
+        epoll::add(&self.ready, &participant.connection, data, epoll::EventFlags::RDHUP)?;
+        self.participants.push(participant);
+        Ok(Seat { library: self.library.clone(), socket: inherited.socket, watched: inherited.watched })
+    }
+
+    fn now(&self) -> Duration {
+        self.now
+    }
+
+    fn run(&mut self, until: Option<Duration>, has_arrived: &mut dyn FnMut() -> bool) -> Result<Pause, Problem> {
+        loop {
+            while let Some((process, since)) = self.running {
+                if let Some(ended) = self.listen(process, since)? {
+                    return Ok(Pause::Ended(ended));
+                }
+                if self.running.is_some() && has_arrived() {
+                    return Ok(Pause::Arrived);
+                }
+            }
+            if has_arrived() {
+                return Ok(Pause::Arrived);
+            }
+            if until.is_some_and(|until| until <= self.now) {
+                return Ok(Pause::Time);
+            }
+            self.look(Duration::ZERO)?;
+            if let Some(index) = self.next() {
+                self.give_turn(index)?;
+                continue;
+            }
+            // Nobody can go on before time has passed.
+            let next = self.due().into_iter().chain(until).min();
+            let wait = next.map_or(LOOK, |next| self.speed.wait(self.now, next).min(LOOK));
+            match next {
+                Some(next) if wait.is_zero() => self.pass_time(next),
+                _ => self.look(wait)?,
+            }
+        }
+    }
+
+    fn signalled(&mut self, process: usize) {
+        if let Some(it) = self.participants.iter_mut().find(|it| it.process == process) {
+            it.is_signalled = true;
+        }
+    }
+}
+
+/// Each turn would otherwise wake another processor, which takes twice as long.
+fn use_one_processor() {
+    let Ok(allowed) = rustix::thread::sched_getaffinity(None) else { return };
+    let Some(last) = (0..rustix::thread::CpuSet::MAX_CPU).rev().find(|cpu| allowed.is_set(*cpu)) else { return };
+    let mut one = rustix::thread::CpuSet::new();
+    one.set(last);
+    // Only the speed depends on it.
+    let _slower = rustix::thread::sched_setaffinity(None, &one);
+}
+
+/// Returns true if a person looks at the program with a debugger, or has stopped it.
+fn is_debugged(pid: Option<u32>) -> bool {
+    let status = pid.and_then(|pid| fs::read_to_string(format!("/proc/{pid}/status")).ok()).unwrap_or_default();
+    let value = |name: &str| status.lines().find_map(|line| line.strip_prefix(name)).map_or("", str::trim);
+    value("State:").starts_with(['t', 'T']) || !matches!(value("TracerPid:"), "" | "0")
+}
+
+fn never_waits(participant: &Participant, now: Duration, patience: Duration) -> Problem {
+    let (name, patience) = (&participant.component, patience.as_secs_f64());
+    if participant.pid.is_none() {
+        let text = format!("component `{name}` does not take part in the simulation {patience:.0} s after its start");
+        return Problem::new(text).help(
+            "programs that are linked statically, or remove `LD_PRELOAD`, cannot take part; name the program itself, \
+             not a script that starts it",
+        );
+    }
+    let now = now.as_secs_f64();
+    Problem::new(format!("component `{name}` has been running for {patience:.0} s without waiting, at {now:.6} s"))
+        .help("it computes for ever, or waits for something outside the simulation; `--patience` gives it more time")
+}
+
+fn failed(what: &str, error: io::Error) -> Problem {
+    Problem::new(format!("cannot {what}: {error}"))
+}
