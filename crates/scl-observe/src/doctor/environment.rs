@@ -9,13 +9,14 @@ use std::os::unix::ffi::OsStringExt;
 
 const CHECK: &str = "environment";
 
-/// Variables of SCL that are not settings of a component: `scl run` and builds set them.
-const OTHERS: [&str; 7] = [
+/// Variables of SCL that are not settings of a component: `scl run`, `scl simulate` and builds set them.
+const OTHERS: [&str; 8] = [
     "SCL_COMPONENT",
     "SCL_CPP_INCLUDE_DIR",
     "SCL_EXECUTABLE",
     "SCL_INCLUDE_DIR",
     "SCL_LIBRARY",
+    "SCL_SIMULATION",
     "SCL_STARTED_BY",
     "SCL_TIMEOUT",
 ];
