@@ -63,6 +63,11 @@ pub(crate) struct ProgramArguments {
 }
 
 impl ProgramArguments {
+    #[cfg(feature = "simulate")]
+    pub(crate) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
     /// The options of a run of these programs on all hosts, without a limit.
     pub(crate) fn options(&self) -> scl_run::Options {
         scl_run::Options {

@@ -1,28 +1,28 @@
 //! `scl simulate`: runs a system in simulated time.
+//!
+//! Each simulation is a process of its own (`here`), whose runtime folder no other uses; this one starts it
+//! (`process`), or several of them, and looks at what they report (`report`): whether two do the same (`twice`), or
+//! which seeds fail (`seeds`).
 
+mod here;
+mod process;
+mod report;
+mod seeds;
+mod shrink;
 mod twice;
 
-use crate::run::{ProgramArguments, component_names};
+pub(crate) use here::{HereArguments, simulate_here};
+pub(crate) use process::RUN_WORD;
+
+use crate::run::ProgramArguments;
 use clap::Args;
-use rustix::process::{Pid, Signal, getppid, kill_process, set_parent_process_death_signal};
-use scl_run::Simulation;
-use scl_simulate::Conductor;
+use process::Process;
 use scl_terminal::{Problem, parse_duration, print_err};
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-use signal_hook::iterator::Signals;
-use std::ffi::OsStr;
-use std::io;
-use std::os::unix::process::CommandExt;
-use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
-use std::thread;
+use std::num::NonZero;
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+use std::process::ExitCode;
 use std::time::Duration;
-
-/// The hidden command that is one simulation: `scl __simulate PARENT FOLDER -- ARGUMENTS...`.
-pub(crate) const RUN_WORD: &str = "__simulate";
-
-/// How long components without a `stop_within` may take to stop, in simulated time.
-const GRACE: Duration = Duration::from_secs(5);
 
 /// Run a system in simulated time: the same way each time, and faster than real time.
 ///
@@ -37,12 +37,15 @@ Examples:
   scl simulate examples/rover --until 1h an hour, in seconds
   scl simulate --seed 7                  with other random numbers
   scl simulate --speed 1                 in real time, to watch it
+  scl simulate --replay flight.mcap --as sensor -o new.mcap
+  scl simulate --scenario rough.yaml     with faults, and with what must hold all the same
+  scl simulate --scenario rough.yaml --seeds 1..500 --jobs 2
 
 Two simulations with the same programs, files, arguments and seed do the same. docs/simulate.md says what a program must
 not do for that, and which programs cannot take part.
 
-Exit code: 0 all ended cleanly or were stopped, 1 a component failed or had to be killed, 2 nothing could be started, or
-the simulation could not go on.")]
+Exit code: 0 all ended cleanly or were stopped, 1 a component failed or had to be killed, something expected did not
+happen, or two simulations differ, 2 nothing could be started, or the simulation could not go on.")]
 pub(crate) struct SimulateArguments {
     #[command(flatten)]
     programs: ProgramArguments,
@@ -55,9 +58,28 @@ pub(crate) struct SimulateArguments {
     /// Record the messages of all gates into this file, which must not exist.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Play components from this recording in place of their programs.
+    #[arg(long, value_name = "FILE", requires = "played")]
+    replay: Option<PathBuf>,
+    /// The components that are played.
+    #[arg(long = "as", id = "played", value_name = "COMPONENT,...", value_delimiter = ',', requires = "replay")]
+    played: Vec<String>,
     /// Simulate twice, and say what differs first if anything does.
     #[arg(long)]
     twice: bool,
+    /// Let happen what this file says, and check what it expects.
+    #[arg(long, value_name = "FILE")]
+    scenario: Option<PathBuf>,
+    /// Of the faults of the scenario, let only those with these numbers happen; `none`: no faults.
+    #[arg(long, value_name = "N,...", value_parser = ChosenFaults::parse, requires = "scenario")]
+    faults: Option<ChosenFaults>,
+    /// Simulate with each of these seeds, for example `1..500`, and list those that fail.
+    #[arg(long, value_name = "FIRST..LAST", value_parser = parse_seeds)]
+    #[arg(conflicts_with_all = ["seed", "twice", "output", "faults"])]
+    seeds: Option<RangeInclusive<u64>>,
+    /// How many simulations run at the same time, each on a processor of its own.
+    #[arg(long, value_name = "N", default_value = "1", requires = "seeds")]
+    jobs: NonZero<usize>,
     /// Let time pass no faster than this many times real time.
     #[arg(long, value_name = "FACTOR", value_parser = parse_speed)]
     speed: Option<f64>,
@@ -69,21 +91,21 @@ pub(crate) struct SimulateArguments {
     most_turns: u64,
 }
 
-/// Simulate a system in this process.
-#[derive(Args)]
-pub(crate) struct HereArguments {
-    /// The process that must be alive.
-    parent: u32,
-    /// The runtime folder of this simulation.
-    runtime_folder: PathBuf,
-    /// The file into which it is recorded.
-    #[arg(long)]
-    record_to: Option<PathBuf>,
-    /// Whether its programs are built already.
-    #[arg(long)]
-    built: bool,
-    #[command(flatten)]
-    arguments: SimulateArguments,
+/// Which faults of a scenario happen, by their numbers.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct ChosenFaults(Vec<usize>);
+
+impl ChosenFaults {
+    fn parse(text: &str) -> Result<Self, String> {
+        let numbers = if text == "none" { Vec::new() } else { text.split(',').collect() };
+        let numbers: Result<_, _> = numbers.iter().map(|number| number.trim().parse()).collect();
+        numbers.map(Self).map_err(|_| "expected numbers of faults such as `2,5`, or `none`".to_owned())
+    }
+
+    fn text(&self) -> String {
+        let numbers: Vec<String> = self.0.iter().map(usize::to_string).collect();
+        if numbers.is_empty() { "none".to_owned() } else { numbers.join(",") }
+    }
 }
 
 fn parse_speed(text: &str) -> Result<f64, String> {
@@ -91,30 +113,38 @@ fn parse_speed(text: &str) -> Result<f64, String> {
     speed.ok_or_else(|| "expected a number above 0, for example `1` or `0.5`".to_owned())
 }
 
-/// The body of `scl simulate`: a process of its own has the folder of the simulation as its runtime folder.
+fn parse_seeds(text: &str) -> Result<RangeInclusive<u64>, String> {
+    let (first, last) = text.split_once("..").unwrap_or((text, text));
+    match (first.parse(), last.parse()) {
+        (Ok(first), Ok(last)) if first <= last => Ok(first..=last),
+        _ => Err("expected the first and the last seed, for example `1..500`".to_owned()),
+    }
+}
+
+/// The body of `scl simulate`.
 pub(crate) fn simulate(arguments: &SimulateArguments) -> Result<ExitCode, Problem> {
     if let Some(output) = arguments.output.as_ref().filter(|output| output.exists()) {
         let problem = Problem::new(format!("`{}` exists already", output.display()));
         return Err(problem.help("delete it, or choose another name"));
     }
-    if arguments.twice {
-        return simulate_twice(arguments);
+    match &arguments.seeds {
+        Some(seeds) => seeds::simulate_seeds(seeds.clone(), arguments),
+        None if arguments.twice => simulate_twice(arguments),
+        None => Process { output: arguments.output.as_deref(), ..Process::default() }.run(),
     }
-    run_once(arguments.output.as_deref(), false)
 }
 
 /// Runs a simulation that is recorded, and a second one. The exit code is that of the first if both do the same.
 fn simulate_twice(arguments: &SimulateArguments) -> Result<ExitCode, Problem> {
-    let folder = tempfile::Builder::new().prefix("scl-").tempdir();
-    let folder = folder.map_err(|error| failed("create a folder for recordings", error))?;
+    let folder = process::folder()?;
     let first = arguments.output.clone().unwrap_or_else(|| folder.path().join("first.mcap"));
     let second = folder.path().join("second.mcap");
-    let code = run_once(Some(&first), false)?;
+    let code = Process { output: Some(&first), ..Process::default() }.run()?;
     if !first.exists() {
         return Ok(code);
     }
-    // Built by the first one.
-    run_once(Some(&second), true)?;
+    // Its programs were built for the first one.
+    Process { output: Some(&second), is_built: true, ..Process::default() }.run()?;
     match twice::difference(&first, &second)? {
         None => {
             print_err("scl: both simulations did the same\n");
@@ -125,65 +155,4 @@ fn simulate_twice(arguments: &SimulateArguments) -> Result<ExitCode, Problem> {
             Ok(ExitCode::FAILURE)
         }
     }
-}
-
-/// Runs one simulation with the arguments of this one.
-fn run_once(output: Option<&Path>, is_built: bool) -> Result<ExitCode, Problem> {
-    let folder = tempfile::Builder::new().prefix("scl-").tempdir();
-    let folder = folder.map_err(|error| failed("create a folder for the simulation", error))?;
-    let mut signals = Signals::new([SIGHUP, SIGINT, SIGTERM]).map_err(|error| failed("handle signals", error))?;
-    let mut command = Command::new("/proc/self/exe");
-    command.arg0("scl").arg(RUN_WORD).arg(std::process::id().to_string()).arg(folder.path());
-    command.args(output.iter().flat_map(|output| [OsStr::new("--record-to"), output.as_os_str()]));
-    command.args(is_built.then_some("--built")).args(std::env::args_os().skip(2));
-    // A group of its own, so that Ctrl-C reaches it only once.
-    let command = command.env("SCL_RUNTIME_DIR", folder.path()).process_group(0);
-    #[expect(clippy::disallowed_methods, reason = "it is waited for below")]
-    let mut process = command.spawn().map_err(|error| failed("start the simulation", error))?;
-    let simulation = Pid::from_child(&process);
-    let handle = signals.handle();
-    let passing_on = thread::spawn(move || {
-        for signal in signals.forever().filter_map(Signal::from_named_raw) {
-            // It may have just ended.
-            let _ended = kill_process(simulation, signal);
-        }
-    });
-    let ended = process.wait().map_err(|error| failed("wait for the simulation", error))?;
-    handle.close();
-    let _handled = passing_on.join();
-    let code = ended.code().and_then(|code| u8::try_from(code).ok());
-    code.map(ExitCode::from).ok_or_else(|| Problem::new(format!("the simulation was ended by {ended}")))
-}
-
-/// The body of `scl __simulate`.
-pub(crate) fn simulate_here(here: &HereArguments) -> Result<ExitCode, Vec<Problem>> {
-    let bound = set_parent_process_death_signal(Some(Signal::KILL));
-    bound.map_err(|error| vec![failed("prepare the simulation", error.into())])?;
-    if getppid().is_none_or(|current| current.as_raw_pid().cast_unsigned() != here.parent) {
-        return Ok(ExitCode::FAILURE);
-    }
-    let SimulateArguments { programs, until, seed, speed, patience, most_turns, .. } = &here.arguments;
-    let options = scl_simulate::Options { seed: *seed, speed: *speed, patience: *patience, most_turns: *most_turns };
-    let conductor = Conductor::new(options, &here.runtime_folder);
-    let mut conductor = conductor.map_err(|error| vec![failed("write the library", error)])?;
-    let programs = programs.options();
-    let no_build = programs.no_build || here.built;
-    let run = scl_run::Options { run_for: *until, grace: GRACE, no_build, ..programs };
-    let simulation = Simulation { conductor: &mut conductor, recording: here.record_to.clone() };
-    let all_ended_well = scl_run::simulate(&run, &component_names, simulation)?;
-    report(&conductor);
-    Ok(if all_ended_well { ExitCode::SUCCESS } else { ExitCode::FAILURE })
-}
-
-fn report(conductor: &Conductor) {
-    let (simulated, took) = (scl_run::Conductor::now(conductor).as_secs_f64(), conductor.took().as_secs_f64());
-    print_err(&format!(
-        "scl: simulated {simulated:.3} s in {took:.1} s, {:.1} times as fast as real time, with {} turns\n",
-        simulated / took,
-        conductor.turns()
-    ));
-}
-
-fn failed(what: &str, error: io::Error) -> Problem {
-    Problem::new(format!("cannot {what}: {error}"))
 }

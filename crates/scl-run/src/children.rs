@@ -12,10 +12,12 @@ use super::orphans;
 use super::output::Output;
 use super::plan::COMPONENT;
 use super::process_group;
+use super::streams::Streams;
 use super::terminal::{Loan, Terminal};
 use rustix::io::Errno;
 use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process_group, waitid};
 use std::io::{self, Read};
+use std::os::fd::OwnedFd;
 use std::os::unix::process::CommandExt;
 use std::process::{Child, Stdio};
 use std::sync::Arc;
@@ -53,7 +55,7 @@ pub(crate) struct Running {
 }
 
 impl Running {
-    /// Starts a program and the threads that watch it.
+    /// Starts a program and the threads that watch it. With `streams`, its output is read there.
     ///
     /// # Errors
     ///
@@ -64,6 +66,7 @@ impl Running {
         guard: &mut OrphanGuard,
         output: &Arc<Output>,
         events: &Sender<Event>,
+        streams: Option<&mut Streams>,
     ) -> io::Result<Self> {
         let Member { program, label, role, policy, messages, .. } = member;
         let Start { process: number, notify, terminal, kept, seat } = start;
@@ -96,14 +99,21 @@ impl Running {
         let loan = loan.transpose().inspect_err(|_| guard.forget(group))?;
         // Builds print to standard error: standard output carries only what the components print.
         let out_stream = if *role == Role::Build { LogStream::Stderr } else { LogStream::Stdout };
-        let (label, shown) = (*label, Arc::clone(output));
-        match messages.clone() {
-            // Ignore read errors: a missing program is reported when it is needed.
-            Some(messages) => watch_stream(number, out, events, move |out| _ = messages.read(out)),
-            None => watch_stream(number, out, events, move |out| shown.copy_lines(label, out_stream, out)),
+        let label = *label;
+        if let Some(streams) = streams {
+            let pipes = [(out.map(OwnedFd::from), out_stream), (err.map(OwnedFd::from), LogStream::Stderr)];
+            let mut pipes = pipes.into_iter().filter_map(|(pipe, kind)| Some((pipe?, kind)));
+            pipes.try_for_each(|(pipe, kind)| streams.add(number, label, kind, pipe))?;
+        } else {
+            let shown = Arc::clone(output);
+            match messages.clone() {
+                // Ignore read errors: a missing program is reported when it is needed.
+                Some(messages) => watch_stream(number, out, events, move |out| _ = messages.read(out)),
+                None => watch_stream(number, out, events, move |out| shown.copy_lines(label, out_stream, out)),
+            }
+            let shown = Arc::clone(output);
+            watch_stream(number, err, events, move |err| shown.copy_lines(label, LogStream::Stderr, err));
         }
-        let shown = Arc::clone(output);
-        watch_stream(number, err, events, move |err| shown.copy_lines(label, LogStream::Stderr, err));
         let datagrams = notify.map(|notify| notify.datagrams.clone());
         watch_end(number, group, family, loan, datagrams, events.clone());
         Ok(running)

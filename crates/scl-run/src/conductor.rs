@@ -31,6 +31,9 @@ pub trait Conductor: std::fmt::Debug {
 
     /// Notes that a program was sent a signal.
     fn signalled(&mut self, process: usize);
+
+    /// Notes that a program was killed.
+    fn killed(&mut self, process: usize);
 }
 
 /// Why a conductor gives no more turns at the moment.

@@ -42,6 +42,7 @@ mod run_state;
 mod seat;
 mod selection;
 mod sockets;
+mod streams;
 mod summary;
 mod supervisor;
 mod system_names;
@@ -56,7 +57,7 @@ pub use launch_file::{LAUNCH_RULES, explain_launch_rule};
 pub use log_file::{LogEntry, LogFolder, LogReader, LogStream};
 pub use orphan_guard::{GUARD_WORD, START_WORD, keep_watch, start_component};
 pub use placement::Placement;
-pub use plan::{ComponentNames, DeployedSystem, read_deployment};
+pub use plan::{ComponentNames, DeployedSystem, read_deployment, topology_of};
 pub use seat::SeatArgument;
 pub use system_names::{SystemNames, running_systems};
 pub use terminal::{KEYS_WORD, tell_keys};
@@ -103,6 +104,8 @@ pub struct Options {
     pub without: Vec<String>,
     /// Values of parameters, which win over all others; later ones win.
     pub set: Vec<Assignment>,
+    /// The components that a recording plays in place of their programs.
+    pub played: Option<Played>,
     /// Whether to build the cargo package with optimizations.
     pub release: bool,
     /// Whether to start the programs as they are, without building anything.
@@ -111,6 +114,15 @@ pub struct Options {
     pub run_for: Option<Duration>,
     /// How long components without a `stop_within` may take to stop before they are killed.
     pub grace: Duration,
+}
+
+/// Components that a recording plays.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Played {
+    /// The recording.
+    pub recording: PathBuf,
+    /// The components.
+    pub components: Vec<String>,
 }
 
 /// How a system is simulated.
@@ -130,7 +142,16 @@ pub struct Simulation<'c> {
 ///
 /// Every reason why the system could not be started.
 pub fn run(options: &Options, component_names: ComponentNames<'_>) -> Result<bool, Vec<Problem>> {
-    run_with(options, component_names, None)
+    Ok(run_with(options, component_names, None)?.well)
+}
+
+/// How a simulation has ended.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct SimulationEnd {
+    /// Whether no essential component has failed.
+    pub well: bool,
+    /// The components whose last program has ended by itself before the end, with its exit code.
+    pub exits: Vec<(String, i32)>,
 }
 
 /// Like [`run`], in simulated time, which begins once everything is built.
@@ -142,7 +163,7 @@ pub fn simulate(
     options: &Options,
     component_names: ComponentNames<'_>,
     simulation: Simulation<'_>,
-) -> Result<bool, Vec<Problem>> {
+) -> Result<SimulationEnd, Vec<Problem>> {
     run_with(options, component_names, Some(simulation))
 }
 
@@ -150,7 +171,7 @@ fn run_with(
     options: &Options,
     component_names: ComponentNames<'_>,
     simulation: Option<Simulation<'_>>,
-) -> Result<bool, Vec<Problem>> {
+) -> Result<SimulationEnd, Vec<Problem>> {
     let mut plan = plan::plan_run(options, component_names)?;
     already_running::check(&plan).map_err(|problem| vec![problem])?;
     plan.gateway.as_ref().map_or(Ok(()), gateway_program::check)?;
@@ -189,7 +210,7 @@ fn run_plan(
     options: &Options,
     surroundings: Surroundings<'_>,
     conductor: Option<&mut dyn Conductor>,
-) -> Result<bool, Vec<Problem>> {
+) -> Result<SimulationEnd, Vec<Problem>> {
     let failed = |message: &str, error: io::Error| vec![Problem::new(format!("cannot {message}: {error}"))];
     let (output, sender) = (surroundings.output, surroundings.sender.clone());
     orphans::adopt().map_err(|error| failed("take care of orphaned processes", error))?;
@@ -222,11 +243,12 @@ fn run_plan(
     let builds = if options.no_build { &[][..] } else { plan.builds.as_slice() };
     // Processes that a build leaves behind, such as a compiler's server, are not ended.
     let left_by_builds = orphans::adopted();
-    supervisor.follow_conductor(conductor);
+    supervisor.follow_conductor(conductor).map_err(|error| failed("watch the programs", error))?;
     let outcome = supervisor.run(&members, builds, options.run_for);
     orphans::kill_adopted(&left_by_builds);
     supervisor.broken().map_or(Ok(()), |problem| Err(vec![problem]))?;
-    Ok(!matches!(outcome, Outcome::Failed(_)))
+    let exits = supervisor.exits.iter().map(|(index, code)| (members[*index].name.to_owned(), *code)).collect();
+    Ok(SimulationEnd { well: !matches!(outcome, Outcome::Failed(_)), exits })
 }
 
 /// Runs the builds one after the other, and returns the programs that they report.

@@ -101,6 +101,16 @@ impl Output {
         }
     }
 
+    /// Shows the whole lines at the front of `text`, and removes them.
+    pub(crate) fn show_lines(&self, program: usize, stream: LogStream, text: &mut Vec<u8>) {
+        let Some(end) = text.iter().rposition(|byte| *byte == b'\n') else { return };
+        let prefix = format!("{} | ", self.painted_name(program, stream)).into_bytes();
+        for line in text[..=end].split_inclusive(|byte| *byte == b'\n') {
+            self.backlog(stream).add_line(program, stream, &[&prefix, line].concat());
+        }
+        text.drain(..=end);
+    }
+
     /// Reports on a program.
     pub(crate) fn report(&self, program: usize, text: &str) {
         let name = self.painted_name(program, LogStream::Stderr);

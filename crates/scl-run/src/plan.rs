@@ -7,7 +7,6 @@ mod parameters;
 
 pub use host::{DeployedSystem, read_deployment};
 
-use super::Options;
 use super::cargo::{Artifact, CargoRun};
 use super::component::Component;
 use super::deployment::Deployment;
@@ -18,10 +17,11 @@ use super::placement::Placement;
 use super::program::{Build, Program};
 use super::selection::Selection;
 use super::system_names::SystemNames;
+use super::{Options, Played};
 use parameters::Values;
 use scl_terminal::{Problem, print_err, quoted_list};
 use std::ffi::OsString;
-use std::path::{Path, PathBuf};
+use std::path::{Path, PathBuf, absolute};
 use std::time::Duration;
 
 const LAUNCH_FILE: &str = "launch.yaml";
@@ -118,6 +118,22 @@ impl RunPlan {
     }
 }
 
+/// Returns the topology file of a system's folder or a launch file, if there is one.
+///
+/// # Errors
+///
+/// Every reason why it cannot be found.
+pub fn topology_of(place: &Path) -> Result<Option<PathBuf>, Vec<Problem>> {
+    let (folder, launch_path) = find_folder(place).map_err(|problem| vec![problem])?;
+    if !launch_path.is_file() {
+        return Ok(Some(folder.join(TOPOLOGY_FILE)).filter(|path| path.is_file()));
+    }
+    let shown = launch_path.display().to_string();
+    let document = LaunchDocument::parse(&shown, &read_text(&launch_path)?);
+    document.check_text()?;
+    find_topology(&folder, &document).map_err(|problem| vec![problem])
+}
+
 /// The system's folder, and the path of its launch file, which need not exist.
 pub(crate) fn find_folder(place: &Path) -> Result<(PathBuf, PathBuf), Problem> {
     let folder = if place.is_file() { place.parent().unwrap_or(Path::new("")) } else { place };
@@ -160,6 +176,12 @@ fn plan_from_launch_file(
     let known = topology.as_deref().map(|topology| read_names(topology, component_names)).transpose()?;
     let launch = document.read_shown(known.as_ref())?;
     let mut components = launch.components_with(&options.profiles)?;
+    if let Some(played) = &options.played {
+        let recording = recording_of(played).map_err(|problem| vec![problem])?;
+        for component in components.iter_mut().filter(|it| played.components.contains(&it.name)) {
+            (component.source, component.build) = (Source::Replay(recording.clone()), None);
+        }
+    }
     let mut expected = known.as_ref().map_or_else(Vec::new, |names| names.components.clone());
     let values = Values::new(options, parameters::inherited()?.as_deref(), &components, known.as_ref())?;
     let host = host::choose(&launch, options, &shown).map_err(|problem| vec![problem])?;
@@ -324,6 +346,13 @@ fn environment_of_programs(launch: &LaunchFile) -> impl Iterator<Item = (String,
 /// is the running `scl`, too.
 fn replay_command(recording: &str, component: &str) -> Vec<OsString> {
     [THIS_PROGRAM, "replay", recording, "--as", component].map(OsString::from).to_vec()
+}
+
+/// The path of a recording, for a program that runs in another folder.
+fn recording_of(played: &Played) -> Result<String, Problem> {
+    let shown = played.recording.display();
+    let path = absolute(&played.recording).map_err(|error| Problem::new(format!("cannot use `{shown}`: {error}")))?;
+    path.into_os_string().into_string().map_err(|_| Problem::new(format!("the path `{shown}` is not UTF-8")))
 }
 
 fn settings_of(launch: &LaunchFile, component: &LaunchComponent) -> Settings {

@@ -1,4 +1,4 @@
-//! `--only` and `--without`: which components of the system are started here.
+//! `--only`, `--without` and `--as`: which components of the system are started here, and which are played.
 
 use super::Options;
 use scl_terminal::{Problem, quoted_list};
@@ -19,7 +19,8 @@ impl<'a> Selection<'a> {
     pub(crate) fn new(options: &'a Options, components: &[String], source: &str) -> Result<Self, Vec<Problem>> {
         let selection = Self { only: &options.only, without: &options.without };
         let names: Vec<&str> = components.iter().map(String::as_str).collect();
-        let chosen = [("--only", selection.only), ("--without", selection.without)];
+        let played = options.played.as_ref().map_or(&[][..], |played| &played.components);
+        let chosen = [("--only", selection.only), ("--without", selection.without), ("--as", played)];
         let asked = chosen.into_iter().flat_map(|(option, asked)| asked.iter().map(move |name| (option, name)));
         let unknown = asked.filter(|(_, name)| !names.contains(&name.as_str()));
         let problems: Vec<Problem> = unknown.map(|(option, name)| unknown_name(option, name, &names, source)).collect();

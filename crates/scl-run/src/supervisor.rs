@@ -40,11 +40,12 @@ use process::Process;
 use rustix::process::Signal;
 use scl_terminal::Problem;
 use simulated::Simulated;
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
+use std::io;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender};
 use std::time::{Duration, Instant};
-use texts::{end_text, stopped_by_terminal, wrong_program};
+use texts::{end_text, stopped_by_terminal, unusable, wrong_program};
 
 /// How the programs ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,6 +73,8 @@ pub(crate) struct Supervisor<'a, 'c> {
     guard: OrphanGuard,
     processes: Vec<Option<Process>>,
     next_process: usize,
+    /// The programs that have ended by themselves, with their exit codes.
+    pub(crate) exits: BTreeMap<usize, i32>,
     simulated: Option<Simulated<'c>>,
 }
 
@@ -88,12 +91,18 @@ struct Run<'r> {
 
 impl<'a, 'c> Supervisor<'a, 'c> {
     pub(crate) fn new(surroundings: Surroundings<'a>, guard: OrphanGuard, notify: Option<&'a NotifySocket>) -> Self {
-        Self { surroundings, notify, guard, processes: Vec::new(), next_process: 0, simulated: None }
+        let (processes, exits) = (Vec::new(), BTreeMap::new());
+        Self { surroundings, notify, guard, processes, next_process: 0, exits, simulated: None }
     }
 
     /// From now on, a run is one in the time of this conductor, if there is one.
-    pub(crate) fn follow_conductor(&mut self, conductor: Option<&'c mut dyn Conductor>) {
-        self.simulated = conductor.map(Simulated::new);
+    ///
+    /// # Errors
+    ///
+    /// If the operating system refuses what that takes.
+    pub(crate) fn follow_conductor(&mut self, conductor: Option<&'c mut dyn Conductor>) -> io::Result<()> {
+        self.simulated = conductor.map(Simulated::new).transpose()?;
+        Ok(())
     }
 
     /// Why the simulation could not go on, if it could not.
@@ -109,6 +118,7 @@ impl<'a, 'c> Supervisor<'a, 'c> {
         let clock = RunClock::start(Instant::now());
         let mut run = Run { members, builds, state, clock, requests: Requests::default(), said_ready: false };
         self.processes = members.iter().map(|_| None).collect();
+        self.exits.clear();
         self.apply(&mut run, RunEvent::Time);
         while !(self.is_broken() || run.state.is_over() && self.processes.iter().flatten().all(Process::is_silent)) {
             match self.next_event(&mut run) {
@@ -146,8 +156,14 @@ impl<'a, 'c> Supervisor<'a, 'c> {
 
     /// Waits for the next event. Returns `None` if something may be due before.
     fn next_event(&mut self, run: &mut Run<'_>) -> Option<Event> {
-        if let Some(simulated) = self.simulated.as_mut().filter(|_| !run.state.is_over()) {
-            return simulated.next_event(&self.surroundings.events, self.notify, run.state.due());
+        if let Some(simulated) = &mut self.simulated {
+            let Surroundings { output, events, .. } = &self.surroundings;
+            if !run.state.is_over() {
+                return simulated.next_event(events, output, self.notify, run.state.due());
+            }
+            if let Some(ended) = simulated.next_end_of_stream(output) {
+                return Some(ended);
+            }
         }
         let events = &self.surroundings.events;
         let now = Instant::now();
@@ -183,6 +199,10 @@ impl<'a, 'c> Supervisor<'a, 'c> {
                 process.ended = Some(Instant::now());
                 // Processes that a build left behind in its group are no longer needed.
                 process.running.signal(Signal::TERM);
+                match ending {
+                    Ending::Exited(code) if run.state.stopping.is_none() => _ = self.exits.insert(index, code),
+                    _ => _ = self.exits.remove(&index),
+                }
                 self.apply(run, RunEvent::One(index, Input::Exited(ending)));
             }
             Event::Notified { group, notice } => {
@@ -242,7 +262,7 @@ impl<'a, 'c> Supervisor<'a, 'c> {
             }
             Command::Stop => self.surroundings.output.announce(&format!("requested: `scl stop{chosen}`")),
             Command::Restart => {
-                if let Some(problem) = unusable(run, &received.request.components) {
+                if let Some(problem) = unusable(run.members, &received.request.components) {
                     return received.answer(&Response::error(problem));
                 }
                 self.surroundings.output.announce(&format!("requested: `scl restart{chosen}`"));
@@ -278,7 +298,7 @@ impl<'a, 'c> Supervisor<'a, 'c> {
                         signal => process.running.ask_to_end(signal),
                     };
                     if let Some(simulated) = &mut self.simulated {
-                        simulated.signalled(process.number);
+                        simulated.signalled(process.number, signal);
                     }
                     for process in stopped {
                         let text =
@@ -319,7 +339,8 @@ impl<'a, 'c> Supervisor<'a, 'c> {
         };
         let start = Start { process: number, notify, terminal, kept, seat };
         let Surroundings { output, sender, .. } = &self.surroundings;
-        let running = Running::start(member, start, &mut self.guard, output, sender)?;
+        let streams = self.simulated.as_mut().map(|simulated| &mut simulated.streams);
+        let running = Running::start(member, start, &mut self.guard, output, sender, streams)?;
         self.next_process += 1;
         self.processes[index] = Some(Process::new(number, running));
         Ok(())
@@ -374,12 +395,4 @@ impl Run<'_> {
         let lost = self.clock.look(now, waited);
         self.state.take_pause(lost);
     }
-}
-
-/// Returns why one of these components could not be started again. The restart is refused then, because its old process
-/// is better than none.
-fn unusable(run: &Run<'_>, components: &[String]) -> Option<String> {
-    let chosen = run.members.iter().filter(|member| components.iter().any(|name| name == member.name));
-    let mut checks = chosen.map(|member| member.program.check("program", &format!("component `{}`", member.name)));
-    checks.find_map(Result::err).map(|problem| problem.message().to_owned())
 }

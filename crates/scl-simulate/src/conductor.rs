@@ -1,12 +1,18 @@
 //! Gives the programs their turns, and moves the time.
 
+use crate::faults::Fault;
 use crate::participant::{Participant, Said};
+use crate::random::{Between, Random};
+use crate::scenario::Scenario;
 use crate::seed::seed_of;
 use crate::speed::Speed;
 use rustix::event::{Timespec, epoll};
 use rustix::io::Errno;
+use rustix::process::{Pid, Signal, kill_process};
+use rustix::thread::CpuSet;
 use scl_run::{Pause, Seat};
-use scl_terminal::Problem;
+use scl_terminal::{Problem, print_err};
+use std::collections::{HashMap, VecDeque};
 use std::fs;
 use std::io;
 use std::mem::MaybeUninit;
@@ -30,11 +36,13 @@ pub struct Options {
     pub patience: Duration,
     /// How many turns programs may have before time passes.
     pub most_turns: u64,
+    /// Which of the allowed processors all programs share, counted from the last.
+    pub processor: usize,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { seed: 0, speed: None, patience: Duration::from_secs(30), most_turns: 1_000_000 }
+        Self { seed: 0, speed: None, patience: Duration::from_secs(30), most_turns: 1_000_000, processor: 0 }
     }
 }
 
@@ -61,6 +69,12 @@ pub struct Conductor {
     turns_now: u64,
     /// When the first program was started.
     began: Option<Instant>,
+    /// How long components take to go on, and where that time comes from.
+    takes: HashMap<String, (Between, Random)>,
+    /// What is to go wrong.
+    faults: VecDeque<Fault>,
+    /// Processes that were killed. Nobody else has a turn before their ends: what others see of them comes in no order.
+    killed: VecDeque<usize>,
 }
 
 impl Conductor {
@@ -85,7 +99,21 @@ impl Conductor {
             turns: 0,
             turns_now: 0,
             began: None,
+            takes: HashMap::new(),
+            faults: VecDeque::new(),
+            killed: VecDeque::new(),
         })
+    }
+
+    /// Lets programs take as long as a scenario says, and these faults happen. Call it before the simulation.
+    pub fn follow(&mut self, scenario: &Scenario, faults: Vec<Fault>) {
+        debug_assert!(faults.is_sorted_by_key(|fault| fault.at), "they happen in this order");
+        let seed = self.options.seed;
+        let takes = scenario.takes.iter().map(|(component, between)| {
+            (component.clone(), (*between, Random::new(seed_of(seed, component, u64::MAX))))
+        });
+        self.takes = takes.collect();
+        self.faults = faults.into();
     }
 
     /// Returns how long the simulation has taken, in real time.
@@ -117,9 +145,42 @@ impl Conductor {
         Ok(())
     }
 
+    /// Lets those take their time for which something has just happened.
+    fn begin_to_go_on(&mut self) {
+        if self.takes.is_empty() {
+            return;
+        }
+        let now = self.now;
+        for it in self.participants.iter_mut().filter(|it| it.goes_on.is_none() && it.pid.is_some()) {
+            if it.is_woken(now)
+                && let Some((between, random)) = self.takes.get_mut(&it.component)
+            {
+                it.goes_on = Some(now + random.between(*between));
+            }
+        }
+    }
+
+    /// Lets the faults happen whose time has come.
+    fn let_happen(&mut self) {
+        while let Some(fault) = self.faults.pop_front_if(|fault| fault.at <= self.now) {
+            print_err(&format!("scl: {fault}\n"));
+            // Nothing happens to a component that does not run.
+            let Some(it) = self.participants.iter_mut().find(|it| it.component == fault.component) else { continue };
+            match fault.pause {
+                Some(pause) => it.paused_until = self.now + pause,
+                None => {
+                    let process = it.pid.and_then(|pid| Pid::from_raw(pid.cast_signed()));
+                    // It may have just ended.
+                    let _ended = process.map(|process| kill_process(process, Signal::KILL));
+                    self.killed.push_back(it.process);
+                }
+            }
+        }
+    }
+
     /// Returns the index of the program that has the next turn.
     fn next(&self) -> Option<usize> {
-        let wants = |it: &(usize, &Participant)| it.1.wants_a_turn(self.now);
+        let wants = |it: &(usize, &Participant)| it.1.next_turn(self.now).is_some_and(|next| next <= self.now);
         let all = || self.participants.iter().enumerate();
         let mut after = all().filter(|(_, it)| self.last.is_none_or(|last| it.process > last));
         after.find(wants).or_else(|| all().find(wants)).map(|(index, _)| index)
@@ -163,9 +224,10 @@ impl Conductor {
         Ok(None)
     }
 
-    /// When the first program has to go on, if no other makes it go on before.
+    /// When something happens next, if nothing else happens before.
     fn due(&self) -> Option<Duration> {
-        self.participants.iter().filter_map(|it| it.due).min()
+        let turns = self.participants.iter().filter_map(|it| it.next_turn(self.now));
+        turns.chain(self.faults.front().map(|fault| fault.at)).min()
     }
 
     fn pass_time(&mut self, next: Duration) {
@@ -191,7 +253,7 @@ impl scl_run::Conductor for Conductor {
     fn seat(&mut self, process: usize, component: &str) -> io::Result<Seat> {
         if self.began.is_none() {
             self.began = Some(Instant::now());
-            use_one_processor();
+            use_one_processor(self.options.processor);
         }
         let seed = seed_of(self.options.seed, component, process as u64);
         let (participant, inherited) = Participant::new(process, component, seed)?;
@@ -223,7 +285,15 @@ impl scl_run::Conductor for Conductor {
             if until.is_some_and(|until| until <= self.now) {
                 return Ok(Pause::Time);
             }
+            self.let_happen();
+            if let Some(killed) = self.killed.pop_front() {
+                // It does nothing more in its turn, which shows its end.
+                let index = self.participants.iter().position(|it| it.process == killed);
+                index.map_or(Ok(()), |index| self.give_turn(index))?;
+                continue;
+            }
             self.look(Duration::ZERO)?;
+            self.begin_to_go_on();
             if let Some(index) = self.next() {
                 self.give_turn(index)?;
                 continue;
@@ -238,6 +308,10 @@ impl scl_run::Conductor for Conductor {
         }
     }
 
+    fn killed(&mut self, process: usize) {
+        self.killed.push_back(process);
+    }
+
     fn signalled(&mut self, process: usize) {
         if let Some(it) = self.participants.iter_mut().find(|it| it.process == process) {
             it.is_signalled = true;
@@ -246,11 +320,12 @@ impl scl_run::Conductor for Conductor {
 }
 
 /// Each turn would otherwise wake another processor, which takes twice as long.
-fn use_one_processor() {
+fn use_one_processor(number: usize) {
     let Ok(allowed) = rustix::thread::sched_getaffinity(None) else { return };
-    let Some(last) = (0..rustix::thread::CpuSet::MAX_CPU).rev().find(|cpu| allowed.is_set(*cpu)) else { return };
-    let mut one = rustix::thread::CpuSet::new();
-    one.set(last);
+    let allowed: Vec<usize> = (0..CpuSet::MAX_CPU).rev().filter(|cpu| allowed.is_set(*cpu)).collect();
+    let Some(chosen) = allowed.get(number % allowed.len().max(1)) else { return };
+    let mut one = CpuSet::new();
+    one.set(*chosen);
     // Only the speed depends on it.
     let _slower = rustix::thread::sched_setaffinity(None, &one);
 }

@@ -12,8 +12,19 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod conductor;
+mod faults;
 mod participant;
+mod random;
+mod scenario;
 mod seed;
 mod speed;
 
 pub use conductor::{Conductor, Options};
+pub use faults::Fault;
+pub use random::Between;
+pub use scenario::{Expectation, Expected, Failure, Scenario, unmet};
+
+use std::time::Duration;
+
+/// What the clocks show at the start of a simulation, since 1970: the first day of 2026. The library repeats it.
+pub const START: Duration = Duration::from_secs(1_767_225_600);

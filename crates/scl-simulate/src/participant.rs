@@ -34,6 +34,10 @@ pub(crate) struct Participant {
     pub(crate) is_ready: bool,
     /// Whether it was sent a signal since its last turn.
     pub(crate) is_signalled: bool,
+    /// When it goes on, if that takes a while after something has happened.
+    pub(crate) goes_on: Option<Duration>,
+    /// Up to when it does not run.
+    pub(crate) paused_until: Duration,
     /// Number of its turns since time has last passed.
     pub(crate) turns: u64,
 }
@@ -78,14 +82,22 @@ impl Participant {
             due: Some(Duration::ZERO),
             is_ready: false,
             is_signalled: false,
+            goes_on: None,
+            paused_until: Duration::ZERO,
             turns: 0,
         };
         Ok((participant, inherited))
     }
 
-    /// Returns true if it may go on at this time.
-    pub(crate) fn wants_a_turn(&self, now: Duration) -> bool {
+    /// Returns true if something that it waits for has happened.
+    pub(crate) fn is_woken(&self, now: Duration) -> bool {
         self.is_ready || self.is_signalled || self.due.is_some_and(|due| due <= now)
+    }
+
+    /// Returns when it has its next turn, if nothing else happens.
+    pub(crate) fn next_turn(&self, now: Duration) -> Option<Duration> {
+        let woken = if self.is_ready || self.is_signalled { Some(now) } else { self.due };
+        woken.map(|woken| woken.max(self.goes_on.unwrap_or(woken)).max(self.paused_until))
     }
 
     /// Lets the program run from `now` on. If it has ended, it is found when it is listened to.
@@ -94,7 +106,7 @@ impl Participant {
         message[..8].copy_from_slice(&nanoseconds(now).to_ne_bytes());
         message[8..16].copy_from_slice(&self.seed.to_ne_bytes());
         message[16..].copy_from_slice(&u64::from(self.is_signalled).to_ne_bytes());
-        (self.is_ready, self.is_signalled, self.turns) = (false, false, self.turns + 1);
+        (self.is_ready, self.is_signalled, self.goes_on, self.turns) = (false, false, None, self.turns + 1);
         // A short message always fits into an empty socket.
         let _ended = send(&self.connection, &message, SendFlags::NOSIGNAL);
     }

@@ -170,9 +170,13 @@ fn everything_is_the_same_in_each_run_whatever_the_machine_does() {
     let ((idle, first), (busy, second)) = (run(false), run(true));
     // The launch file with its folder is a part of the recording.
     assert!(first == second, "the recordings differ");
-    let (idle_out, busy_out) = (text(&idle.stdout), text(&busy.stdout));
-    let logged = lines_of(&idle_out, "logger");
-    assert_eq!(logged, lines_of(&busy_out, "logger"));
+    // Also in the order in which different programs print. The recorder prints where its file is.
+    let by_components = |output: &Output| -> Vec<String> {
+        text(&output.stdout).lines().filter(|line| !line.starts_with("recorder")).map(str::to_owned).collect()
+    };
+    assert!(by_components(&idle) == by_components(&busy), "they print something else, or in another order");
+    let printed = text(&idle.stdout);
+    let logged = lines_of(&printed, "logger");
     // The sensor sends for 2 s, 200 values, and is started again after 100 ms, 200 ms, and so on.
     assert!(logged.len() > 1000, "{}", logged.len());
     assert!(logged.iter().any(|line| line.contains("[\"14\"]")), "{logged:?}");
@@ -206,4 +210,30 @@ fn twice_names_what_depends_on_something_else() {
     let expected = "error: two simulations with the same seed differ, first 0.000000 s after the first message, at `sensor.values`: message 1 has ";
     assert!(err.contains(expected), "{err}");
     assert_eq!(output.status.code(), Some(1), "{err}");
+}
+
+#[test]
+fn a_recorded_component_is_played_and_the_others_do_the_same_each_time() {
+    if play() {
+        return;
+    }
+    let test = "simulate::components::a_recorded_component_is_played_and_the_others_do_the_same_each_time";
+    let system = system(test, &["sensor", "controller", "logger"]);
+    let run = |arguments: &[&str]| {
+        let output = simulate(&system, &[&["--until", "3s"], arguments].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    };
+    run(&["-o", "flight.mcap"]);
+    for output in ["first.mcap", "second.mcap"] {
+        run(&["--replay", "flight.mcap", "--as", "sensor", "-o", output]);
+    }
+    assert!(fs::read(system.path("first.mcap")).unwrap() == fs::read(system.path("second.mcap")).unwrap());
+    let compared = system.scl(&["compare", "flight.mcap", "first.mcap", "--gate", "sensor.values"]).output().unwrap();
+    // The recorder may find the player after its first message.
+    let report = text(&compared.stdout);
+    assert!(report.starts_with("sensor.values: 0 of 2"), "{report}");
+
+    let output = simulate(&system, &["--replay", "flight.mcap", "--as", "sensr"]);
+    assert!(text(&output.stderr).contains("unknown component `sensr` in `--as`"), "{}", text(&output.stderr));
+    assert_eq!(output.status.code(), Some(2));
 }

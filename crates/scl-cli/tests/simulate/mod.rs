@@ -2,6 +2,7 @@
 
 mod components;
 mod mistakes;
+mod scenarios;
 
 use crate::system::System;
 use expect_test::{ExpectFile, expect_file};

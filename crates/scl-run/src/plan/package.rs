@@ -10,9 +10,10 @@ use super::super::program::{Build, Program};
 use super::super::selection::Selection;
 use super::parameters::{self, Values};
 use super::{COMPONENT, RunPlan, SystemNames, TOPOLOGY_FILE, named_after_file, system_of_environment};
+use super::{recording_of, replay_command};
 use scl_terminal::Problem;
 use std::ffi::OsString;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Plans the build of the package and, for each component, the program with its name or with the name of its kind.
 ///
@@ -58,8 +59,20 @@ pub(super) fn plan_from_package(folder: &Path, names: SystemNames, options: &Opt
         system: system.clone(),
         named_after: named_after_file(&folder.join(TOPOLOGY_FILE), &names),
         builds: vec![Build { components: Vec::new(), program: program(build), cargo_choices: Some(Vec::new()) }],
-        components: started.iter().map(plan).collect(),
+        components: play(started.iter().map(plan).collect(), options)?,
         gateway: None,
         recorder: None,
     })
+}
+
+/// Replaces the programs of components that a recording plays.
+fn play(mut components: Vec<Component>, options: &Options) -> Result<Vec<Component>, Vec<Problem>> {
+    let Some(played) = &options.played else { return Ok(components) };
+    let recording = recording_of(played).map_err(|problem| vec![problem])?;
+    for component in components.iter_mut().filter(|it| played.components.contains(&it.name)) {
+        component.program.command = replay_command(&recording, &component.name);
+        component.recording = Some(PathBuf::from(&recording));
+        component.made_by_cargo = None;
+    }
+    Ok(components)
 }

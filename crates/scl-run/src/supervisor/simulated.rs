@@ -3,7 +3,10 @@
 use super::super::conductor::{Conductor, Pause, Seat};
 use super::super::event::Event;
 use super::super::notify::NotifySocket;
+use super::super::output::Output;
 use super::super::restarts::Time;
+use super::super::streams::Streams;
+use rustix::process::Signal;
 use scl_terminal::Problem;
 use std::collections::{HashSet, VecDeque};
 use std::io;
@@ -17,6 +20,8 @@ pub(super) struct Simulated<'a> {
     seated: HashSet<usize>,
     /// Their ends, which threads have seen before the conductor has.
     ends: Vec<Event>,
+    /// What the programs print.
+    pub(super) streams: Streams,
     /// Other events that have arrived and were not handled yet.
     pending: VecDeque<Event>,
     /// Why the simulation could not go on.
@@ -24,8 +29,9 @@ pub(super) struct Simulated<'a> {
 }
 
 impl<'a> Simulated<'a> {
-    pub(super) fn new(conductor: &'a mut dyn Conductor) -> Self {
-        Self { conductor, seated: HashSet::new(), ends: Vec::new(), pending: VecDeque::new(), broken: None }
+    pub(super) fn new(conductor: &'a mut dyn Conductor) -> io::Result<Self> {
+        let (seated, ends, pending) = (HashSet::new(), Vec::new(), VecDeque::new());
+        Ok(Self { conductor, seated, ends, streams: Streams::new()?, pending, broken: None })
     }
 
     pub(super) fn now(&self) -> Time {
@@ -37,14 +43,18 @@ impl<'a> Simulated<'a> {
         self.conductor.seat(process, component)
     }
 
-    pub(super) fn signalled(&mut self, process: usize) {
-        self.conductor.signalled(process);
+    pub(super) fn signalled(&mut self, process: usize, signal: Signal) {
+        match signal {
+            Signal::KILL => self.conductor.killed(process),
+            _ => self.conductor.signalled(process),
+        }
     }
 
     /// Lets the programs run until something happens. Returns `None` at `due`, or if the simulation cannot go on.
     pub(super) fn next_event(
         &mut self,
         events: &Receiver<Event>,
+        output: &Output,
         notify: Option<&NotifySocket>,
         due: Option<Time>,
     ) -> Option<Event> {
@@ -52,10 +62,11 @@ impl<'a> Simulated<'a> {
             if let Some(event) = self.pending.pop_front() {
                 return Some(event);
             }
-            let Self { conductor, seated, ends, pending, .. } = self;
+            let Self { conductor, seated, ends, streams, pending, .. } = self;
             let mut has_arrived = || {
                 // What a program has said in its turn counts at the end of the turn, not when a thread has read it.
                 let _ = notify.map(|notify| notify.datagrams.take());
+                streams.read(output, |ended| pending.push_back(ended));
                 events.try_iter().for_each(|event| keep(event, seated, ends, pending));
                 !pending.is_empty()
             };
@@ -69,6 +80,13 @@ impl<'a> Simulated<'a> {
                 }
             }
         }
+    }
+
+    /// What programs that have ended have printed is shown. Returns a stream that has ended, if one has.
+    pub(super) fn next_end_of_stream(&mut self, output: &Output) -> Option<Event> {
+        let Self { streams, pending, .. } = self;
+        streams.read(output, |ended| pending.push_back(ended));
+        pending.pop_front()
     }
 
     /// Waits until the thread that watches a process has seen its end, too: it counts from now on, in each run.

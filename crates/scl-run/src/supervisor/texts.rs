@@ -40,3 +40,11 @@ pub(super) fn end_text(role: Role, ending: Ending, after: Duration) -> String {
         (Role::Build, _) => format!("build {ending} after {after:.1} s"),
     }
 }
+
+/// Returns why one of these components could not be started again. The restart is refused then, because its old process
+/// is better than none.
+pub(super) fn unusable(members: &[Member<'_>], components: &[String]) -> Option<String> {
+    let chosen = members.iter().filter(|member| components.iter().any(|name| name == member.name));
+    let mut checks = chosen.map(|member| member.program.check("program", &format!("component `{}`", member.name)));
+    checks.find_map(Result::err).map(|problem| problem.message().to_owned())
+}

@@ -1,10 +1,8 @@
-//! A flight of `examples/arcade` as real processes: `scl run` flies, `scl record` records, `scl echo` tells where it
-//! is.
+//! A flight of `examples/arcade` in real time: `scl run` flies, `scl record` records, `scl echo` tells that it flies.
 
 use super::recording::Recording;
 use crate::system::{ChildGuard, SpawnGuarded, System, kill};
 use crate::{built, example};
-use scl_tests::wait_until;
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::io::{BufRead, BufReader, Read};
@@ -37,17 +35,8 @@ pub(super) struct Flight {
 pub(super) enum Event {
     /// A line of `scl run`, on standard output or standard error.
     Line(String),
-    /// What the autopilot says of its flight.
-    Position(Position),
-}
-
-/// Where the autopilot believes to be.
-pub(super) struct Position {
-    pub(super) time_us: u64,
-    pub(super) mode: String,
-    pub(super) command_id: u64,
-    /// To the target, in metres.
-    pub(super) distance: f64,
+    /// The autopilot flies, at this time of the vehicle's clock, in seconds.
+    Flies(f64),
 }
 
 /// A flight that is over.
@@ -81,7 +70,7 @@ impl Flight {
         while !is_ready(&flight.next_within(BUILD_LIMIT)) {}
         let echo = ["echo", "autopilot.flight", "--system", "arcade", "--format", "json"];
         let mut echo = flight.command(&echo).stdout(Stdio::piped()).stderr(Stdio::null()).spawn_guarded();
-        send_lines(echo.stdout.take().unwrap(), &sender, |line| Event::Position(Position::parse(&line)));
+        send_lines(echo.stdout.take().unwrap(), &sender, |line| Event::Flies(time_of(&line)));
         flight.others.push(echo);
         flight
     }
@@ -109,48 +98,23 @@ impl Flight {
                 writeln!(self.log, "{line}").unwrap();
                 assert!(!line.contains("not restarted:"), "{}", self.log);
             }
-            Event::Position(position) => {
-                let seconds = position.time_us as f64 / 1e6;
-                assert!(seconds < LONGEST_FLIGHT, "still in the air after {seconds} s\n{}", self.log);
+            Event::Flies(seconds) => {
+                assert!(*seconds < LONGEST_FLIGHT, "still in the air after {seconds} s\n{}", self.log);
             }
         }
         event
     }
 
     /// Flies until the mission has ended, and returns how: `ended with exit code 0`.
-    pub(super) fn fly(&mut self, mut on_the_way: impl FnMut(&Self, &Position)) -> String {
+    pub(super) fn fly(&mut self) -> String {
         loop {
-            match self.next() {
-                Event::Position(position) => on_the_way(self, &position),
-                Event::Line(line) => {
-                    // The lines of its program begin with `uav_mission       | `.
-                    let words = line.strip_prefix("uav_mission").map(str::trim_start);
-                    if let Some(ending) = words.filter(|words| words.starts_with("ended with exit code")) {
-                        return ending.rsplit_once(" after").unwrap().0.to_owned();
-                    }
-                }
+            let Event::Line(line) = self.next() else { continue };
+            // The lines of its program begin with `uav_mission       | `.
+            let words = line.strip_prefix("uav_mission").map(str::trim_start);
+            if let Some(ending) = words.filter(|words| words.starts_with("ended with exit code")) {
+                return ending.rsplit_once(" after").unwrap().0.to_owned();
             }
         }
-    }
-
-    /// Flies until the vehicle stands on the ground.
-    pub(super) fn land(&mut self) {
-        while !matches!(self.next(), Event::Position(position) if position.mode == "MODE_GROUNDED") {}
-    }
-
-    /// The process of a component that runs.
-    pub(super) fn process_id(&self, component: &str) -> Option<u64> {
-        let output = self.command(&["list", "--system", "arcade", "--format", "json"]).output().unwrap();
-        let list: Value = serde_json::from_slice(&output.stdout).unwrap();
-        let is_it = |it: &&Value| it["name"] == component && it["state"] == "running";
-        list["components"].as_array().unwrap().iter().find(is_it)?["pid"].as_u64()
-    }
-
-    /// Kills a component, and waits until another process has taken its place.
-    pub(super) fn kill(&self, component: &str) {
-        let first = self.process_id(component).unwrap_or_else(|| panic!("`{component}` is not running\n{}", self.log));
-        kill("-KILL", first.try_into().unwrap());
-        wait_until(&format!("`{component}` runs again"), || self.process_id(component).is_some_and(|it| it != first));
     }
 
     /// Presses Ctrl-C, and reads what was recorded.
@@ -175,25 +139,14 @@ impl Flight {
     }
 }
 
-impl Position {
-    fn parse(line: &str) -> Self {
-        let echoed: Value = serde_json::from_str(line).unwrap();
-        let message = &echoed["message"];
-        let integer = |name: &str| match &message[name] {
-            Value::String(digits) => digits.parse().unwrap(),
-            number => number.as_u64().unwrap(),
-        };
-        let difference = |axis: &str| {
-            let coordinate = |name: &str| message[name][axis].as_f64().unwrap_or_default();
-            coordinate("target") - coordinate("position")
-        };
-        Self {
-            time_us: integer("time_us"),
-            mode: message["mode"].as_str().unwrap().to_owned(),
-            command_id: integer("command_id"),
-            distance: ["x", "y", "z"].map(|axis| difference(axis).powi(2)).iter().sum::<f64>().sqrt(),
-        }
-    }
+/// The vehicle's clock in a line of `scl echo autopilot.flight`.
+fn time_of(line: &str) -> f64 {
+    let echoed: Value = serde_json::from_str(line).unwrap();
+    let time_us = match &echoed["message"]["time_us"] {
+        Value::String(digits) => digits.parse().unwrap(),
+        number => number.as_f64().unwrap(),
+    };
+    time_us / 1e6
 }
 
 /// A folder for a system that does not run yet, but can be recorded: `scl record` wants the system's runtime folder.

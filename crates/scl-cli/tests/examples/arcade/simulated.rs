@@ -1,0 +1,76 @@
+//! Flights in simulated time.
+
+use super::flight::Flown;
+use super::recording::Recording;
+use super::write_json;
+use crate::aircraft::arcade::{Arbitration, Authority};
+use crate::lock_machine;
+use crate::simulated::simulate;
+use serde_json::json;
+
+/// The parts of Figure 6 except the world itself, each killed once.
+const KILLS: [&str; 8] = [
+    "configuration",
+    "blackbox",
+    "gps_sensor",
+    "power_management",
+    "autopilot",
+    "uav_mission",
+    "mission_arbiter",
+    "communication",
+];
+
+/// The same from its first message to its last, although nothing about the machine is.
+#[test]
+fn a_flight_through_random_kills_is_repeated_to_the_last_bit() {
+    let _machine = lock_machine();
+    let scenario = "until: 25s\nfaults: [{every: 3s..8s, kill: any, except: [simulator, uav_mission]}]\n";
+    let recordings = ["first", "second"].map(|name| {
+        let flown = simulate("arcade", name, &["--seed", "5"], scenario);
+        assert!(flown.log.contains("is killed"), "{}", flown.log);
+        std::fs::read(flown.file).unwrap()
+    });
+    assert!(recordings[0] == recordings[1], "the recordings differ");
+}
+
+#[test]
+fn every_part_is_killed_once_and_the_flight_goes_on() {
+    let _machine = lock_machine();
+    let kill = |(component, at): (&str, usize)| format!("  - {{at: {at}s, kill: {component}}}\n");
+    let faults: String = KILLS.into_iter().zip((8..).step_by(5)).map(kill).collect();
+    let scenario = format!("until: 90s\nfaults:\n{faults}expect: [{{exit: uav_mission, code: 0}}]\n");
+    let flown = fly("kills", &[], &scenario);
+    flown.check("survey.yaml");
+    for component in KILLS {
+        let line = format!("`{component}` was restarted once; last reason: killed by signal 9 (SIGKILL)");
+        assert!(flown.log.contains(&line), "{component}\n{}", flown.log);
+    }
+    let pauses = flown.recording.check_beats(1);
+    println!("readings without a beat while the autopilot was started again: {}", pauses[0]);
+    assert_eq!(flown.recording.flight.last().unwrap().restarts, 1);
+    let kills = KILLS.into_iter().zip((8..).step_by(5));
+    let kills = kills.map(|(component, at)| json!({"component": component, "time_us": at * 1_000_000_u64}));
+    write_json("kills", &kills.collect());
+}
+
+#[test]
+fn with_little_charge_the_arbiter_brings_the_aircraft_home() {
+    let _machine = lock_machine();
+    let scenario = "until: 90s\nexpect: [{exit: uav_mission, code: 1}]\n";
+    let flown = fly("low-battery", &["--profile", "low-battery"], scenario);
+    flown.recording.check_landing();
+    flown.recording.check_attitude();
+    flown.recording.check_beats(0);
+    let is_safety = |arbitration: &&Arbitration| arbitration.authority() == Authority::Safety;
+    let decided = flown.recording.arbitration.iter().find(is_safety);
+    assert!(decided.is_some_and(|it| it.reason.starts_with("low power")), "{decided:?}\n{}", flown.log);
+    // The mission has failed, but nothing else.
+    assert!(flown.log.contains("scl: non-essential component `uav_mission` failed"), "{}", flown.log);
+    assert_eq!(flown.code, Some(0), "{}", flown.log);
+}
+
+/// Flies in simulated time, with more arguments of `scl simulate`, through a scenario. The recording gets this name.
+fn fly(name: &str, arguments: &[&str], scenario: &str) -> Flown {
+    let flown = simulate("arcade", name, arguments, scenario);
+    Flown { recording: Recording::read(&flown.file), log: flown.log, code: flown.code }
+}

@@ -1,0 +1,160 @@
+//! Scenarios: faults, and what must hold all the same.
+
+use super::{errors, simulate, text};
+use crate::system::System;
+use scl::bytes::Bytes;
+use scl::plan::SystemPlan;
+use scl::untyped::Component;
+use std::thread;
+use std::time::{Duration, SystemTime};
+
+const TOPOLOGY: &str = "\
+system: tank
+components:
+  - name: pump
+    gates:
+      - level: {pub: crate.Level, codec: json}
+  - name: valve
+    gates:
+      - level: {sub: crate.Level, codec: json}
+  - name: display
+    gates:
+      - level: {sub: crate.Level, codec: json}
+connections:
+  - [pump.level, valve.level]
+  - [pump.level, display.level]
+";
+
+/// Names the program that a process is.
+const PLAYS: &str = "SCL_TEST_SCENARIO_PLAYS";
+/// The start of a simulation, in seconds since 1970.
+const START: u64 = 1_767_225_600;
+const TICK: Duration = Duration::from_millis(100);
+
+fn system(test: &str, scenario: &str) -> System {
+    let program = std::env::current_exe().unwrap();
+    let command = format!("[{program:?}, --exact, {test}, --nocapture, --test-threads, 2]");
+    let entry = |name: &&str| {
+        format!(
+            "  {name}: {{command: {command}, environment: {{{PLAYS}: {name}}}, restart: on_failure, \
+             restart_delay: 100ms..1s, restart_limit: 100 in 1h}}\n"
+        )
+    };
+    let launch = format!("components:\n{}", ["pump", "valve", "display"].iter().map(entry).collect::<String>());
+    let files = [("topology.yaml", TOPOLOGY), ("launch.yaml", &launch), ("rough.yaml", scenario)];
+    let system = System::of_files(&files);
+    let plan = system.scl(&["plan"]).output().unwrap();
+    assert!(plan.status.success(), "{}", text(&plan.stderr));
+    system.write("plan.json", &text(&plan.stdout));
+    system
+}
+
+/// Plays the component that the environment names, or returns false.
+fn play() -> bool {
+    let Ok(name) = std::env::var(PLAYS) else { return false };
+    let plan = SystemPlan::from_json(&std::fs::read_to_string("plan.json").unwrap()).unwrap();
+    let mut component = Component::open_blocking(plan.component(&name).unwrap()).unwrap();
+    if name != "pump" {
+        let mut level = component.subscriber("level").unwrap();
+        while level.recv_blocking().is_ok() {}
+        return true;
+    }
+    let mut gate = component.publisher("level").unwrap();
+    // The defect: a pump that is started again begins with an empty tank.
+    let mut level = 0.0;
+    loop {
+        thread::sleep(TICK);
+        level += TICK.as_secs_f64();
+        let since = SystemTime::UNIX_EPOCH.elapsed().unwrap() - Duration::from_secs(START);
+        let error = since.as_secs_f64() - level;
+        let message = format!("{{\"level\":{level:.1},\"error\":{error:.3}}}");
+        if gate.send_blocking(&Bytes::from(message)).is_err() {
+            return true;
+        }
+    }
+}
+
+#[test]
+fn a_defect_that_a_fault_shows_is_found_and_shrunk_to_that_fault() {
+    if play() {
+        return;
+    }
+    let test = "simulate::scenarios::a_defect_that_a_fault_shows_is_found_and_shrunk_to_that_fault";
+    let scenario = "\
+until: 30s
+takes: {valve: 1ms..3ms}
+faults:
+  - {every: 4s..20s, from: 5s, kill: any}
+  - {at: 9s, pause: display, for: 2s}
+expect:
+  - {always: pump.level, where: 'error < 2'}
+  - {eventually: pump.level, where: 'level > 1'}
+";
+    let system = system(test, scenario);
+    let output = simulate(&system, &["--scenario", "rough.yaml", "--seeds", "1..8", "--jobs", "2"]);
+    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(1), "{out}{err}");
+    // With the same seeds, the same happens in each release of SCL.
+    let commands: Vec<&str> = out.lines().filter(|line| line.starts_with("seed ")).collect();
+    assert!((1..8).contains(&commands.len()), "{out}{err}");
+    assert!(err.ends_with(&format!("scl: 8 seeds, {} failed\n", commands.len())), "{err}");
+    let kills = out.lines().filter(|line| line.ends_with("s: `pump` is killed")).count();
+    assert_eq!(kills, commands.len(), "each is shrunk to one fault: {out}");
+
+    // The command that it tells repeats it.
+    let arguments: Vec<&str> = commands[0].split('`').nth(1).unwrap().split(' ').collect();
+    let again = simulate(&system, &[&["--scenario", "rough.yaml"][..], &arguments].concat());
+    let err = text(&again.stderr);
+    assert_eq!(again.status.code(), Some(1), "{err}");
+    assert!(err.contains("error: `pump.level` does not always meet its condition\n --> rough.yaml:7:5\n"), "{err}");
+    assert!(err.contains("  = note: at "), "{err}");
+    assert!(err.contains("`pump` is killed\n"), "{err}");
+    assert!(err.contains("pump      killed by signal 9 (SIGKILL) after "), "{err}");
+    let without = simulate(&system, &["--scenario", "rough.yaml", arguments[0], arguments[1], "--faults", "none"]);
+    assert_eq!(without.status.code(), Some(0), "{}", text(&without.stderr));
+}
+
+#[test]
+fn what_does_not_happen_is_told() {
+    if play() {
+        return;
+    }
+    let test = "simulate::scenarios::what_does_not_happen_is_told";
+    let scenario = "\
+until: 5s
+faults:
+  - {at: 2s, pause: pump, for: 1s}
+expect:
+  - {eventually: pump.level, where: 'level > 1', by: 500ms}
+  - {exit: pump, code: 0}
+  - {always: pump.level, where: 'error < 0.5'}
+";
+    let system = system(test, scenario);
+    let output = simulate(&system, &["--scenario", "rough.yaml"]);
+    let err = errors(&output);
+    assert_eq!(output.status.code(), Some(1), "{err}");
+    assert!(err.contains("error: `pump.level` has not met its condition by 500ms\n --> rough.yaml:5:5\n"), "{err}");
+    assert!(err.contains("error: `pump` has not ended with exit code 0\n --> rough.yaml:6:5\n"), "{err}");
+    assert!(err.contains("  = note: it has not ended by itself\n"), "{err}");
+    assert!(err.contains("error: `pump.level` does not always meet its condition\n --> rough.yaml:7:5\n"), "{err}");
+    assert!(err.contains("scl: fault 1, at 2.000000 s: `pump` does not run for 1.000000 s\n"), "{err}");
+}
+
+#[test]
+fn a_scenario_with_mistakes_starts_nothing() {
+    let test = "simulate::scenarios::a_scenario_with_mistakes_starts_nothing";
+    let system = system(test, "until: 5s\nfaults:\n  - {at: 1s, kill: pumb}\n  - {at: 1, kill: pump}\n");
+    for (arguments, expected) in [
+        (&["--scenario", "rough.yaml"][..], &["unknown component `pumb`", "rough.yaml:3:20", "rough.yaml:4:10"][..]),
+        (&["--scenario", "missing.yaml"], &["cannot read the scenario: No such file"]),
+        (&["--scenario", "rough.yaml", "--faults", "x"], &["expected numbers of faults such as `2,5`, or `none`"]),
+        (&["--seeds", "5..1"], &["expected the first and the last seed, for example `1..500`"]),
+        (&["--seeds", "1..2", "--seed", "7"], &["cannot be used with"]),
+    ] {
+        let output = simulate(&system, arguments);
+        let err = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{err}");
+        expected.iter().for_each(|expected| assert!(err.contains(expected), "{err}"));
+        assert_eq!(text(&output.stdout), "");
+    }
+}

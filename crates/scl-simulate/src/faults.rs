@@ -1,0 +1,150 @@
+//! The faults of a scenario, each with its time and its component.
+
+use crate::random::{Between, Random};
+use crate::seed::seed_of;
+use std::fmt;
+use std::time::Duration;
+
+/// A fault as a scenario describes it: it may happen often, to one of several components.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FaultRule {
+    pub(crate) when: When,
+    pub(crate) what: What,
+    pub(crate) whom: Whom,
+}
+
+/// When faults happen.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum When {
+    /// Once.
+    At(Between),
+    /// Again and again, first after such a time.
+    Every { between: Between, from: Duration },
+}
+
+/// What happens.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum What {
+    /// The process is killed.
+    Kill,
+    /// The process does not run for a while.
+    Pause(Between),
+}
+
+/// To which components it happens.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Whom {
+    /// To each of them at the same time.
+    Each(Vec<String>),
+    /// To one of them.
+    Any(Vec<String>),
+}
+
+/// A fault that happens once, to one component.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// Its number in the simulation, from 1.
+    pub number: usize,
+    /// When it happens.
+    pub at: Duration,
+    /// To which component.
+    pub component: String,
+    /// How long the component does not run; it is killed if `None`.
+    pub pause: Option<Duration>,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (number, at, component) = (self.number, self.at.as_secs_f64(), &self.component);
+        match self.pause {
+            None => write!(f, "fault {number}, at {at:.6} s: `{component}` is killed"),
+            Some(pause) => {
+                let pause = pause.as_secs_f64();
+                write!(f, "fault {number}, at {at:.6} s: `{component}` does not run for {pause:.6} s")
+            }
+        }
+    }
+}
+
+/// Returns the faults of a simulation up to its end, in the order of their times. They depend on the seed alone, so
+/// that one can be left out and the others stay the same.
+pub(crate) fn faults(rules: &[FaultRule], seed: u64, until: Duration) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for (index, rule) in rules.iter().enumerate() {
+        let mut random = Random::new(seed_of(seed, "faults", index as u64));
+        let mut happens = |at: Duration, random: &mut Random| {
+            let components = match &rule.whom {
+                Whom::Each(all) => all.as_slice(),
+                Whom::Any(all) => {
+                    let one = random.below(all.len().max(1) as u64) as usize;
+                    all.get(one..=one).unwrap_or_default()
+                }
+            };
+            let pause = match rule.what {
+                What::Kill => None,
+                What::Pause(between) => Some(random.between(between)),
+            };
+            let one = |component: &String| Fault { number: 0, at, component: component.clone(), pause };
+            faults.extend(components.iter().map(one));
+        };
+        match rule.when {
+            When::At(between) => {
+                let at = random.between(between);
+                happens(at, &mut random);
+            }
+            When::Every { between, from } => {
+                let mut at = from + random.between(between);
+                while at < until {
+                    happens(at, &mut random);
+                    at += random.between(between);
+                }
+            }
+        }
+    }
+    faults.retain(|fault| fault.at < until);
+    faults.sort_by_key(|fault| fault.at);
+    faults.iter_mut().enumerate().for_each(|(index, fault)| fault.number = index + 1);
+    faults
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SECOND: Duration = Duration::from_secs(1);
+
+    fn between(least: u32, most: u32) -> Between {
+        Between { least: least * SECOND, most: most * SECOND }
+    }
+
+    #[test]
+    fn faults_depend_on_the_seed_alone_and_come_in_order() {
+        let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+        let rules = [
+            FaultRule {
+                when: When::Every { between: between(5, 20), from: 10 * SECOND },
+                what: What::Kill,
+                whom: Whom::Any(names(&["a", "b"])),
+            },
+            FaultRule {
+                when: When::At(between(40, 40)),
+                what: What::Pause(between(2, 2)),
+                whom: Whom::Each(names(&["c", "d"])),
+            },
+            FaultRule { when: When::At(between(900, 900)), what: What::Kill, whom: Whom::Each(names(&["late"])) },
+        ];
+        let found = faults(&rules, 7, 100 * SECOND);
+        assert_eq!(found, faults(&rules, 7, 100 * SECOND));
+        assert_ne!(found, faults(&rules, 8, 100 * SECOND));
+        assert!(found.is_sorted_by_key(|fault| fault.at));
+        assert!(found.iter().map(|fault| fault.number).eq(1..=found.len()));
+        let paused: Vec<&Fault> = found.iter().filter(|fault| fault.pause == Some(2 * SECOND)).collect();
+        assert_eq!(paused.len(), 2);
+        assert!(paused.iter().all(|fault| fault.at == 40 * SECOND));
+        let killed: Vec<&Fault> = found.iter().filter(|fault| fault.pause.is_none()).collect();
+        assert!((4..=18).contains(&killed.len()), "{found:?}");
+        assert!(killed.iter().all(|fault| fault.at >= 15 * SECOND && "ab".contains(&*fault.component)), "{found:?}");
+        // A rule that is added changes no other.
+        assert_eq!(faults(&rules[..1], 7, 100 * SECOND).len(), killed.len());
+    }
+}

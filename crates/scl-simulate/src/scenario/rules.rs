@@ -1,0 +1,34 @@
+//! The keys of a scenario.
+
+/// The keys at the top.
+pub(super) const TOP: [&str; 4] = ["until", "takes", "faults", "expect"];
+/// The keys that say when a fault happens; each fault has one.
+pub(super) const WHEN: [&str; 2] = ["at", "every"];
+/// The keys that say what happens; each fault has one.
+pub(super) const WHAT: [&str; 2] = ["kill", "pause"];
+/// The keys of faults.
+pub(super) const FAULT: [&str; 7] = ["at", "every", "kill", "pause", "for", "from", "except"];
+/// The keys that say what is expected; each expectation has one.
+pub(super) const EXPECTED: [&str; 3] = ["always", "eventually", "exit"];
+/// The keys of expectations.
+pub(super) const EXPECTATION: [&str; 6] = ["always", "eventually", "exit", "where", "by", "code"];
+/// All of them.
+pub(super) const KEYS: [&str; 17] = [
+    "until",
+    "takes",
+    "faults",
+    "expect",
+    "at",
+    "every",
+    "kill",
+    "pause",
+    "for",
+    "from",
+    "except",
+    "always",
+    "eventually",
+    "exit",
+    "where",
+    "by",
+    "code",
+];
