@@ -58,7 +58,7 @@ pub use log_file::{LogEntry, LogFolder, LogReader, LogStream};
 pub use orphan_guard::{GUARD_WORD, START_WORD, keep_watch, start_component};
 pub use placement::Placement;
 pub use plan::{ComponentNames, DeployedSystem, read_deployment, topology_of};
-pub use seat::SeatArgument;
+pub use seat::{SEAT_FORMAT, SeatArgument};
 pub use system_names::{SystemNames, running_systems};
 pub use terminal::{KEYS_WORD, tell_keys};
 pub use units::{Unit, UnitOptions, systemd_units};

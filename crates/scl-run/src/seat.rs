@@ -7,8 +7,8 @@ use std::os::unix::ffi::OsStrExt;
 
 /// The variable by which the library finds its seat; other processes that inherit it ignore it.
 const SEAT: &str = "SCL_SIMULATION";
-/// The format of what the library and the conductor say to each other.
-const FORMAT: u32 = 1;
+/// The format of what the library and the conductor say to each other. The library repeats it (`turn.c`).
+pub const SEAT_FORMAT: u32 = 1;
 const PRELOAD: &str = "LD_PRELOAD";
 
 /// The value of the option `--seat` of `scl __start`: a socket, an epoll descriptor and a library.
@@ -47,7 +47,7 @@ impl SeatArgument {
             preload.push(":");
             preload.push(others);
         }
-        let seat = format!("{FORMAT},{},{}", getpid().as_raw_pid(), self.descriptors);
+        let seat = format!("{SEAT_FORMAT},{},{}", getpid().as_raw_pid(), self.descriptors);
         vec![(SEAT, seat.into()), (PRELOAD, preload), ("PYTHONHASHSEED", "0".into())]
     }
 }

@@ -24,6 +24,8 @@ static instant after_milliseconds(int timeout) {
 // A wait whose attempt is a system call that returns how many descriptors are ready.
 struct descriptors {
     struct wait wait;
+    // The call, with this mask of signals, without waiting.
+    long (*call)(struct descriptors *of, const sigset_t *mask);
     long result;
     int error;
     int descriptor;
@@ -34,17 +36,25 @@ struct descriptors {
     fd_set wanted[3];
 };
 
-static bool is_over(struct descriptors *of, long result) {
-    of->result = result;
+static bool attempt(struct wait *wait) {
+    struct descriptors *of = (struct descriptors *)wait;
+    of->result = of->call(of, NULL);
     of->error = errno;
-    return result != 0;
+    return of->result != 0;
 }
 
-// Waits with this mask of signals. `attempt` has just found nothing.
-static int wait_with(struct descriptors *of, instant deadline, const sigset_t *mask) {
-    sigset_t before;
+// Waits until a descriptor is ready, with this mask of signals.
+static int wait_for(struct descriptors *of, instant deadline, const sigset_t *mask) {
+    // With the mask, so that a signal that is pending ends the wait.
+    int ready = (int)of->call(of, mask);
+    if (ready != 0 || deadline <= sim_now()) {
+        sim_pass();
+        return ready;
+    }
+    of->wait.attempt = attempt;
     of->wait.deadline = deadline;
     of->wait.interruptible = true;
+    sigset_t before;
     if (mask != NULL) pthread_sigmask(SIG_SETMASK, mask, &before);
     enum reason reason = sim_wait(&of->wait);
     if (mask != NULL) pthread_sigmask(SIG_SETMASK, &before, NULL);
@@ -53,34 +63,32 @@ static int wait_with(struct descriptors *of, instant deadline, const sigset_t *m
     return reason == INTERRUPTED ? -1 : (int)of->result;
 }
 
-static bool attempt_epoll(struct wait *wait) {
-    struct descriptors *of = (struct descriptors *)wait;
-    return is_over(of, sim_call(SYS_epoll_pwait, of->descriptor, of->events, of->count, 0, NULL, MASK));
+static instant after(const struct timespec *timeout) {
+    return timeout == NULL ? NEVER : sim_after(timeout);
+}
+
+static long call_epoll(struct descriptors *of, const sigset_t *mask) {
+    return sim_call(SYS_epoll_pwait, of->descriptor, of->events, of->count, 0, mask, MASK);
 }
 
 static void watch_epoll(struct wait *wait) {
     sim_watch(((struct descriptors *)wait)->descriptor, POLLIN);
 }
 
-static int wait_for_epoll(int epoll, struct epoll_event *events, int most, instant deadline, const sigset_t *mask) {
-    // With the mask, so that a signal that is pending ends the wait.
-    int ready = (int)sim_call(SYS_epoll_pwait, epoll, events, most, 0, mask, MASK);
-    if (ready != 0 || deadline <= sim_now()) {
-        sim_pass();
-        return ready;
-    }
-    struct descriptors of = {
-        .wait = {.attempt = attempt_epoll, .watch = watch_epoll},
+static struct descriptors of_epoll(int epoll, struct epoll_event *events, int most) {
+    return (struct descriptors){
+        .wait = {.watch = watch_epoll},
+        .call = call_epoll,
         .descriptor = epoll,
         .events = events,
         .count = (size_t)most,
     };
-    return wait_with(&of, deadline, mask);
 }
 
 EXPORT int epoll_pwait(int epoll, struct epoll_event *events, int most, int timeout, const sigset_t *mask) {
     if (!sim_takes_part()) return (int)sim_call(SYS_epoll_pwait, epoll, events, most, timeout, mask, MASK);
-    return wait_for_epoll(epoll, events, most, after_milliseconds(timeout), mask);
+    struct descriptors of = of_epoll(epoll, events, most);
+    return wait_for(&of, after_milliseconds(timeout), mask);
 }
 
 EXPORT int epoll_wait(int epoll, struct epoll_event *events, int most, int timeout) {
@@ -90,13 +98,13 @@ EXPORT int epoll_wait(int epoll, struct epoll_event *events, int most, int timeo
 EXPORT int epoll_pwait2(int epoll, struct epoll_event *events, int most, const struct timespec *timeout,
                         const sigset_t *mask) {
     if (!sim_takes_part()) return (int)sim_call(SYS_epoll_pwait2, epoll, events, most, timeout, mask, MASK);
-    return wait_for_epoll(epoll, events, most, timeout == NULL ? NEVER : sim_after(timeout), mask);
+    struct descriptors of = of_epoll(epoll, events, most);
+    return wait_for(&of, after(timeout), mask);
 }
 
-static bool attempt_poll(struct wait *wait) {
-    struct descriptors *of = (struct descriptors *)wait;
+static long call_poll(struct descriptors *of, const sigset_t *mask) {
     struct timespec none = {0};
-    return is_over(of, sim_call(SYS_ppoll, of->polled, of->count, &none, NULL, MASK));
+    return sim_call(SYS_ppoll, of->polled, of->count, &none, mask, MASK);
 }
 
 static void watch_poll(struct wait *wait) {
@@ -107,18 +115,8 @@ static void watch_poll(struct wait *wait) {
 }
 
 static int wait_for_poll(struct pollfd *polled, nfds_t count, instant deadline, const sigset_t *mask) {
-    struct timespec none = {0};
-    int ready = (int)sim_call(SYS_ppoll, polled, count, &none, mask, MASK);
-    if (ready != 0 || deadline <= sim_now()) {
-        sim_pass();
-        return ready;
-    }
-    struct descriptors of = {
-        .wait = {.attempt = attempt_poll, .watch = watch_poll},
-        .polled = polled,
-        .count = count,
-    };
-    return wait_with(&of, deadline, mask);
+    struct descriptors of = {.wait = {.watch = watch_poll}, .call = call_poll, .polled = polled, .count = count};
+    return wait_for(&of, deadline, mask);
 }
 
 EXPORT int poll(struct pollfd *polled, nfds_t count, int timeout) {
@@ -128,7 +126,7 @@ EXPORT int poll(struct pollfd *polled, nfds_t count, int timeout) {
 
 EXPORT int ppoll(struct pollfd *polled, nfds_t count, const struct timespec *timeout, const sigset_t *mask) {
     if (!sim_takes_part()) return REAL(ppoll)(polled, count, timeout, mask);
-    return wait_for_poll(polled, count, timeout == NULL ? NEVER : sim_after(timeout), mask);
+    return wait_for_poll(polled, count, after(timeout), mask);
 }
 
 static long call_select(struct descriptors *of, const sigset_t *mask) {
@@ -141,11 +139,6 @@ static long call_select(struct descriptors *of, const sigset_t *mask) {
         size_t size;
     } masked = {mask, MASK};
     return sim_call(SYS_pselect6, of->count, of->sets[0], of->sets[1], of->sets[2], &none, &masked);
-}
-
-static bool attempt_select(struct wait *wait) {
-    struct descriptors *of = (struct descriptors *)wait;
-    return is_over(of, call_select(of, NULL));
 }
 
 static void watch_select(struct wait *wait) {
@@ -161,20 +154,12 @@ static void watch_select(struct wait *wait) {
 }
 
 static int wait_for_select(int count, fd_set *sets[3], instant deadline, const sigset_t *mask) {
-    struct descriptors of = {
-        .wait = {.attempt = attempt_select, .watch = watch_select},
-        .count = (size_t)count,
-    };
+    struct descriptors of = {.wait = {.watch = watch_select}, .call = call_select, .count = (size_t)count};
     for (int i = 0; i < 3; i++) {
         of.sets[i] = sets[i];
         if (sets[i] != NULL) of.wanted[i] = *sets[i];
     }
-    int ready = (int)call_select(&of, mask);
-    if (ready != 0 || deadline <= sim_now()) {
-        sim_pass();
-        return ready;
-    }
-    return wait_with(&of, deadline, mask);
+    return wait_for(&of, deadline, mask);
 }
 
 EXPORT int select(int count, fd_set *read, fd_set *write, fd_set *except, struct timeval *timeout) {
@@ -190,7 +175,7 @@ EXPORT int select(int count, fd_set *read, fd_set *write, fd_set *except, struct
 EXPORT int pselect(int count, fd_set *read, fd_set *write, fd_set *except, const struct timespec *timeout,
                    const sigset_t *mask) {
     if (!sim_takes_part()) return REAL(pselect)(count, read, write, except, timeout, mask);
-    return wait_for_select(count, (fd_set *[]){read, write, except}, timeout == NULL ? NEVER : sim_after(timeout), mask);
+    return wait_for_select(count, (fd_set *[]){read, write, except}, after(timeout), mask);
 }
 
 bool sim_wait_for_descriptor(int descriptor, short events) {

@@ -18,6 +18,13 @@ struct Failing {
     report: Report,
 }
 
+impl Failing {
+    /// The faults, as `--faults` takes them.
+    fn faults(&self) -> String {
+        ChosenFaults(self.report.faults.iter().map(|(number, _)| *number).collect()).text()
+    }
+}
+
 /// Simulates with each of these seeds. Prints those that fail, each with the fewest faults with which it still fails.
 pub(super) fn simulate_seeds(
     mut seeds: RangeInclusive<u64>,
@@ -98,15 +105,14 @@ fn print(failing: &[Failing]) {
         return;
     }
     let mut table = Table::new([("SEED", Align::Right), ("FAULTS", Align::Left), ("FAILED", Align::Left)]);
-    for Failing { seed, report } in failing {
-        let faults = ChosenFaults(report.faults.iter().map(|(number, _)| *number).collect()).text();
-        table.row([seed.to_string(), faults, report.failures.join("; ")]);
+    for it in failing {
+        table.row([it.seed.to_string(), it.faults(), it.report.failures.join("; ")]);
     }
     print_out(&table.text());
-    for Failing { seed, report } in failing {
-        let faults = ChosenFaults(report.faults.iter().map(|(number, _)| *number).collect()).text();
+    for it in failing {
+        let (seed, faults) = (it.seed, it.faults());
         print_out(&format!("\nseed {seed} fails with the arguments `--seed {seed} --faults {faults}`:\n"));
-        report.faults.iter().for_each(|(_, text)| print_out(&format!("  {text}\n")));
-        report.failures.iter().for_each(|text| print_out(&format!("  {text}\n")));
+        let happened = it.report.faults.iter().map(|(_, text)| text);
+        happened.chain(&it.report.failures).for_each(|text| print_out(&format!("  {text}\n")));
     }
 }

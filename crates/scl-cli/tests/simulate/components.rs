@@ -1,6 +1,6 @@
 //! Components of SCL in simulated time: async, blocking, and with several threads.
 
-use super::{errors, simulate, text};
+use super::{errors, of_components, simulate, text};
 use crate::system::{ChildGuard, SpawnGuarded, System};
 use scl::bytes::Bytes;
 use scl::plan::{Plan, SystemPlan};
@@ -42,20 +42,7 @@ const MS: Duration = Duration::from_millis(1);
 
 /// Starts the programs of the system in this order.
 fn system(test: &str, order: &[&str]) -> System {
-    let program = std::env::current_exe().unwrap();
-    let command = format!("[{program:?}, --exact, {test}, --nocapture, --test-threads, 2]");
-    let entry = |name: &&str| {
-        format!(
-            "  {name}: {{command: {command}, environment: {{{PLAYS}: {name}}}, restart: on_failure, \
-             restart_delay: 100ms..1s, restart_limit: 100 in 1h}}\n"
-        )
-    };
-    let launch = format!("components:\n{}", order.iter().map(entry).collect::<String>());
-    let system = System::of_files(&[("topology.yaml", TOPOLOGY), ("launch.yaml", &launch)]);
-    let plan = system.scl(&["plan"]).output().unwrap();
-    assert!(plan.status.success(), "{}", text(&plan.stderr));
-    system.write("plan.json", &text(&plan.stdout));
-    system
+    of_components(TOPOLOGY, test, PLAYS, order)
 }
 
 fn plan(component: &str) -> Plan {

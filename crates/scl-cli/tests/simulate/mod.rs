@@ -41,6 +41,25 @@ fn of_program(source: &str, entry: &str, options: &[&str]) -> System {
     system
 }
 
+/// A system whose programs are the test of this name in processes of their own, started in this order. The variable
+/// `plays` tells each which component it is, and `plan.json` is the plan.
+fn of_components(topology: &str, test: &str, plays: &str, order: &[&str]) -> System {
+    let program = std::env::current_exe().unwrap();
+    let command = format!("[{program:?}, --exact, {test}, --nocapture, --test-threads, 2]");
+    let entry = |name: &&str| {
+        format!(
+            "  {name}: {{command: {command}, environment: {{{plays}: {name}}}, restart: on_failure, \
+             restart_delay: 100ms..1s, restart_limit: 100 in 1h}}\n"
+        )
+    };
+    let launch = format!("components:\n{}", order.iter().map(entry).collect::<String>());
+    let system = System::of_files(&[("topology.yaml", topology), ("launch.yaml", &launch)]);
+    let plan = system.scl(&["plan"]).output().unwrap();
+    assert!(plan.status.success(), "{}", text(&plan.stderr));
+    system.write("plan.json", &text(&plan.stdout));
+    system
+}
+
 #[track_caller]
 fn check(output: &Output, code: i32, expected: &ExpectFile) {
     expected.assert_eq(&format!("{}---\n{}", text(&output.stdout), errors(output)));

@@ -1,6 +1,6 @@
 //! Scenarios: faults, and what must hold all the same.
 
-use super::{errors, simulate, text};
+use super::{errors, of_components, simulate, text};
 use crate::system::System;
 use scl::bytes::Bytes;
 use scl::plan::SystemPlan;
@@ -32,20 +32,8 @@ const START: u64 = 1_767_225_600;
 const TICK: Duration = Duration::from_millis(100);
 
 fn system(test: &str, scenario: &str) -> System {
-    let program = std::env::current_exe().unwrap();
-    let command = format!("[{program:?}, --exact, {test}, --nocapture, --test-threads, 2]");
-    let entry = |name: &&str| {
-        format!(
-            "  {name}: {{command: {command}, environment: {{{PLAYS}: {name}}}, restart: on_failure, \
-             restart_delay: 100ms..1s, restart_limit: 100 in 1h}}\n"
-        )
-    };
-    let launch = format!("components:\n{}", ["pump", "valve", "display"].iter().map(entry).collect::<String>());
-    let files = [("topology.yaml", TOPOLOGY), ("launch.yaml", &launch), ("rough.yaml", scenario)];
-    let system = System::of_files(&files);
-    let plan = system.scl(&["plan"]).output().unwrap();
-    assert!(plan.status.success(), "{}", text(&plan.stderr));
-    system.write("plan.json", &text(&plan.stdout));
+    let system = of_components(TOPOLOGY, test, PLAYS, &["pump", "valve", "display"]);
+    system.write("rough.yaml", scenario);
     system
 }
 

@@ -1,6 +1,6 @@
 //! What the rules about YAML need to know about scenarios.
 
-use super::rules::KEYS;
+use super::rules::keys;
 use scl_topology::parse::Dialect;
 
 pub(super) static SCENARIO: Dialect = Dialect {
@@ -9,7 +9,7 @@ pub(super) static SCENARIO: Dialect = Dialect {
     levels: 4,
     has_aliases: true,
     instead_of_merge: "write it out, or use an alias for a whole value",
-    is_key: |word| KEYS.contains(&word),
-    word: |word| KEYS.iter().find(|known| **known == word).copied(),
+    is_key: |word| keys().any(|key| key == word),
+    word: |word| keys().find(|key| *key == word),
     mistakes: |_, _| 0,
 };

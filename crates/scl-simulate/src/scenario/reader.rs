@@ -23,7 +23,7 @@ pub(super) struct Reader<'a> {
 struct Entries<'n> {
     span: Span,
     list: Vec<(&'n str, &'n Node)>,
-    /// Whether there is an unknown key, which may be meant to be one that seems to be missing.
+    /// Whether there is an unknown key, which may be one that seems to be missing, misspelt.
     damaged: bool,
 }
 
@@ -75,7 +75,7 @@ impl<'a> Reader<'a> {
         Some(Entries { span: node.span, list, damaged })
     }
 
-    /// Reports that a key is missing, unless an unknown one may be meant to be it.
+    /// Reports that a key is missing, unless there is an unknown key, which may be that one misspelt.
     fn report_missing(&mut self, problem: Problem, entries: &Entries<'_>) {
         if !entries.damaged {
             self.report(problem, entries.span);

@@ -12,23 +12,8 @@ pub(super) const FAULT: [&str; 7] = ["at", "every", "kill", "pause", "for", "fro
 pub(super) const EXPECTED: [&str; 3] = ["always", "eventually", "exit"];
 /// The keys of expectations.
 pub(super) const EXPECTATION: [&str; 6] = ["always", "eventually", "exit", "where", "by", "code"];
+
 /// All of them.
-pub(super) const KEYS: [&str; 17] = [
-    "until",
-    "takes",
-    "faults",
-    "expect",
-    "at",
-    "every",
-    "kill",
-    "pause",
-    "for",
-    "from",
-    "except",
-    "always",
-    "eventually",
-    "exit",
-    "where",
-    "by",
-    "code",
-];
+pub(super) fn keys() -> impl Iterator<Item = &'static str> {
+    TOP.into_iter().chain(FAULT).chain(EXPECTATION)
+}
