@@ -9,14 +9,13 @@
 #include <sys/time.h>
 
 #define SECOND UINT64_C(1000000000)
-// What the clocks show at the start of a simulation: the first day of 2026, and 1000 seconds after the start of the
-// machine.
-#define WALL_CLOCK (UINT64_C(1767225600) * SECOND)
+// The simulation starts 1000 seconds after the machine.
 #define SINCE_BOOT (UINT64_C(1000) * SECOND)
 #define FAST_LOOKS 1000
 
 static _Atomic instant now;
 static _Atomic uint64_t looks;
+static uint64_t wall_clock;
 
 instant sim_now(void) {
     return now;
@@ -25,6 +24,10 @@ instant sim_now(void) {
 void sim_set_now(instant next) {
     if (next > now) now = next;
     looks = 0;
+}
+
+void sim_set_start(uint64_t start) {
+    wall_clock = start;
 }
 
 static instant look(void) {
@@ -54,7 +57,7 @@ static uint64_t start_of(clockid_t clock) {
     case CLOCK_REALTIME_COARSE:
     case CLOCK_TAI:
     case CLOCK_REALTIME_ALARM:
-        return WALL_CLOCK;
+        return wall_clock;
     default:
         return SINCE_BOOT;
     }

@@ -50,7 +50,11 @@ static bool attempt(struct wait *wait) {
 }
 
 static int wait_for_signal(const sigset_t *set, siginfo_t *found, instant deadline) {
-    struct signals of = {.wait = {.attempt = attempt, .deadline = deadline, .interruptible = true}, .set = set, .found = found};
+    struct signals of = {
+        .wait = {.attempt = attempt, .deadline = deadline, .interruptible = true},
+        .set = set,
+        .found = found,
+    };
     if (attempt(&of.wait)) return of.signal;
     enum reason reason = sim_wait(&of.wait);
     if (reason == READY) return of.signal;
@@ -58,7 +62,8 @@ static int wait_for_signal(const sigset_t *set, siginfo_t *found, instant deadli
     return -1;
 }
 
-EXPORT int sigtimedwait(const sigset_t *restrict set, siginfo_t *restrict found, const struct timespec *restrict timeout) {
+EXPORT int sigtimedwait(const sigset_t *restrict set, siginfo_t *restrict found,
+                        const struct timespec *restrict timeout) {
     if (!sim_takes_part()) return REAL(sigtimedwait)(set, found, timeout);
     return wait_for_signal(set, found, timeout == NULL ? NEVER : sim_after(timeout));
 }

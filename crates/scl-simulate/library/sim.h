@@ -5,8 +5,8 @@
 //
 // - Of the program's threads, one runs at a time: the one that holds the baton (threads.c). A thread that has to wait
 //   gives the baton to the next one that can go on.
-// - When none can go on, the program is idle. It says so to `scl simulate`, with the time at which it has to go on at
-//   the latest, and waits for its next turn, which brings the new time (turn.c).
+// - When none can go on, the program is idle. It tells `scl simulate` so, and when it needs its next turn at the
+//   latest, and waits for that turn, which brings the new time (turn.c).
 //
 // In all other processes, such as those that the program starts, the functions do what they always do.
 #ifndef SCL_SIM_H
@@ -68,7 +68,7 @@ bool sim_takes_part(void);
 enum reason sim_wait(struct wait *wait);
 // Lets the other threads run that can.
 void sim_yield(void);
-// As `sim_yield`, but only now and then: for calls that have nothing to wait for, and may follow each other for ever.
+// As `sim_yield`, but only now and then: for calls that return at once and may be repeated forever.
 void sim_pass(void);
 // Ends the waits for an address and any of these bits, at most `count` and the oldest first. Returns their number.
 int sim_wake(const void *address, uint32_t bits, int count);
@@ -92,6 +92,11 @@ void sim_watch(int descriptor, short events);
 void sim_ask_for_turn(void);
 // If `scl simulate` has started this process, returns true with its first turn.
 bool sim_join(void);
+// Gives a descriptor a number that the program does not use by itself, and returns it.
+int sim_hide(int descriptor);
+// The descriptors by which the program takes part, in order.
+#define SEAT_DESCRIPTORS 3
+const int *sim_seat(void);
 // Returns false in a child that shares the memory of its parent until it becomes another program.
 bool sim_is_own_process(void);
 // Lets the process become another program that takes its part, or no longer.
@@ -103,6 +108,8 @@ void sim_leave(void);
 
 instant sim_now(void);
 void sim_set_now(instant now);
+// Sets what the wall clock shows at the start, in nanoseconds since 1970.
+void sim_set_start(uint64_t start);
 // Returns false for clocks that do not follow the simulation: those of the processor.
 bool sim_follows(clockid_t clock);
 instant sim_instant(clockid_t clock, const struct timespec *time);
@@ -118,6 +125,12 @@ void sim_seed(uint64_t seed);
 
 // Lets the timers expire that are due. Returns when the next one is.
 instant sim_expire_timers(void);
+
+// Forgets the timers with these descriptors, which are closed.
+void sim_forget_timers(unsigned first, unsigned last);
+
+// alarm.c: the same for the timer that sends SIGALRM.
+instant sim_expire_alarm(void);
 
 // poll.c: waiting for descriptors.
 

@@ -35,7 +35,10 @@ EXPORT int nanosleep(const struct timespec *duration, struct timespec *left) {
 }
 
 EXPORT int usleep(useconds_t microseconds) {
-    const struct timespec duration = {.tv_sec = microseconds / 1000000, .tv_nsec = (long)(microseconds % 1000000) * 1000};
+    const struct timespec duration = {
+        .tv_sec = microseconds / 1000000,
+        .tv_nsec = (long)(microseconds % 1000000) * 1000,
+    };
     return nanosleep(&duration, NULL);
 }
 

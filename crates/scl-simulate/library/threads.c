@@ -49,7 +49,8 @@ bool sim_takes_part(void) {
 static void wait_for_baton(void) {
     const struct timespec year = {.tv_sec = 31536000};
     while (!atomic_exchange(&self->go, 0)) {
-        if (sim_call(SYS_futex, &self->go, FUTEX_WAIT_PRIVATE, 0, &year, NULL, 0) < 0 && errno == EINTR) sim_interrupt();
+        long result = sim_call(SYS_futex, &self->go, FUTEX_WAIT_PRIVATE, 0, &year, NULL, 0);
+        if (result < 0 && errno == EINTR) sim_interrupt();
     }
 }
 

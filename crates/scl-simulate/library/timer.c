@@ -7,7 +7,6 @@
 #include <string.h>
 #include <sys/eventfd.h>
 #include <sys/timerfd.h>
-#include <unistd.h>
 
 #define MOST_TIMERS 4096
 
@@ -33,8 +32,17 @@ static struct timer *timer_of(int descriptor) {
     return NULL;
 }
 
+void sim_forget_timers(unsigned first, unsigned last) {
+    for (int i = 0; i < slots; i++) {
+        unsigned descriptor = (unsigned)timers[i].descriptor;
+        if (!timers[i].used || descriptor < first || descriptor > last) continue;
+        timers[i].used = false;
+        sim_call(SYS_close, timers[i].own);
+    }
+}
+
 instant sim_expire_timers(void) {
-    instant first = NEVER, now = sim_now();
+    instant first = sim_expire_alarm(), now = sim_now();
     for (int i = 0; i < slots; i++) {
         struct timer *timer = &timers[i];
         if (!timer->used) continue;
@@ -60,6 +68,7 @@ EXPORT int timerfd_create(int clock, int flags) {
             sim_call(SYS_close, descriptor);
             return -1;
         }
+        own = sim_hide(own);
         timers[i] = (struct timer){.used = true, .descriptor = descriptor, .own = own, .clock = clock, .due = NEVER};
         if (i >= slots) slots = i + 1;
         return descriptor;
@@ -102,14 +111,4 @@ EXPORT int timerfd_gettime(int descriptor, struct itimerspec *left) {
     if (timer == NULL) return REAL(timerfd_gettime)(descriptor, left);
     *left = left_of(timer);
     return 0;
-}
-
-// A child that shares the memory of its parent until it starts another program closes its own descriptors only.
-EXPORT int close(int descriptor) {
-    struct timer *timer = sim_takes_part() ? timer_of(descriptor) : NULL;
-    if (timer != NULL && sim_is_own_process()) {
-        timer->used = false;
-        sim_call(SYS_close, timer->own);
-    }
-    return (int)sim_call(SYS_close, descriptor);
 }

@@ -1,5 +1,5 @@
 // The turns of the program: what it says to `scl simulate`, and what it hears. Both take turns strictly; the program
-// begins. Messages have 24 bytes.
+// begins.
 
 #include "sim.h"
 
@@ -17,6 +17,9 @@
 #define VARIABLE "SCL_SIMULATION"
 #define FORMAT 1
 
+// Programs expect that the lowest numbers are free.
+#define HIGH 500
+
 struct said {
     // The format, and the process in the upper half.
     uint64_t head;
@@ -32,9 +35,13 @@ struct heard {
     uint64_t seed;
     // Whether the program was sent a signal, which it has handled by now.
     uint64_t signalled;
+    // What the wall clock shows at the start of the simulation, in nanoseconds since 1970.
+    uint64_t start;
 };
 
 static pid_t process;
+// The three that follow, in order.
+static int seat[SEAT_DESCRIPTORS] = {-1, -1, -1};
 static int connection = -1;
 static int watched = -1;
 // Ready while the program asks for a turn although it is idle.
@@ -73,7 +80,8 @@ static struct heard hear(void) {
     struct heard heard;
     size_t length = 0;
     while (length < sizeof heard) {
-        ssize_t count = sim_call(SYS_recvfrom, connection, (char *)&heard + length, sizeof heard - length, 0, NULL, NULL);
+        char *rest = (char *)&heard + length;
+        ssize_t count = sim_call(SYS_recvfrom, connection, rest, sizeof heard - length, 0, NULL, NULL);
         if (count > 0) {
             length += (size_t)count;
         } else if (count < 0 && errno == EINTR) {
@@ -124,23 +132,37 @@ void sim_ask_for_turn(void) {
     errno = before;
 }
 
+int sim_hide(int descriptor) {
+    int high = (int)sim_call(SYS_fcntl, descriptor, F_DUPFD_CLOEXEC, HIGH);
+    if (high < 0) return descriptor;
+    sim_call(SYS_close, descriptor);
+    return high;
+}
+
 bool sim_join(void) {
     const char *value = getenv(VARIABLE);
-    int format, seat, socket, epoll;
-    if (value == NULL || sscanf(value, "%d,%d,%d,%d", &format, &seat, &socket, &epoll) != 4) return false;
+    int format, owner, socket, epoll;
+    if (value == NULL || sscanf(value, "%d,%d,%d,%d", &format, &owner, &socket, &epoll) != 4) return false;
     // The program's own children inherit the variable.
-    if (format != FORMAT || seat != getpid()) return false;
-    process = seat;
+    if (format != FORMAT || owner != getpid()) return false;
+    process = owner;
     connection = socket;
     watched = epoll;
-    const int own[] = {connection, watched, attention = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)};
-    for (int i = 0; i < 3; i++) fcntl(own[i], F_SETFD, FD_CLOEXEC);
+    attention = sim_hide(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC));
+    const int own[] = {connection, watched, attention};
+    for (int i = 0; i < SEAT_DESCRIPTORS; i++) {
+        fcntl(own[i], F_SETFD, FD_CLOEXEC);
+        int at = i;
+        for (; at > 0 && seat[at - 1] > own[i]; at--) seat[at] = seat[at - 1];
+        seat[at] = own[i];
+    }
     const struct timeval year = {.tv_sec = 31536000};
     setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &year, sizeof year);
     sim_watch(attention, EPOLLIN);
     say(0);
     struct heard heard = hear();
     sim_set_now(heard.now);
+    sim_set_start(heard.start);
     sim_seed(heard.seed);
     return true;
 }
@@ -155,7 +177,10 @@ void sim_keep_seat(bool keep) {
     for (int i = 0; i < 2; i++) sim_call(SYS_fcntl, own[i], F_SETFD, keep ? 0 : FD_CLOEXEC);
 }
 
+const int *sim_seat(void) {
+    return seat;
+}
+
 void sim_leave(void) {
-    const int own[] = {connection, watched, attention};
-    for (int i = 0; i < 3; i++) sim_call(SYS_close, own[i]);
+    for (int i = 0; i < SEAT_DESCRIPTORS; i++) sim_call(SYS_close, seat[i]);
 }

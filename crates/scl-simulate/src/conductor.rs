@@ -30,6 +30,8 @@ const LOOK: Duration = Duration::from_millis(20);
 pub struct Options {
     /// Where random numbers come from.
     pub seed: u64,
+    /// What the wall clock shows at the start, since 1970; in whole seconds.
+    pub start: Duration,
     /// How many seconds of simulated time may pass in a second; as many as possible if `None`.
     pub speed: Option<f64>,
     /// How long in real time a program may run without waiting.
@@ -42,7 +44,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { seed: 0, speed: None, patience: Duration::from_secs(30), most_turns: 1_000_000, processor: 0 }
+        Self { seed: 0, start: crate::START, speed: None, patience: Duration::from_secs(30), most_turns: 1_000_000, processor: 0 }
     }
 }
 
@@ -256,7 +258,7 @@ impl scl_run::Conductor for Conductor {
             use_one_processor(self.options.processor);
         }
         let seed = seed_of(self.options.seed, component, process as u64);
-        let (participant, inherited) = Participant::new(process, component, seed)?;
+        let (participant, inherited) = Participant::new(process, component, seed, self.options.start)?;
         let data = epoll::EventData::new_u64(process as u64);
         epoll::add(&self.ready, &participant.watched, data, epoll::EventFlags::IN)?;
         // Its end, if it is killed while it waits.
@@ -348,7 +350,7 @@ fn never_waits(participant: &Participant, now: Duration, patience: Duration) -> 
     }
     let now = now.as_secs_f64();
     Problem::new(format!("component `{name}` has been running for {patience:.0} s without waiting, at {now:.6} s"))
-        .help("it computes for ever, or waits for something outside the simulation; `--patience` gives it more time")
+        .help("it computes forever, or waits for something outside the simulation; `--patience` gives it more time")
 }
 
 fn failed(what: &str, error: io::Error) -> Problem {

@@ -26,5 +26,5 @@ pub use scenario::{Expectation, Expected, Failure, Scenario, unmet};
 
 use std::time::Duration;
 
-/// What the clocks show at the start of a simulation, since 1970: the first day of 2026. The library repeats it.
+/// What the wall clock shows at the start of a simulation, since 1970, unless somebody watches: the first day of 2026.
 pub const START: Duration = Duration::from_secs(1_767_225_600);

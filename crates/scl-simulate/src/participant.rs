@@ -3,14 +3,14 @@
 use rustix::event::epoll;
 use rustix::io::{Errno, FdFlags, fcntl_setfd};
 use rustix::net::{AddressFamily, RecvFlags, SendFlags, SocketFlags, SocketType, recv, send, socketpair, sockopt};
+use scl_run::SEAT_FORMAT;
+use scl_text::duration::nanoseconds;
 use std::io;
 use std::os::fd::OwnedFd;
 use std::time::Duration;
 
-/// The format of the messages, which the library repeats.
-const FORMAT: u32 = 1;
-/// Length of a message in both directions, in bytes.
-const LENGTH: usize = 24;
+/// Length of what the program says, in bytes.
+const SAID: usize = 24;
 /// How long one look at a program that runs takes at most.
 const LOOK: Duration = Duration::from_millis(100);
 /// What the library says for "as long as nothing happens".
@@ -26,6 +26,8 @@ pub(crate) struct Participant {
     /// Ready when something that the program waits for has happened.
     pub(crate) watched: OwnedFd,
     pub(crate) seed: u64,
+    /// What the wall clock shows at the start, since 1970.
+    start: Duration,
     /// Its process id, once it has said so.
     pub(crate) pid: Option<u32>,
     /// When it has to have a turn at the latest; `None` if it waits for something else.
@@ -63,7 +65,7 @@ pub(crate) struct Inherited {
 }
 
 impl Participant {
-    pub(crate) fn new(process: usize, component: &str, seed: u64) -> io::Result<(Self, Inherited)> {
+    pub(crate) fn new(process: usize, component: &str, seed: u64, start: Duration) -> io::Result<(Self, Inherited)> {
         let (connection, socket) = socketpair(AddressFamily::UNIX, SocketType::STREAM, SocketFlags::CLOEXEC, None)?;
         sockopt::set_socket_timeout(&connection, sockopt::Timeout::Recv, Some(LOOK))?;
         let watched = epoll::create(epoll::CreateFlags::CLOEXEC)?;
@@ -78,6 +80,7 @@ impl Participant {
             connection,
             watched,
             seed,
+            start,
             pid: None,
             due: Some(Duration::ZERO),
             is_ready: false,
@@ -102,10 +105,8 @@ impl Participant {
 
     /// Lets the program run from `now` on. If it has ended, it is found when it is listened to.
     pub(crate) fn give_turn(&mut self, now: Duration) {
-        let mut message = [0; LENGTH];
-        message[..8].copy_from_slice(&nanoseconds(now).to_ne_bytes());
-        message[8..16].copy_from_slice(&self.seed.to_ne_bytes());
-        message[16..].copy_from_slice(&u64::from(self.is_signalled).to_ne_bytes());
+        let numbers = [nanoseconds(now), self.seed, u64::from(self.is_signalled), nanoseconds(self.start)];
+        let message = numbers.map(u64::to_ne_bytes).concat();
         (self.is_ready, self.is_signalled, self.goes_on, self.turns) = (false, false, None, self.turns + 1);
         // A short message always fits into an empty socket.
         let _ended = send(&self.connection, &message, SendFlags::NOSIGNAL);
@@ -113,9 +114,9 @@ impl Participant {
 
     /// Waits for a short time until the program waits.
     pub(crate) fn listen(&mut self) -> io::Result<Said> {
-        let mut message = [0_u8; LENGTH];
+        let mut message = [0_u8; SAID];
         let mut length = 0;
-        while length < LENGTH {
+        while length < SAID {
             match recv(&self.connection, &mut message[length..], RecvFlags::empty()) {
                 Ok((0, _)) | Err(Errno::CONNRESET) => return Ok(Said::Ended),
                 Ok((count, _)) => length += count,
@@ -130,16 +131,11 @@ impl Participant {
             u64::from_ne_bytes(number)
         });
         let (format, pid) = (head as u32, (head >> 32) as u32);
-        if format != FORMAT {
+        if format != SEAT_FORMAT {
             return Ok(Said::Nonsense);
         }
         self.pid = Some(pid);
         self.due = Some(due).filter(|due| *due != NEVER).map(Duration::from_nanos);
         Ok(Said::Waits(Duration::from_nanos(now)))
     }
-}
-
-fn nanoseconds(time: Duration) -> u64 {
-    // A simulation of 584 years does not end before its user gives up.
-    time.as_nanos().try_into().unwrap_or(NEVER - 1)
 }

@@ -1,6 +1,6 @@
 //! A simulation, in the process that was started for it.
 
-use super::process::{failed, folder};
+use super::process::failed;
 use super::report::Report;
 use super::{ChosenFaults, SimulateArguments};
 use crate::load::{MaxSize, load_file, show_errors};
@@ -10,11 +10,11 @@ use rustix::process::{Signal, getppid, set_parent_process_death_signal};
 use scl_plan::SystemPlan;
 use scl_record::recording::Recording;
 use scl_run::{Played, Simulation, SimulationEnd, topology_of};
-use scl_simulate::{Conductor, Failure, Fault, Options, Scenario, unmet};
+use scl_simulate::{Conductor, Failure, Fault, Options, START, Scenario, unmet};
 use scl_terminal::{Problem, print_err};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 /// How long components without a `stop_within` may take to stop, in simulated time.
 const GRACE: Duration = Duration::from_secs(5);
@@ -57,8 +57,10 @@ pub(crate) fn simulate_here(here: &HereArguments) -> Result<ExitCode, Vec<Proble
     }
     let SimulateArguments { programs, until, seed, speed, patience, most_turns, played, .. } = &here.arguments;
     let seed = here.with_seed.unwrap_or(*seed);
-    let options =
-        Options { seed, speed: *speed, patience: *patience, most_turns: *most_turns, processor: here.processor };
+    // Tools that look at it live in real time, and would take it for old.
+    let start = speed.map_or(START, |_| Duration::from_secs(SystemTime::UNIX_EPOCH.elapsed().unwrap_or_default().as_secs()));
+    let (speed, patience, most_turns, processor) = (*speed, *patience, *most_turns, here.processor);
+    let options = Options { seed, start, speed, patience, most_turns, processor };
     let scenario = here.arguments.scenario.as_deref().map(|file| read_scenario(file, here)).transpose()?;
     let scenario = scenario.unwrap_or_default();
     let until = until.or(scenario.until);
@@ -68,9 +70,8 @@ pub(crate) fn simulate_here(here: &HereArguments) -> Result<ExitCode, Vec<Proble
     let mut conductor = conductor.map_err(|error| vec![failed("write the library", error)])?;
     conductor.follow(&scenario, faults.clone());
     // What is expected of messages is looked up in the recording.
-    let own = folder().map_err(|problem| vec![problem])?;
-    let own_recording = || own.path().join("simulation.mcap");
-    let recording = here.record_to.clone().or_else(|| (!scenario.expectations.is_empty()).then(own_recording));
+    let own = (!scenario.expectations.is_empty()).then(|| here.runtime_folder.join("simulation.mcap"));
+    let recording = here.record_to.clone().or(own);
     let programs = programs.options();
     let no_build = programs.no_build || here.built;
     let played = here.arguments.replay.clone().map(|recording| Played { recording, components: played.clone() });
@@ -80,7 +81,7 @@ pub(crate) fn simulate_here(here: &HereArguments) -> Result<ExitCode, Vec<Proble
     }
     let simulation = Simulation { conductor: &mut conductor, recording: recording.clone() };
     let end = scl_run::simulate(&run, &component_names, simulation)?;
-    let failures = recording.map_or_else(|| Ok(Vec::new()), |recording| failures(&scenario, &recording, &end));
+    let failures = recording.map_or_else(|| Ok(Vec::new()), |recording| failures(&scenario, &recording, &end, start));
     let failures = failures.map_err(|problem| vec![problem])?;
     failures.iter().for_each(|failure| print_err(&failure.problem.to_string()));
     let happened: Vec<Fault> = faults.into_iter().filter(|fault| fault.at <= now(&conductor)).collect();
@@ -132,12 +133,17 @@ fn chosen_faults(
     Ok(faults)
 }
 
-fn failures(scenario: &Scenario, recording: &Path, end: &SimulationEnd) -> Result<Vec<Failure>, Problem> {
+fn failures(
+    scenario: &Scenario,
+    recording: &Path,
+    end: &SimulationEnd,
+    start: Duration,
+) -> Result<Vec<Failure>, Problem> {
     if scenario.expectations.is_empty() {
         return Ok(Vec::new());
     }
     let exit = |component: &str| end.exits.iter().find(|(name, _)| name == component).map(|(_, code)| *code);
-    unmet(&scenario.expectations, &Recording::open(&[recording.to_owned()])?, &exit)
+    unmet(&scenario.expectations, &Recording::open(&[recording.to_owned()])?, &exit, start)
 }
 
 /// Prints what went wrong before the first failure, and the seed.

@@ -9,7 +9,7 @@ fn a_program_that_never_waits_is_named() {
     let output = simulate(&system, &["--patience", "1s"]);
     let expected = "\
 error: component `program` has been running for 1 s without waiting, at 0.000000 s
-  = help: it computes for ever, or waits for something outside the simulation; `--patience` gives it more time
+  = help: it computes forever, or waits for something outside the simulation; `--patience` gives it more time
 
 ";
     assert_eq!(errors(&output), expected);

@@ -212,6 +212,15 @@ static void others(void) {
     raise(SIGALRM);
     printf("%d, ", handled == SIGALRM);
     SAY("a signal");
+    handled = 0;
+    alarm(5);
+    printf("%d, ", pause());
+    printf("%d, ", handled == SIGALRM);
+    SAY("alarm");
+    setitimer(ITIMER_REAL, &(struct itimerval){.it_value.tv_usec = 1, .it_interval.tv_usec = 250000}, NULL);
+    for (int i = 0; i < 4; i++) pause();
+    printf("%u left, ", alarm(0));
+    SAY("setitimer");
     sigset_t set;
     sigemptyset(&set);
     sigaddset(&set, SIGALRM);
@@ -232,4 +241,9 @@ int main(void) {
     threads();
     clocks();
     others();
+    // A program that closes all that it does not know.
+    printf("%d, ", close_range(3, ~0U, 0));
+    printf("%d, ", dup2(1, 3) == 3 ? close(3) : -1);
+    usleep(1000);
+    SAY("close_range");
 }

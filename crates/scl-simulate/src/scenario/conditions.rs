@@ -1,6 +1,5 @@
 //! What a scenario expects, and whether a simulation has met it.
 
-use crate::START;
 use scl_plan::{GatePlan, Payload, SystemPlan};
 use scl_record::recording::Recording;
 use scl_terminal::Problem;
@@ -79,7 +78,7 @@ pub(super) fn check(condition: &Condition, system: &SystemPlan, gate: &str) -> R
 }
 
 /// Returns the expectations that a simulation has not met. `exit` is the exit code of a component's last process, if it
-/// has ended by itself.
+/// has ended by itself; `start` is what the wall clock has shown at the start.
 ///
 /// # Errors
 /// The recording cannot be read.
@@ -87,6 +86,7 @@ pub fn unmet(
     expectations: &[Expectation],
     recording: &Recording,
     exit: &dyn Fn(&str) -> Option<i32>,
+    start: Duration,
 ) -> Result<Vec<Failure>, Problem> {
     let mut open: Vec<Open<'_>> = expectations.iter().map(Open::new).collect();
     let mut messages = recording.messages();
@@ -96,7 +96,7 @@ pub fn unmet(
         if !open.iter().any(|it| it.wants(&gate)) {
             continue;
         }
-        let at = Duration::from_nanos(message.sent_ns).saturating_sub(START);
+        let at = Duration::from_nanos(message.sent_ns).saturating_sub(start);
         let value = channel.message_type().show(&message.payload);
         open.iter_mut().filter(|it| it.wants(&gate)).for_each(|it| it.see(at, &value));
     }
