@@ -10,7 +10,7 @@ use rustix::process::{Signal, getppid, set_parent_process_death_signal};
 use scl_plan::SystemPlan;
 use scl_record::recording::Recording;
 use scl_run::{Played, Simulation, SimulationEnd, topology_of};
-use scl_simulate::{Conductor, Failure, Fault, Options, START, Scenario, unmet};
+use scl_conductor::{Conductor, Failure, Fault, Options, START, Scenario, unmet};
 use scl_terminal::{Problem, print_err};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

@@ -1,6 +1,6 @@
 //! What a simulation reports to the process that has started it.
 
-use scl_simulate::Fault;
+use scl_conductor::Fault;
 use serde_json::{Value, json};
 use std::path::Path;
 use std::{fs, io};
