@@ -1,12 +1,9 @@
-// `syscall`: the system calls that programs make by number. The standard library of Rust waits with futexes like this.
+// Futexes: the locks of Rust's standard library, and of all who have their own.
 
 #include "sim.h"
 
 #include <linux/futex.h>
-#include <stdarg.h>
 #include <stdatomic.h>
-#include <sys/random.h>
-#include <unistd.h>
 
 static long wait_on(_Atomic uint32_t *address, uint32_t expected, instant deadline, uint32_t bits) {
     if (atomic_load(address) != expected) {
@@ -20,8 +17,7 @@ static long wait_on(_Atomic uint32_t *address, uint32_t expected, instant deadli
     return -1;
 }
 
-// Returns false for what this library does not take the place of: futexes of several processes, and with priorities.
-static bool call_futex(const long arguments[6], long *result) {
+bool sim_call_futex(const long arguments[6], long *result) {
     int operation = (int)arguments[1];
     if ((operation & FUTEX_PRIVATE_FLAG) == 0) return false;
     clockid_t clock = (operation & FUTEX_CLOCK_REALTIME) == 0 ? CLOCK_MONOTONIC : CLOCK_REALTIME;
@@ -45,19 +41,4 @@ static bool call_futex(const long arguments[6], long *result) {
     default:
         return false;
     }
-}
-
-EXPORT long syscall(long number, ...) {
-    va_list list;
-    va_start(list, number);
-    long arguments[6];
-    for (int i = 0; i < 6; i++) arguments[i] = va_arg(list, long);
-    va_end(list);
-    if (sim_takes_part()) {
-        long result;
-        if (number == SYS_futex && call_futex(arguments, &result)) return result;
-        if (number == SYS_getrandom) return getrandom((void *)arguments[0], (size_t)arguments[1], 0);
-        if (number == SYS_clock_gettime) return clock_gettime((clockid_t)arguments[0], (struct timespec *)arguments[1]);
-    }
-    return REAL(syscall)(number, arguments[0], arguments[1], arguments[2], arguments[3], arguments[4], arguments[5]);
 }

@@ -36,3 +36,11 @@ EXPORT int getentropy(void *buffer, size_t length) {
     }
     return getrandom(buffer, length, 0) < 0 ? -1 : 0;
 }
+
+// `std::random_device` of C++, which would otherwise ask the processor.
+EXPORT unsigned _ZNSt13random_device9_M_getvalEv(void *device) {
+    static unsigned (*real)(void *);
+    if (sim_takes_part()) return (unsigned)next_number();
+    if (real == NULL) real = (unsigned (*)(void *))(uintptr_t)sim_real("_ZNSt13random_device9_M_getvalEv");
+    return real(device);
+}

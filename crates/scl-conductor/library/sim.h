@@ -103,6 +103,11 @@ bool sim_is_own_process(void);
 void sim_keep_seat(bool keep);
 // Ends the part that a forked child takes in the simulation of its parent.
 void sim_leave(void);
+// Returns true if the program says to what it connects.
+bool sim_tells_connections(void);
+#define CONNECTION_PATH 108
+// Says that a socket has connected to another one with this path. Returns the socket to use instead, or -1.
+int sim_tell_connection(int socket, const char path[CONNECTION_PATH]);
 
 // clock.c: the time.
 
@@ -117,6 +122,21 @@ instant sim_instant(clockid_t clock, const struct timespec *time);
 instant sim_after(const struct timespec *duration);
 struct timespec sim_timespec(uint64_t nanoseconds);
 bool sim_is_duration(const struct timespec *duration);
+
+// futex.c: locks.
+
+// Returns false for what this library does not take the place of: futexes of several processes, and with priorities.
+bool sim_call_futex(const long arguments[6], long *result);
+
+// calls.c: system calls by number.
+
+// Returns -1 and sets `errno` as `syscall` does.
+long sim_do(long number, const long arguments[6]);
+
+// direct.c: system calls without the C library.
+
+// Lets the calling thread take part with such calls, too, where the machine offers that.
+void sim_catch_direct_calls(void);
 
 // random.c: random numbers.
 void sim_seed(uint64_t seed);

@@ -196,6 +196,7 @@ static struct thread *new_thread(void) {
 
 static void *begin_thread(void *thread) {
     self = thread;
+    sim_catch_direct_calls();
     pthread_setspecific(ending, thread);
     wait_for_baton();
     return self->routine(self->argument);
@@ -268,5 +269,6 @@ __attribute__((constructor)) static void begin(void) {
     pthread_key_create(&ending, end_thread);
     pthread_setspecific(ending, self);
     pthread_atfork(NULL, NULL, leave_in_child);
+    sim_catch_direct_calls();
     active = true;
 }

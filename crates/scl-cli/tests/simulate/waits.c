@@ -13,6 +13,7 @@
 #include <sys/poll.h>
 #include <sys/random.h>
 #include <sys/select.h>
+#include <sys/syscall.h>
 #include <sys/time.h>
 #include <sys/timerfd.h>
 #include <sys/wait.h>
@@ -233,6 +234,47 @@ static void others(void) {
     SAY("sigwait");
 }
 
+// A system call without the C library, as far as this is known for the processor.
+static long direct(long number, long a, long b, long c, long d) {
+#ifdef __x86_64__
+    register long fourth __asm__("r10") = d;
+    long result;
+    __asm__ volatile("syscall"
+                     : "=a"(result)
+                     : "a"(number), "D"(a), "S"(b), "d"(c), "r"(fourth)
+                     : "rcx", "r11", "memory");
+    return result;
+#else
+    return syscall(number, a, b, c, d);
+#endif
+}
+
+static void *wait_directly(void *argument) {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, NULL);
+    struct timespec hour = {.tv_sec = 3600};
+    printf("%ld, ", direct(SYS_nanosleep, (long)&hour, 0, 0, 0));
+    SAY("nanosleep without the C library");
+    return argument;
+}
+
+static void direct_calls(void) {
+    pthread_t thread;
+    pthread_create(&thread, NULL, wait_directly, NULL);
+    pthread_join(thread, NULL);
+    struct timespec time;
+    direct(SYS_clock_gettime, CLOCK_MONOTONIC, (long)&time, 0, 0);
+    printf("%s, ", now(CLOCK_MONOTONIC) - (double)time.tv_sec < 2 ? "the same time" : "another time");
+    int ends[2];
+    printf("%d, ", pipe(ends));
+    struct pollfd polled = {.fd = ends[0], .events = POLLIN};
+    struct timespec second = {.tv_sec = 1};
+    printf("%ld, ", direct(SYS_ppoll, (long)&polled, 1, (long)&second, 0));
+    printf("%d, ", direct(SYS_read, -1, 0, 0, 0) < 0);
+    SAY("ppoll without the C library");
+}
+
 int main(void) {
     sem_init(&semaphore, 0, 0);
     passed();
@@ -241,6 +283,7 @@ int main(void) {
     threads();
     clocks();
     others();
+    direct_calls();
     // A program that closes all that it does not know.
     printf("%d, ", close_range(3, ~0U, 0));
     printf("%d, ", dup2(1, 3) == 3 ? close(3) : -1);

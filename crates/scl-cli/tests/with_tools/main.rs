@@ -25,6 +25,8 @@ mod run_ready;
 #[cfg(feature = "new")]
 mod rust_analyzer;
 mod schema;
+#[cfg(feature = "simulate")]
+mod simulate;
 #[allow(dead_code, reason = "the other tests use the rest")]
 #[path = "../system/mod.rs"]
 mod system;
