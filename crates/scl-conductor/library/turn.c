@@ -11,6 +11,7 @@
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 // Its value: the format of the messages, the process, the socket, and the epoll descriptor that `scl simulate` watches.
@@ -20,8 +21,11 @@
 // Programs expect that the lowest numbers are free.
 #define HIGH 500
 
+// What the program says.
+enum kind { WAITS, CONNECTS };
+
 struct said {
-    // The format, and the process in the upper half.
+    // The format, the kind from bit 16, and the process in the upper half.
     uint64_t head;
     // When the program has to have its next turn at the latest.
     instant due;
@@ -37,6 +41,8 @@ struct heard {
     uint64_t signalled;
     // What the wall clock shows at the start of the simulation, in nanoseconds since 1970.
     uint64_t start;
+    // Whether the program is to say to what it connects.
+    uint64_t tells_connections;
 };
 
 static pid_t process;
@@ -46,6 +52,7 @@ static int connection = -1;
 static int watched = -1;
 // Ready while the program asks for a turn although it is idle.
 static int attention = -1;
+static bool tells_connections;
 static _Atomic bool idle;
 static _Atomic bool asks;
 
@@ -69,8 +76,9 @@ static void unwatch_all(void) {
     noted_count = 0;
 }
 
-static void say(instant due) {
-    struct said said = {.head = FORMAT | (uint64_t)process << 32, .due = due, .now = sim_now()};
+static void say(enum kind kind, instant due) {
+    uint64_t head = FORMAT | (uint64_t)kind << 16 | (uint64_t)process << 32;
+    struct said said = {.head = head, .due = due, .now = sim_now()};
     // Without `scl simulate`, the program cannot go on.
     if (sim_call(SYS_sendto, connection, &said, sizeof said, MSG_NOSIGNAL, NULL, 0) != sizeof said) _exit(126);
 }
@@ -112,7 +120,7 @@ void sim_take_turn(bool again) {
         if (again) unwatch_all();
         instant wait = sim_watch_waits();
         instant timer = sim_expire_timers();
-        say(wait < timer ? wait : timer);
+        say(WAITS, wait < timer ? wait : timer);
         struct heard heard = hear();
         sim_set_now(heard.now);
         if (heard.signalled != 0) sim_interrupt_first();
@@ -159,12 +167,53 @@ bool sim_join(void) {
     const struct timeval year = {.tv_sec = 31536000};
     setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &year, sizeof year);
     sim_watch(attention, EPOLLIN);
-    say(0);
+    say(WAITS, 0);
     struct heard heard = hear();
     sim_set_now(heard.now);
     sim_set_start(heard.start);
     sim_seed(heard.seed);
+    tells_connections = heard.tells_connections != 0;
     return true;
+}
+
+bool sim_tells_connections(void) {
+    return tells_connections;
+}
+
+// The message of a descriptor.
+union descriptor_message {
+    char buffer[CMSG_SPACE(sizeof(int))];
+    struct cmsghdr header;
+};
+
+int sim_tell_connection(int socket, const char path[CONNECTION_PATH]) {
+    say(CONNECTS, 0);
+    union descriptor_message control = {.header = {
+        .cmsg_len = CMSG_LEN(sizeof(int)),
+        .cmsg_level = SOL_SOCKET,
+        .cmsg_type = SCM_RIGHTS,
+    }};
+    memcpy(CMSG_DATA(&control.header), &socket, sizeof socket);
+    struct iovec part = {.iov_base = (char *)(uintptr_t)path, .iov_len = CONNECTION_PATH};
+    struct msghdr message = {
+        .msg_iov = &part, .msg_iovlen = 1, .msg_control = &control, .msg_controllen = sizeof control};
+    if (sim_call(SYS_sendmsg, connection, &message, MSG_NOSIGNAL) != CONNECTION_PATH) _exit(126);
+    char answer;
+    part = (struct iovec){.iov_base = &answer, .iov_len = sizeof answer};
+    long count;
+    while ((count = sim_call(SYS_recvmsg, connection, &message, MSG_CMSG_CLOEXEC)) < 0) {
+        if (errno == EINTR) {
+            sim_interrupt();
+        } else if (errno != EAGAIN) {
+            _exit(126);
+        }
+    }
+    if (count == 0) _exit(126);
+    struct cmsghdr *header = CMSG_FIRSTHDR(&message);
+    if (header == NULL || header->cmsg_type != SCM_RIGHTS) return -1;
+    int other;
+    memcpy(&other, CMSG_DATA(header), sizeof other);
+    return other;
 }
 
 bool sim_is_own_process(void) {

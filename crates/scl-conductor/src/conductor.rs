@@ -1,15 +1,17 @@
 //! Gives the programs their turns, and moves the time.
 
-use crate::faults::Fault;
-use crate::participant::{Participant, Said};
+use crate::faults::{Effect, Fault};
+use crate::network::Network;
+use crate::participant::{Beginning, Participant, Said};
+use crate::patience::{is_debugged, never_waits};
+use crate::processor::use_one_processor;
 use crate::random::{Between, Random};
 use crate::scenario::Scenario;
 use crate::seed::seed_of;
 use crate::speed::Speed;
 use rustix::event::{Timespec, epoll};
 use rustix::io::Errno;
-use rustix::process::{Pid, Signal, kill_process};
-use rustix::thread::CpuSet;
+use scl_record::format::SIMULATION_START;
 use scl_run::{Pause, Seat};
 use scl_terminal::{Problem, print_err};
 use std::collections::{HashMap, VecDeque};
@@ -44,28 +46,37 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { seed: 0, start: crate::START, speed: None, patience: Duration::from_secs(30), most_turns: 1_000_000, processor: 0 }
+        Self {
+            seed: 0,
+            start: SIMULATION_START,
+            speed: None,
+            patience: Duration::from_secs(30),
+            most_turns: 1_000_000,
+            processor: 0,
+        }
     }
 }
 
 /// Gives the programs of a system their turns.
 ///
-/// Of several that can go on, the one after the last that had a turn comes first, in the order in which they were
-/// started.
+/// Of several that can go on, the one after the last that had a turn comes first, in the order of the names of their
+/// components; the recorder comes before all of them.
 #[derive(Debug)]
 pub struct Conductor {
     options: Options,
     library: PathBuf,
     now: Duration,
     speed: Speed,
-    /// In the order in which they were started.
+    /// In the order in which they have turns.
     participants: Vec<Participant>,
+    /// The index of the one behind the last that had a turn.
+    behind_last: usize,
+    /// How often each component has been started.
+    starts: HashMap<String, u64>,
     /// What they wait for, each with the number of its process.
     ready: OwnedFd,
     /// The process that runs, and since when.
     running: Option<(usize, Instant)>,
-    /// The process that had the last turn.
-    last: Option<usize>,
     turns: u64,
     /// Number of turns since time has last passed.
     turns_now: u64,
@@ -75,6 +86,8 @@ pub struct Conductor {
     takes: HashMap<String, (Between, Random)>,
     /// What is to go wrong.
     faults: VecDeque<Fault>,
+    /// The connections that do not carry everything at once.
+    network: Network,
     /// Processes that were killed. Nobody else has a turn before their ends: what others see of them comes in no order.
     killed: VecDeque<usize>,
 }
@@ -89,26 +102,34 @@ impl Conductor {
         let library = folder.join("libscl_sim.so");
         fs::write(&library, LIBRARY)?;
         let speed = Speed::new(options.speed);
+        let network = Network::new(options.seed, Vec::new())?;
         Ok(Self {
             options,
             library,
             now: Duration::ZERO,
             speed,
             participants: Vec::new(),
+            behind_last: 0,
+            starts: HashMap::new(),
             ready: epoll::create(epoll::CreateFlags::CLOEXEC)?,
             running: None,
-            last: None,
             turns: 0,
             turns_now: 0,
             began: None,
             takes: HashMap::new(),
             faults: VecDeque::new(),
+            network,
             killed: VecDeque::new(),
         })
     }
 
-    /// Lets programs take as long as a scenario says, and these faults happen. Call it before the simulation.
-    pub fn follow(&mut self, scenario: &Scenario, faults: Vec<Fault>) {
+    /// Lets programs and messages take as long as a scenario says, and these faults happen. Call it before the
+    /// simulation.
+    ///
+    /// # Errors
+    ///
+    /// If the operating system refuses what that takes.
+    pub fn follow(&mut self, scenario: &Scenario, faults: Vec<Fault>) -> io::Result<()> {
         debug_assert!(faults.is_sorted_by_key(|fault| fault.at), "they happen in this order");
         let seed = self.options.seed;
         let takes = scenario.takes.iter().map(|(component, between)| {
@@ -116,6 +137,8 @@ impl Conductor {
         });
         self.takes = takes.collect();
         self.faults = faults.into();
+        self.network = Network::new(seed, scenario.routes.clone())?;
+        Ok(())
     }
 
     /// Returns how long the simulation has taken, in real time.
@@ -155,7 +178,7 @@ impl Conductor {
         let now = self.now;
         for it in self.participants.iter_mut().filter(|it| it.goes_on.is_none() && it.pid.is_some()) {
             if it.is_woken(now)
-                && let Some((between, random)) = self.takes.get_mut(&it.component)
+                && let Some((between, random)) = it.component.as_ref().and_then(|name| self.takes.get_mut(name))
             {
                 it.goes_on = Some(now + random.between(*between));
             }
@@ -166,14 +189,14 @@ impl Conductor {
     fn let_happen(&mut self) {
         while let Some(fault) = self.faults.pop_front_if(|fault| fault.at <= self.now) {
             print_err(&format!("scl: {fault}\n"));
-            // Nothing happens to a component that does not run.
-            let Some(it) = self.participants.iter_mut().find(|it| it.component == fault.component) else { continue };
-            match fault.pause {
-                Some(pause) => it.paused_until = self.now + pause,
-                None => {
-                    let process = it.pid.and_then(|pid| Pid::from_raw(pid.cast_signed()));
-                    // It may have just ended.
-                    let _ended = process.map(|process| kill_process(process, Signal::KILL));
+            let target = self.participants.iter_mut().find(|it| it.is(&fault.target));
+            match (fault.effect, target) {
+                (Effect::Cut(cut), _) => self.network.cut(&fault.target, self.now + cut),
+                // Nothing happens to a component that does not run.
+                (_, None) => {}
+                (Effect::Pause(pause), Some(it)) => it.paused_until = self.now + pause,
+                (Effect::Kill, Some(it)) => {
+                    it.kill();
                     self.killed.push_back(it.process);
                 }
             }
@@ -184,8 +207,7 @@ impl Conductor {
     fn next(&self) -> Option<usize> {
         let wants = |it: &(usize, &Participant)| it.1.next_turn(self.now).is_some_and(|next| next <= self.now);
         let all = || self.participants.iter().enumerate();
-        let mut after = all().filter(|(_, it)| self.last.is_none_or(|last| it.process > last));
-        after.find(wants).or_else(|| all().find(wants)).map(|(index, _)| index)
+        all().skip(self.behind_last).find(wants).or_else(|| all().find(wants)).map(|(index, _)| index)
     }
 
     fn give_turn(&mut self, index: usize) -> Result<(), Problem> {
@@ -199,7 +221,7 @@ impl Conductor {
             participant.give_turn(self.now);
             self.turns += 1;
         }
-        (self.running, self.last) = (Some((participant.process, Instant::now())), Some(participant.process));
+        (self.running, self.behind_last) = (Some((participant.process, Instant::now())), index + 1);
         Ok(())
     }
 
@@ -213,15 +235,29 @@ impl Conductor {
             Said::Waits(now) => {
                 self.now = self.now.max(now);
                 self.running = None;
+                if participant.is_doomed {
+                    participant.kill();
+                    self.killed.push_back(process);
+                }
+            }
+            Said::Connects(endpoint, socket) => {
+                let joined = match &participant.component {
+                    Some(component) => self.network.join(component, &endpoint, socket),
+                    None => Ok(None),
+                };
+                participant.answer(joined.map_err(|error| failed("carry a connection", error))?);
             }
             Said::Nothing if since.elapsed() < self.options.patience || is_debugged(participant.pid) => {}
             Said::Nothing => return Err(never_waits(participant, self.now, self.options.patience)),
             Said::Ended => {
                 self.participants.remove(index);
+                if index < self.behind_last {
+                    self.behind_last -= 1;
+                }
                 self.running = None;
                 return Ok(Some(process));
             }
-            Said::Nonsense => return Err(Problem::new(format!("component `{}` says nonsense", participant.component))),
+            Said::Nonsense => return Err(Problem::new(format!("{} says nonsense", participant.shown()))),
         }
         Ok(None)
     }
@@ -229,7 +265,7 @@ impl Conductor {
     /// When something happens next, if nothing else happens before.
     fn due(&self) -> Option<Duration> {
         let turns = self.participants.iter().filter_map(|it| it.next_turn(self.now));
-        turns.chain(self.faults.front().map(|fault| fault.at)).min()
+        turns.chain(self.faults.front().map(|fault| fault.at)).chain(self.network.due()).min()
     }
 
     fn pass_time(&mut self, next: Duration) {
@@ -243,7 +279,7 @@ impl Conductor {
         let mut busy: Vec<&Participant> = self.participants.iter().collect();
         busy.sort_by_key(|it| std::cmp::Reverse(it.turns));
         let busy = busy.iter().filter(|it| it.turns > self.options.most_turns / 100);
-        let busy: Vec<String> = busy.map(|it| format!("`{}` ({} times)", it.component, it.turns)).collect();
+        let busy: Vec<String> = busy.map(|it| format!("{} ({} times)", it.shown(), it.turns)).collect();
         let (time, busy) = (self.now.as_secs_f64(), busy.join(", "));
         Problem::new(format!("no time passes any more at {time:.6} s: the programs keep each other busy: {busy}")).help(
             "one of them has to wait, or to answer less than it is told; `--most-turns` lets them go on for longer",
@@ -252,18 +288,27 @@ impl Conductor {
 }
 
 impl scl_run::Conductor for Conductor {
-    fn seat(&mut self, process: usize, component: &str) -> io::Result<Seat> {
+    fn seat(&mut self, process: usize, component: Option<&str>) -> io::Result<Seat> {
         if self.began.is_none() {
             self.began = Some(Instant::now());
             use_one_processor(self.options.processor);
         }
-        let seed = seed_of(self.options.seed, component, process as u64);
-        let (participant, inherited) = Participant::new(process, component, seed, self.options.start)?;
+        // The same whatever happens to the others.
+        let starts = self.starts.entry(component.unwrap_or_default().to_owned()).or_default();
+        let seed = seed_of(self.options.seed, component.unwrap_or_default(), *starts);
+        *starts += 1;
+        let beginning = Beginning { seed, start: self.options.start, tells_connections: self.network.is_of_use() };
+        let (participant, inherited) = Participant::new(process, component, beginning)?;
         let data = epoll::EventData::new_u64(process as u64);
         epoll::add(&self.ready, &participant.watched, data, epoll::EventFlags::IN)?;
         // Its end, if it is killed while it waits.
         epoll::add(&self.ready, &participant.connection, data, epoll::EventFlags::RDHUP)?;
-        self.participants.push(participant);
+        let order = |it: &Participant| (it.component.clone(), it.process);
+        let index = self.participants.partition_point(|it| order(it) < order(&participant));
+        if index < self.behind_last {
+            self.behind_last += 1;
+        }
+        self.participants.insert(index, participant);
         Ok(Seat { library: self.library.clone(), socket: inherited.socket, watched: inherited.watched })
     }
 
@@ -294,6 +339,7 @@ impl scl_run::Conductor for Conductor {
                 index.map_or(Ok(()), |index| self.give_turn(index))?;
                 continue;
             }
+            self.network.carry(self.now).map_err(|error| failed("carry messages", error))?;
             self.look(Duration::ZERO)?;
             self.begin_to_go_on();
             if let Some(index) = self.next() {
@@ -319,38 +365,6 @@ impl scl_run::Conductor for Conductor {
             it.is_signalled = true;
         }
     }
-}
-
-/// Each turn would otherwise wake another processor, which takes twice as long.
-fn use_one_processor(number: usize) {
-    let Ok(allowed) = rustix::thread::sched_getaffinity(None) else { return };
-    let allowed: Vec<usize> = (0..CpuSet::MAX_CPU).rev().filter(|cpu| allowed.is_set(*cpu)).collect();
-    let Some(chosen) = allowed.get(number % allowed.len().max(1)) else { return };
-    let mut one = CpuSet::new();
-    one.set(*chosen);
-    // Only the speed depends on it.
-    let _slower = rustix::thread::sched_setaffinity(None, &one);
-}
-
-/// Returns true if a person looks at the program with a debugger, or has stopped it.
-fn is_debugged(pid: Option<u32>) -> bool {
-    let status = pid.and_then(|pid| fs::read_to_string(format!("/proc/{pid}/status")).ok()).unwrap_or_default();
-    let value = |name: &str| status.lines().find_map(|line| line.strip_prefix(name)).map_or("", str::trim);
-    value("State:").starts_with(['t', 'T']) || !matches!(value("TracerPid:"), "" | "0")
-}
-
-fn never_waits(participant: &Participant, now: Duration, patience: Duration) -> Problem {
-    let (name, patience) = (&participant.component, patience.as_secs_f64());
-    if participant.pid.is_none() {
-        let text = format!("component `{name}` does not take part in the simulation {patience:.0} s after its start");
-        return Problem::new(text).help(
-            "programs that are linked statically, or remove `LD_PRELOAD`, cannot take part; name the program itself, \
-             not a script that starts it",
-        );
-    }
-    let now = now.as_secs_f64();
-    Problem::new(format!("component `{name}` has been running for {patience:.0} s without waiting, at {now:.6} s"))
-        .help("it computes forever, or waits for something outside the simulation; `--patience` gives it more time")
 }
 
 fn failed(what: &str, error: io::Error) -> Problem {

@@ -29,9 +29,11 @@ pub(crate) enum What {
     Kill,
     /// The process does not run for a while.
     Pause(Between),
+    /// Nothing passes the connections for a while.
+    Cut(Between),
 }
 
-/// To which components it happens.
+/// To which components it happens; a cut also to single gates.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Whom {
     /// To each of them at the same time.
@@ -40,28 +42,38 @@ pub(crate) enum Whom {
     Any(Vec<String>),
 }
 
-/// A fault that happens once, to one component.
+/// A fault that happens once, to one component or gate.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
     /// Its number in the simulation, from 1.
     pub number: usize,
     /// When it happens.
     pub at: Duration,
-    /// To which component.
-    pub component: String,
-    /// How long the component does not run; it is killed if `None`.
-    pub pause: Option<Duration>,
+    /// To which component, or to which gate, as `component.gate`.
+    pub target: String,
+    /// What it does.
+    pub effect: Effect,
+}
+
+/// What a fault does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effect {
+    /// The component's process is killed.
+    Kill,
+    /// The component does not run for this long.
+    Pause(Duration),
+    /// Nothing passes the connections of the component or gate for this long.
+    Cut(Duration),
 }
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (number, at, component) = (self.number, self.at.as_secs_f64(), &self.component);
-        match self.pause {
-            None => write!(f, "fault {number}, at {at:.6} s: `{component}` is killed"),
-            Some(pause) => {
-                let pause = pause.as_secs_f64();
-                write!(f, "fault {number}, at {at:.6} s: `{component}` does not run for {pause:.6} s")
-            }
+        let (number, at, target) = (self.number, self.at.as_secs_f64(), &self.target);
+        write!(f, "fault {number}, at {at:.6} s: ")?;
+        match self.effect {
+            Effect::Kill => write!(f, "`{target}` is killed"),
+            Effect::Pause(pause) => write!(f, "`{target}` does not run for {:.6} s", pause.as_secs_f64()),
+            Effect::Cut(cut) => write!(f, "the connections of `{target}` are cut for {:.6} s", cut.as_secs_f64()),
         }
     }
 }
@@ -73,19 +85,20 @@ pub(crate) fn faults(rules: &[FaultRule], seed: u64, until: Duration) -> Vec<Fau
     for (index, rule) in rules.iter().enumerate() {
         let mut random = Random::new(seed_of(seed, "faults", index as u64));
         let mut happens = |at: Duration, random: &mut Random| {
-            let components = match &rule.whom {
+            let targets = match &rule.whom {
                 Whom::Each(all) => all.as_slice(),
                 Whom::Any(all) => {
                     let one = random.below(all.len().max(1) as u64) as usize;
                     all.get(one..=one).unwrap_or_default()
                 }
             };
-            let pause = match rule.what {
-                What::Kill => None,
-                What::Pause(between) => Some(random.between(between)),
+            let effect = match rule.what {
+                What::Kill => Effect::Kill,
+                What::Pause(between) => Effect::Pause(random.between(between)),
+                What::Cut(between) => Effect::Cut(random.between(between)),
             };
-            let one = |component: &String| Fault { number: 0, at, component: component.clone(), pause };
-            faults.extend(components.iter().map(one));
+            let one = |target: &String| Fault { number: 0, at, target: target.clone(), effect };
+            faults.extend(targets.iter().map(one));
         };
         match rule.when {
             When::At(between) => {
@@ -138,12 +151,12 @@ mod tests {
         assert_ne!(found, faults(&rules, 8, 100 * SECOND));
         assert!(found.is_sorted_by_key(|fault| fault.at));
         assert!(found.iter().map(|fault| fault.number).eq(1..=found.len()));
-        let paused: Vec<&Fault> = found.iter().filter(|fault| fault.pause == Some(2 * SECOND)).collect();
+        let paused: Vec<&Fault> = found.iter().filter(|fault| fault.effect == Effect::Pause(2 * SECOND)).collect();
         assert_eq!(paused.len(), 2);
         assert!(paused.iter().all(|fault| fault.at == 40 * SECOND));
-        let killed: Vec<&Fault> = found.iter().filter(|fault| fault.pause.is_none()).collect();
+        let killed: Vec<&Fault> = found.iter().filter(|fault| fault.effect == Effect::Kill).collect();
         assert!((4..=18).contains(&killed.len()), "{found:?}");
-        assert!(killed.iter().all(|fault| fault.at >= 15 * SECOND && "ab".contains(&*fault.component)), "{found:?}");
+        assert!(killed.iter().all(|fault| fault.at >= 15 * SECOND && "ab".contains(&*fault.target)), "{found:?}");
         // A rule that is added changes no other.
         assert_eq!(faults(&rules[..1], 7, 100 * SECOND).len(), killed.len());
     }

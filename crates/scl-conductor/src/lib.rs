@@ -13,18 +13,17 @@
 
 mod conductor;
 mod faults;
+mod network;
 mod participant;
+mod patience;
+mod processor;
 mod random;
+mod routes;
 mod scenario;
 mod seed;
 mod speed;
 
 pub use conductor::{Conductor, Options};
-pub use faults::Fault;
+pub use faults::{Effect, Fault};
 pub use random::Between;
 pub use scenario::{Expectation, Expected, Failure, Scenario, unmet};
-
-use std::time::Duration;
-
-/// What the wall clock shows at the start of a simulation, since 1970, unless somebody watches: the first day of 2026.
-pub const START: Duration = Duration::from_secs(1_767_225_600);

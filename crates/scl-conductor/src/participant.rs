@@ -2,15 +2,25 @@
 
 use rustix::event::epoll;
 use rustix::io::{Errno, FdFlags, fcntl_setfd};
-use rustix::net::{AddressFamily, RecvFlags, SendFlags, SocketFlags, SocketType, recv, send, socketpair, sockopt};
+use rustix::net::{
+    AddressFamily, RecvAncillaryBuffer, RecvAncillaryMessage, RecvFlags, SendAncillaryBuffer, SendAncillaryMessage,
+    SendFlags, SocketFlags, SocketType, recv, recvmsg, send, sendmsg, socketpair, sockopt,
+};
+use rustix::process::{Pid, Signal, kill_process};
 use scl_run::SEAT_FORMAT;
 use scl_text::duration::nanoseconds;
-use std::io;
-use std::os::fd::OwnedFd;
+use std::io::{self, IoSlice, IoSliceMut};
+use std::mem::MaybeUninit;
+use std::os::fd::{AsFd, OwnedFd};
 use std::time::Duration;
 
 /// Length of what the program says, in bytes.
 const SAID: usize = 24;
+/// The kinds of what it says.
+const WAITS: u16 = 0;
+const CONNECTS: u16 = 1;
+/// Length of the path of a socket, in bytes.
+const PATH: usize = 108;
 /// How long one look at a program that runs takes at most.
 const LOOK: Duration = Duration::from_millis(100);
 /// What the library says for "as long as nothing happens".
@@ -21,15 +31,16 @@ const NEVER: u64 = u64::MAX;
 pub(crate) struct Participant {
     /// Its number in the run.
     pub(crate) process: usize,
-    pub(crate) component: String,
+    /// The component that it runs; `None` for the program that records.
+    pub(crate) component: Option<String>,
     pub(crate) connection: OwnedFd,
     /// Ready when something that the program waits for has happened.
     pub(crate) watched: OwnedFd,
-    pub(crate) seed: u64,
-    /// What the wall clock shows at the start, since 1970.
-    start: Duration,
+    beginning: Beginning,
     /// Its process id, once it has said so.
     pub(crate) pid: Option<u32>,
+    /// Whether it is to be killed as soon as its process id is known.
+    pub(crate) is_doomed: bool,
     /// When it has to have a turn at the latest; `None` if it waits for something else.
     pub(crate) due: Option<Duration>,
     /// Whether something that it waits for has happened.
@@ -44,11 +55,24 @@ pub(crate) struct Participant {
     pub(crate) turns: u64,
 }
 
+/// What a program hears with its first turn.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Beginning {
+    /// The seed of its random numbers.
+    pub(crate) seed: u64,
+    /// What the wall clock shows at the start of the simulation, since 1970.
+    pub(crate) start: Duration,
+    /// Whether it is to say to what it connects.
+    pub(crate) tells_connections: bool,
+}
+
 /// What a program has said.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug)]
 pub(crate) enum Said {
     /// It waits; this is the time up to which it has moved the clock.
     Waits(Duration),
+    /// It has connected to the socket of this name, and goes on with an [answer](Participant::answer).
+    Connects(String, OwnedFd),
     /// Nothing yet.
     Nothing,
     /// It has ended, or closed the connection.
@@ -65,7 +89,7 @@ pub(crate) struct Inherited {
 }
 
 impl Participant {
-    pub(crate) fn new(process: usize, component: &str, seed: u64, start: Duration) -> io::Result<(Self, Inherited)> {
+    pub(crate) fn new(process: usize, component: Option<&str>, beginning: Beginning) -> io::Result<(Self, Inherited)> {
         let (connection, socket) = socketpair(AddressFamily::UNIX, SocketType::STREAM, SocketFlags::CLOEXEC, None)?;
         sockopt::set_socket_timeout(&connection, sockopt::Timeout::Recv, Some(LOOK))?;
         let watched = epoll::create(epoll::CreateFlags::CLOEXEC)?;
@@ -73,15 +97,15 @@ impl Participant {
         // The program that is started next inherits them. No other thread starts programs at the same time.
         fcntl_setfd(&inherited.socket, FdFlags::empty())?;
         fcntl_setfd(&inherited.watched, FdFlags::empty())?;
-        let component = component.to_owned();
+        let component = component.map(str::to_owned);
         let participant = Self {
             process,
             component,
             connection,
             watched,
-            seed,
-            start,
+            beginning,
             pid: None,
+            is_doomed: false,
             due: Some(Duration::ZERO),
             is_ready: false,
             is_signalled: false,
@@ -90,6 +114,24 @@ impl Participant {
             turns: 0,
         };
         Ok((participant, inherited))
+    }
+
+    /// Its name in messages.
+    pub(crate) fn shown(&self) -> String {
+        self.component.as_ref().map_or_else(|| "the recorder".to_owned(), |component| format!("`{component}`"))
+    }
+
+    /// Whether it runs this component.
+    pub(crate) fn is(&self, component: &str) -> bool {
+        self.component.as_deref() == Some(component)
+    }
+
+    /// Kills its process, as soon as that is known.
+    pub(crate) fn kill(&mut self) {
+        let process = self.pid.and_then(|pid| Pid::from_raw(pid.cast_signed()));
+        self.is_doomed = process.is_none();
+        // It may have just ended.
+        let _ended = process.map(|process| kill_process(process, Signal::KILL));
     }
 
     /// Returns true if something that it waits for has happened.
@@ -105,7 +147,9 @@ impl Participant {
 
     /// Lets the program run from `now` on. If it has ended, it is found when it is listened to.
     pub(crate) fn give_turn(&mut self, now: Duration) {
-        let numbers = [nanoseconds(now), self.seed, u64::from(self.is_signalled), nanoseconds(self.start)];
+        let Beginning { seed, start, tells_connections } = self.beginning;
+        let (is_signalled, tells_connections) = (u64::from(self.is_signalled), u64::from(tells_connections));
+        let numbers = [nanoseconds(now), seed, is_signalled, nanoseconds(start), tells_connections];
         let message = numbers.map(u64::to_ne_bytes).concat();
         (self.is_ready, self.is_signalled, self.goes_on, self.turns) = (false, false, None, self.turns + 1);
         // A short message always fits into an empty socket.
@@ -130,12 +174,51 @@ impl Participant {
             number.copy_from_slice(&message[index * 8..][..8]);
             u64::from_ne_bytes(number)
         });
-        let (format, pid) = (head as u32, (head >> 32) as u32);
-        if format != SEAT_FORMAT {
-            return Ok(Said::Nonsense);
+        let (format, kind, pid) = (head as u16, (head >> 16) as u16, (head >> 32) as u32);
+        match kind {
+            _ if u32::from(format) != SEAT_FORMAT => Ok(Said::Nonsense),
+            WAITS => {
+                self.pid = Some(pid);
+                self.due = Some(due).filter(|due| *due != NEVER).map(Duration::from_nanos);
+                Ok(Said::Waits(Duration::from_nanos(now)))
+            }
+            CONNECTS => self.hear_connection(),
+            _ => Ok(Said::Nonsense),
         }
-        self.pid = Some(pid);
-        self.due = Some(due).filter(|due| *due != NEVER).map(Duration::from_nanos);
-        Ok(Said::Waits(Duration::from_nanos(now)))
+    }
+
+    /// Hears to what the program has connected: the path, with the socket.
+    fn hear_connection(&self) -> io::Result<Said> {
+        let mut path = [0_u8; PATH];
+        let mut space = [MaybeUninit::uninit(); rustix::cmsg_space!(ScmRights(1))];
+        let mut control = RecvAncillaryBuffer::new(&mut space);
+        let received = loop {
+            match recvmsg(&self.connection, &mut [IoSliceMut::new(&mut path)], &mut control, RecvFlags::CMSG_CLOEXEC) {
+                Err(Errno::AGAIN | Errno::INTR) => {}
+                other => break other?,
+            }
+        };
+        let mut sockets = control.drain().filter_map(|message| match message {
+            RecvAncillaryMessage::ScmRights(sockets) => Some(sockets),
+            _ => None,
+        });
+        let socket = sockets.next().and_then(|mut sockets| sockets.next());
+        let Some(socket) = socket.filter(|_| received.bytes == PATH) else { return Ok(Said::Nonsense) };
+        let path = String::from_utf8_lossy(path.split(|byte| *byte == 0).next().unwrap_or_default());
+        let name = path.rsplit('/').next().unwrap_or_default();
+        Ok(Said::Connects(name.to_owned(), socket))
+    }
+
+    /// Lets the program go on after it has connected, with another socket if there is one. If it has ended, it is found
+    /// when it is listened to.
+    pub(crate) fn answer(&self, socket: Option<OwnedFd>) {
+        let mut space = [MaybeUninit::uninit(); rustix::cmsg_space!(ScmRights(1))];
+        let mut control = SendAncillaryBuffer::new(&mut space);
+        let sockets: Vec<_> = socket.iter().map(AsFd::as_fd).collect();
+        debug_assert!(sockets.len() <= 1, "there is room for one");
+        if !sockets.is_empty() {
+            control.push(SendAncillaryMessage::ScmRights(&sockets));
+        }
+        let _ended = sendmsg(&self.connection, &[IoSlice::new(&[0])], &mut control, SendFlags::NOSIGNAL);
     }
 }

@@ -33,7 +33,7 @@ impl Random {
 }
 
 /// Durations from the least to the most.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Between {
     /// The shortest one.
     pub least: Duration,

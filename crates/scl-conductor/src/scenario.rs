@@ -9,6 +9,7 @@ mod tests;
 
 use crate::faults::{Fault, FaultRule, When, faults};
 use crate::random::Between;
+use crate::routes::Route;
 pub use conditions::{Expectation, Expected, Failure, unmet};
 use scl_plan::SystemPlan;
 use scl_terminal::Problem;
@@ -26,6 +27,8 @@ pub struct Scenario {
     pub takes: Vec<(String, Between)>,
     /// What goes wrong.
     pub(crate) faults: Vec<FaultRule>,
+    /// The connections that do not always carry everything at once.
+    pub(crate) routes: Vec<Route>,
     /// What must hold.
     pub expectations: Vec<Expectation>,
 }

@@ -18,6 +18,11 @@ pub use missed::{MissedGate, MissedPeer};
 pub use topic::{Part, Topic};
 pub use totals::{GateTotals, Totals};
 
+use std::time::Duration;
+
+/// What the wall clock shows at the start of a simulation, since 1970, unless somebody watches: the first day of 2026.
+pub const SIMULATION_START: Duration = Duration::from_secs(1_767_225_600);
+
 /// Profile in the header of the file.
 pub const PROFILE: &str = "scl";
 

@@ -11,12 +11,12 @@ use std::time::Duration;
 /// conductor's.
 pub trait Conductor: std::fmt::Debug {
     /// Returns what a program that is about to be started needs to take part. `process` is its number in this run,
-    /// which it keeps until it has ended.
+    /// which it keeps until it has ended; `component` is `None` for the program that records.
     ///
     /// # Errors
     ///
     /// If the operating system refuses what that takes.
-    fn seat(&mut self, process: usize, component: &str) -> io::Result<Seat>;
+    fn seat(&mut self, process: usize, component: Option<&str>) -> io::Result<Seat>;
 
     /// Returns the time since the start of the run.
     fn now(&self) -> Duration;

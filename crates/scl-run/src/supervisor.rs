@@ -330,7 +330,8 @@ impl<'a, 'c> Supervisor<'a, 'c> {
                 .ok(),
         };
         let number = self.next_process;
-        let seat = self.simulated.as_mut().map(|simulated| simulated.seat(number, member.name)).transpose()?;
+        let component = Some(member.name).filter(|_| member.role != Role::Recorder);
+        let seat = self.simulated.as_mut().map(|simulated| simulated.seat(number, component)).transpose()?;
         let kept = if is_first {
             member.kept.forget();
             None

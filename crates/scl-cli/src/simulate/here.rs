@@ -7,10 +7,11 @@ use crate::load::{MaxSize, load_file, show_errors};
 use crate::run::component_names;
 use clap::Args;
 use rustix::process::{Signal, getppid, set_parent_process_death_signal};
+use scl_conductor::{Conductor, Failure, Fault, Options, Scenario, unmet};
 use scl_plan::SystemPlan;
+use scl_record::format::SIMULATION_START;
 use scl_record::recording::Recording;
 use scl_run::{Played, Simulation, SimulationEnd, topology_of};
-use scl_conductor::{Conductor, Failure, Fault, Options, START, Scenario, unmet};
 use scl_terminal::{Problem, print_err};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -58,7 +59,9 @@ pub(crate) fn simulate_here(here: &HereArguments) -> Result<ExitCode, Vec<Proble
     let SimulateArguments { programs, until, seed, speed, patience, most_turns, played, .. } = &here.arguments;
     let seed = here.with_seed.unwrap_or(*seed);
     // Tools that look at it live in real time, and would take it for old.
-    let start = speed.map_or(START, |_| Duration::from_secs(SystemTime::UNIX_EPOCH.elapsed().unwrap_or_default().as_secs()));
+    let start = speed.map_or(SIMULATION_START, |_| {
+        Duration::from_secs(SystemTime::UNIX_EPOCH.elapsed().unwrap_or_default().as_secs())
+    });
     let (speed, patience, most_turns, processor) = (*speed, *patience, *most_turns, here.processor);
     let options = Options { seed, start, speed, patience, most_turns, processor };
     let scenario = here.arguments.scenario.as_deref().map(|file| read_scenario(file, here)).transpose()?;
@@ -68,7 +71,8 @@ pub(crate) fn simulate_here(here: &HereArguments) -> Result<ExitCode, Vec<Proble
     let faults = chosen_faults(&scenario, seed, until, chosen).map_err(|problem| vec![problem])?;
     let conductor = Conductor::new(options, &here.runtime_folder);
     let mut conductor = conductor.map_err(|error| vec![failed("write the library", error)])?;
-    conductor.follow(&scenario, faults.clone());
+    let followed = conductor.follow(&scenario, faults.clone());
+    followed.map_err(|error| vec![failed("prepare the simulation", error)])?;
     // What is expected of messages is looked up in the recording.
     let own = (!scenario.expectations.is_empty()).then(|| here.runtime_folder.join("simulation.mcap"));
     let recording = here.record_to.clone().or(own);

@@ -1,6 +1,6 @@
 //! Components of SCL in simulated time: async, blocking, and with several threads.
 
-use super::{errors, of_components, simulate, text};
+use super::{errors, lines_of, of_components, simulate, text};
 use crate::system::{ChildGuard, SpawnGuarded, System};
 use scl::bytes::Bytes;
 use scl::plan::{Plan, SystemPlan};
@@ -38,6 +38,13 @@ connections:
 const PLAYS: &str = "SCL_TEST_SIMULATE_PLAYS";
 /// The file on which the sensor depends, if it exists: then it sends what it contains, and changes it.
 const OUTSIDE: &str = "outside";
+const ROUGH: &str = "\
+delays: {sensor.*: 1ms..9ms, controller.settings: 5ms}
+takes: {logger: 0ms..20ms}
+faults:
+  - {every: 100ms..900ms, cut: any, for: 10ms..600ms}
+  - {every: 300ms..900ms, kill: any}
+";
 const MS: Duration = Duration::from_millis(1);
 
 /// Starts the programs of the system in this order.
@@ -104,7 +111,8 @@ fn control() {
         loop {
             thread::sleep(70 * MS);
             let answer = settings.call_blocking(&Bytes::new());
-            sender.send(answer.map_or_else(|error| error.to_string(), |bytes| text(&bytes))).unwrap();
+            // The text of an error names processes by their numbers.
+            sender.send(answer.map_or_else(|_| "none".to_owned(), |bytes| text(&bytes))).unwrap();
         }
     });
     while let Ok(value) = values.recv_blocking() {
@@ -134,18 +142,14 @@ async fn log() {
     }
 }
 
-fn lines_of<'a>(output: &'a str, component: &str) -> Vec<&'a str> {
-    output.lines().filter(|line| line.starts_with(component)).collect()
-}
-
 #[test]
 fn everything_is_the_same_in_each_run_whatever_the_machine_does() {
     if play() {
         return;
     }
     let test = "simulate::components::everything_is_the_same_in_each_run_whatever_the_machine_does";
-    let run = |busy: bool| -> (Output, Vec<u8>) {
-        let system = system(test, &["sensor", "controller", "logger"]);
+    let run = |busy: bool, order: [&str; 3]| -> (Output, Vec<u8>) {
+        let system = system(test, &order);
         let load: Vec<ChildGuard> = (0..if busy { 8 } else { 0 }).map(|_| spin()).collect();
         let output = simulate(&system, &["--until", "20s", "-o", "mill.mcap"]);
         drop(load);
@@ -154,7 +158,8 @@ fn everything_is_the_same_in_each_run_whatever_the_machine_does() {
         fs::File::open(system.path("mill.mcap")).unwrap().read_to_end(&mut recording).unwrap();
         (output, recording)
     };
-    let ((idle, first), (busy, second)) = (run(false), run(true));
+    let ((idle, first), (busy, second)) =
+        (run(false, ["sensor", "controller", "logger"]), run(true, ["sensor", "controller", "logger"]));
     // The launch file with its folder is a part of the recording.
     assert!(first == second, "the recordings differ");
     // Also in the order in which different programs print. The recorder prints where its file is.
@@ -169,6 +174,15 @@ fn everything_is_the_same_in_each_run_whatever_the_machine_does() {
     assert!(logged.iter().any(|line| line.contains("[\"14\"]")), "{logged:?}");
     let told = |output: &Output| lines_of(&errors(output), "sensor").join("\n");
     assert_eq!(told(&idle), told(&busy));
+    // The order in which they are started is of no importance, either; only the launch file in the recording is
+    // another.
+    let (reversed, third) = run(false, ["logger", "controller", "sensor"]);
+    assert!(by_components(&idle) == by_components(&reversed), "they print something else, or in another order");
+    let recordings = System::of_files(&[]);
+    fs::write(recordings.path("first.mcap"), first).unwrap();
+    fs::write(recordings.path("third.mcap"), third).unwrap();
+    let compared = recordings.scl(&["compare", "first.mcap", "third.mcap", "--times-within", "0ms"]).output().unwrap();
+    assert!(compared.status.success(), "{}", text(&compared.stdout));
     assert!(
         told(&idle).contains("ended with exit code 3 after 2.0 s\nsensor      restarting in 200ms"),
         "{}",
@@ -191,6 +205,11 @@ fn twice_names_what_depends_on_something_else() {
     let output = simulate(&system, &["--until", "1s", "--twice"]);
     assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
     assert!(text(&output.stderr).contains("both simulations did the same\n"), "{}", text(&output.stderr));
+    // Whatever happens.
+    system.write("rough.yaml", ROUGH);
+    let output = simulate(&system, &["--until", "5s", "--scenario", "rough.yaml", "--twice"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("the connections of `"), "{}", text(&output.stderr));
     system.write(OUTSIDE, " ");
     let output = simulate(&system, &["--until", "1s", "--twice"]);
     let err = text(&output.stderr);

@@ -8,8 +8,9 @@ fn a_program_that_never_waits_is_named() {
     let system = of_program("int main(void) { for (;;) continue; }\n", "", &[]);
     let output = simulate(&system, &["--patience", "1s"]);
     let expected = "\
-error: component `program` has been running for 1 s without waiting, at 0.000000 s
-  = help: it computes forever, or waits for something outside the simulation; `--patience` gives it more time
+error: `program` has been running for 1 s without waiting, at 0.000000 s
+  = help: it computes forever, waits for something outside the simulation, or has become a program that does not take \
+part; `--patience` gives it more time
 
 ";
     assert_eq!(errors(&output), expected);
@@ -21,9 +22,8 @@ fn a_program_without_the_library_is_named() {
     let system = of_program("#include <unistd.h>\nint main(void) { pause(); }\n", "", &["-static"]);
     let output = simulate(&system, &["--patience", "1s"]);
     let expected = "\
-error: component `program` does not take part in the simulation 1 s after its start
-  = help: programs that are linked statically, or remove `LD_PRELOAD`, cannot take part; name the program itself, not a \
-script that starts it
+error: `program` does not take part in the simulation 1 s after its start
+  = help: a program that removes `LD_PRELOAD` cannot take part; name the program itself, not a script that starts it
 
 ";
     assert_eq!(errors(&output), expected);

@@ -28,6 +28,10 @@ fn errors(output: &Output) -> String {
     before
 }
 
+fn lines_of<'a>(output: &'a str, component: &str) -> Vec<&'a str> {
+    output.lines().filter(|line| line.starts_with(component)).collect()
+}
+
 /// A system of one C program.
 fn of_program(source: &str, entry: &str, options: &[&str]) -> System {
     let system = System::of_files(&[

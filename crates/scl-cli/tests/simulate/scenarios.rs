@@ -1,6 +1,6 @@
 //! Scenarios: faults, and what must hold all the same.
 
-use super::{errors, of_components, simulate, text};
+use super::{errors, lines_of, of_components, simulate, text};
 use crate::system::System;
 use scl::bytes::Bytes;
 use scl::plan::SystemPlan;
@@ -31,20 +31,27 @@ const PLAYS: &str = "SCL_TEST_SCENARIO_PLAYS";
 const START: u64 = 1_767_225_600;
 const TICK: Duration = Duration::from_millis(100);
 
-fn system(test: &str, scenario: &str) -> System {
+pub(super) fn system(test: &str, scenario: &str) -> System {
     let system = of_components(TOPOLOGY, test, PLAYS, &["pump", "valve", "display"]);
     system.write("rough.yaml", scenario);
     system
 }
 
+/// The time of the simulation, in seconds.
+fn since_start() -> f64 {
+    (SystemTime::UNIX_EPOCH.elapsed().unwrap() - Duration::from_secs(START)).as_secs_f64()
+}
+
 /// Plays the component that the environment names, or returns false.
-fn play() -> bool {
+pub(super) fn play() -> bool {
     let Ok(name) = std::env::var(PLAYS) else { return false };
     let plan = SystemPlan::from_json(&std::fs::read_to_string("plan.json").unwrap()).unwrap();
     let mut component = Component::open_blocking(plan.component(&name).unwrap()).unwrap();
     if name != "pump" {
         let mut level = component.subscriber("level").unwrap();
-        while level.recv_blocking().is_ok() {}
+        while let Ok(message) = level.recv_blocking() {
+            println!("{:.3} {}", since_start(), text(&message));
+        }
         return true;
     }
     let mut gate = component.publisher("level").unwrap();
@@ -53,8 +60,7 @@ fn play() -> bool {
     loop {
         thread::sleep(TICK);
         level += TICK.as_secs_f64();
-        let since = SystemTime::UNIX_EPOCH.elapsed().unwrap() - Duration::from_secs(START);
-        let error = since.as_secs_f64() - level;
+        let error = since_start() - level;
         let message = format!("{{\"level\":{level:.1},\"error\":{error:.3}}}");
         if gate.send_blocking(&Bytes::from(message)).is_err() {
             return true;
@@ -100,6 +106,50 @@ expect:
     assert!(err.contains("pump      killed by signal 9 (SIGKILL) after "), "{err}");
     let without = simulate(&system, &["--scenario", "rough.yaml", arguments[0], arguments[1], "--faults", "none"]);
     assert_eq!(without.status.code(), Some(0), "{}", text(&without.stderr));
+}
+
+#[test]
+fn what_is_late_or_cut_arrives_later_and_in_order() {
+    if play() {
+        return;
+    }
+    let test = "simulate::scenarios::what_is_late_or_cut_arrives_later_and_in_order";
+    let scenario = "\
+until: 6s
+delays: {pump.level: 20ms..80ms}
+faults:
+  - {at: 2s, cut: display, for: 1s}
+  - {at: 4s, cut: pump.level, for: 500ms}
+";
+    let system = system(test, scenario);
+    let output = simulate(&system, &["--scenario", "rough.yaml", "-o", "tank.mcap"]);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let printed = text(&output.stdout);
+    for (component, cuts) in [("valve", &[(4.0, 4.5)][..]), ("display", &[(2.0, 3.0), (4.0, 4.5)])] {
+        let received: Vec<(f64, f64, f64)> = printed.lines().filter_map(|line| received(line, component)).collect();
+        // Each arrives, in the order in which they were sent.
+        let tenths = received.iter().map(|(_, level, _)| (level * 10.0).round() as usize);
+        assert!(tenths.eq(1..=received.len()), "{printed}");
+        assert!(received.len() >= 50, "{printed}");
+        for (at, level, error) in received {
+            let sent = level + error;
+            let cut = cuts.iter().find(|(from, to)| (from - 0.08..*to).contains(&sent) && at >= *from);
+            let expected = cut.map_or(sent + 0.019..sent + 0.081, |(_, to)| *to - 0.001..to + 0.081);
+            assert!(expected.contains(&at), "{component} at {at}, sent at {sent}");
+        }
+    }
+    let faults = ["the connections of `display` are cut for 1.000000 s", "of `pump.level` are cut for 0.500000 s"];
+    faults.iter().for_each(|fault| assert!(text(&output.stderr).contains(fault), "{}", text(&output.stderr)));
+    let again = simulate(&system, &["--scenario", "rough.yaml", "-o", "again.mcap"]);
+    assert_eq!(lines_of(&text(&again.stdout), "display"), lines_of(&printed, "display"));
+}
+
+/// When a component has received a message, and the level and its error that it says.
+fn received(line: &str, component: &str) -> Option<(f64, f64, f64)> {
+    let (at, message) = line.strip_prefix(component)?.trim_start().strip_prefix("| ")?.split_once(' ')?;
+    let at = at.parse().ok()?;
+    let message: serde_json::Value = serde_json::from_str(message).unwrap();
+    Some((at, message["level"].as_f64().unwrap(), message["error"].as_f64().unwrap()))
 }
 
 #[test]

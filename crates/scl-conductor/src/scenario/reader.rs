@@ -1,15 +1,18 @@
 //! Reads a scenario, and reports every mistake with its place and what to write.
 
+mod delays;
+mod expectation;
+mod fault;
+
 use super::Scenario;
-use super::conditions::{Expectation, Expected, messages_of};
-use super::rules::{EXPECTATION, EXPECTED, FAULT, TOP, WHAT, WHEN};
-use crate::faults::{FaultRule, What, When, Whom};
+use super::rules::TOP;
 use crate::random::Between;
-use scl_plan::SystemPlan;
+use crate::routes::{full_name, routes};
+use scl_plan::{GatePlan, Plan, SystemPlan};
 use scl_terminal::{Problem, parse_duration, quoted_list};
+use scl_text::gate_name::split;
 use scl_topology::source::{SourceFile, Span};
 use scl_topology::yaml::Node;
-use scl_value::Condition;
 use std::time::Duration;
 
 /// Walks the values and collects the problems.
@@ -41,10 +44,12 @@ impl<'a> Reader<'a> {
     pub(super) fn scenario(&mut self, root: &Node) -> Scenario {
         let Some(entries) = self.entries(root, "a scenario", &TOP) else { return Scenario::default() };
         let until = entries.get("until").and_then(|node| self.duration(node));
+        let delays = entries.get("delays").map(|node| self.delays(node)).unwrap_or_default();
         let takes = entries.get("takes").map(|node| self.takes(node)).unwrap_or_default();
         let faults = entries.get("faults").map(|node| self.list(node, "faults", Self::fault)).unwrap_or_default();
         let expected = entries.get("expect").map(|node| self.list(node, "expect", Self::expectation));
-        Scenario { until, takes, faults, expectations: expected.unwrap_or_default() }
+        let routes = routes(self.system, &delays, &faults);
+        Scenario { until, takes, faults, routes, expectations: expected.unwrap_or_default() }
     }
 
     fn report(&mut self, problem: Problem, span: Span) {
@@ -121,33 +126,37 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn takes(&mut self, node: &Node) -> Vec<(String, Between)> {
-        let Some(entries) = node.entries() else {
-            let help = "write the component and the time: `{controller: 2ms..5ms}`";
-            self.report(Problem::new("`takes` is a mapping").help(help), node.span);
-            return Vec::new();
-        };
-        let read = |(name, between): &(Node, Node)| Some((self.component(name)?, self.between(between)?));
-        entries.iter().filter_map(read).collect()
-    }
-
     fn component(&mut self, node: &Node) -> Option<String> {
         let name = node.text().unwrap_or_default();
-        let names = || self.system.components.iter().map(|plan| plan.component.as_str());
-        if names().any(|known| known == name) {
-            return Some(name.to_owned());
-        }
-        let problem = Problem::new(format!("unknown component `{name}`")).did_you_mean(name, names());
-        let problem = problem.note(format!("components: {}", quoted_list(names())));
-        self.report(problem, node.span);
-        None
+        self.plan_of(name, node.span).map(|plan| plan.component.clone())
     }
 
-    fn components(&mut self, node: &Node) -> Vec<String> {
-        match node.items() {
-            Some(items) => items.iter().filter_map(|item| self.component(item)).collect(),
-            None => self.component(node).into_iter().collect(),
+    fn plan_of(&mut self, component: &str, span: Span) -> Option<&'a Plan> {
+        let found = self.system.components.iter().find(|plan| plan.component == component);
+        if found.is_none() {
+            let names = || self.system.components.iter().map(|plan| plan.component.as_str());
+            let problem = Problem::new(format!("unknown component `{component}`")).did_you_mean(component, names());
+            self.report(problem.note(format!("components: {}", quoted_list(names()))), span);
         }
+        found
+    }
+
+    /// The gate of this name, as `component.gate`.
+    fn gate_of(&mut self, name: &str, span: Span) -> Option<&'a GatePlan> {
+        let Some((component, gate)) = split(name) else {
+            let problem = Problem::new(format!("`{name}` is no gate"));
+            self.report(problem.help("write a gate as `component.gate`, or all of a component as `component.*`"), span);
+            return None;
+        };
+        let plan = self.plan_of(component, span)?;
+        let found = plan.gate(gate);
+        if found.is_none() {
+            let names: Vec<String> = plan.gates.iter().map(|gate| full_name(component, &gate.name)).collect();
+            let problem = Problem::new(format!("unknown gate `{name}`"));
+            let problem = problem.did_you_mean(name, names.iter().map(String::as_str));
+            self.report(problem.note(format!("gates: {}", quoted_list(names))), span);
+        }
+        found
     }
 
     /// The one entry whose key is among `keys`.
@@ -160,132 +169,5 @@ impl<'a> Reader<'a> {
         let problem = Problem::new(format!("{owner} has one of {}, and this one {text}", quoted_list(keys)));
         self.report_missing(problem.help("see docs/simulate.md"), entries);
         None
-    }
-
-    fn fault(&mut self, node: &Node) -> Option<FaultRule> {
-        let entries = self.entries(node, "a fault", &FAULT)?;
-        let when = self.one(&entries, "a fault", &WHEN).and_then(|(key, value)| {
-            let between = self.between(value)?;
-            Some(if key == "at" { When::At(between) } else { self.every(between, &entries, value.span)? })
-        });
-        let what = self.one(&entries, "a fault", &WHAT).and_then(|(key, value)| {
-            let what = if key == "kill" { What::Kill } else { What::Pause(self.pause(&entries)?) };
-            Some((what, self.whom(&entries, value)?))
-        });
-        for (key, needs) in [("from", "every"), ("for", "pause")] {
-            if entries.get(key).is_some() && entries.get(needs).is_none() {
-                let problem = Problem::new(format!("`{key}` has no effect without `{needs}`"));
-                self.report(problem.help(format!("leave out `{key}`")), entries.span);
-            }
-        }
-        let (when, (what, whom)) = when.zip(what)?;
-        Some(FaultRule { when, what, whom })
-    }
-
-    fn every(&mut self, between: Between, entries: &Entries<'_>, span: Span) -> Option<When> {
-        if between.most.is_zero() {
-            let problem = Problem::new("a fault cannot happen all the time");
-            self.report(problem.help("write the time from one to the next: `every: 5s..20s`"), span);
-            return None;
-        }
-        let from = entries.get("from").map_or(Some(Duration::ZERO), |node| self.duration(node))?;
-        // Faults without any time between them would never end.
-        let between = Between { least: between.least.max(Duration::from_micros(1)).min(between.most), ..between };
-        Some(When::Every { between, from })
-    }
-
-    fn pause(&mut self, entries: &Entries<'_>) -> Option<Between> {
-        if let Some(node) = entries.get("for") {
-            return self.between(node);
-        }
-        self.report_missing(Problem::new("a pause has no end").help("write how long it is: `for: 2s`"), entries);
-        None
-    }
-
-    fn whom(&mut self, entries: &Entries<'_>, node: &Node) -> Option<Whom> {
-        let spared = entries.get("except");
-        let except = spared.map(|node| self.components(node)).unwrap_or_default();
-        if node.text() == Some("any") {
-            let names = self.system.components.iter().map(|plan| plan.component.clone());
-            let left: Vec<String> = names.filter(|name| !except.contains(name)).collect();
-            if left.is_empty() {
-                self.report(Problem::new("`except` leaves no component").help("name fewer"), entries.span);
-            }
-            return Some(Whom::Any(left)).filter(|_| !entries.list.is_empty());
-        }
-        if let Some(spared) = spared {
-            let help = "name the components that it happens to, or write `any`";
-            self.report(Problem::new("`except` has an effect only with `any`").help(help), spared.span);
-        }
-        Some(Whom::Each(self.components(node)))
-    }
-
-    fn expectation(&mut self, node: &Node) -> Option<Expectation> {
-        let entries = self.entries(node, "an expectation", &EXPECTATION)?;
-        let (key, value) = self.one(&entries, "an expectation", &EXPECTED)?;
-        for (other, needs) in [("by", "eventually"), ("code", "exit")] {
-            if entries.get(other).is_some() && key != needs {
-                let problem = Problem::new(format!("`{other}` has no effect without `{needs}`"));
-                self.report(problem.help(format!("leave out `{other}`")), entries.span);
-            }
-        }
-        let place = self.source.place(node.span);
-        if key == "exit" {
-            let (component, code) = (self.component(value)?, self.code(&entries)?);
-            return Some(Expectation { place, expected: Expected::Exit { component, code } });
-        }
-        let gate = self.gate(value)?;
-        let condition = self.condition(&entries, &gate)?;
-        let by = match entries.get("by") {
-            Some(node) => Some(self.duration(node)?),
-            None => None,
-        };
-        let expected = match key {
-            "always" => Expected::Always { gate, condition },
-            _ => Expected::Eventually { gate, condition, by },
-        };
-        Some(Expectation { place, expected })
-    }
-
-    fn code(&mut self, entries: &Entries<'_>) -> Option<u8> {
-        let node = entries.get("code");
-        let code = node.and_then(Node::text).and_then(|text| text.parse().ok());
-        if code.is_none() {
-            let problem = Problem::new("an exit code is a number from 0 to 255").help("write `code: 0`");
-            self.report(problem, node.map_or(entries.span, |node| node.span));
-        }
-        code
-    }
-
-    /// A gate whose messages are recorded, as `component.gate`.
-    fn gate(&mut self, node: &Node) -> Option<String> {
-        let name = node.text().unwrap_or_default();
-        let recorded = self.system.components.iter().flat_map(|plan| {
-            let gates = plan.gates.iter().filter(|gate| gate.tap.is_some() && messages_of(gate).is_some());
-            gates.map(|gate| format!("{}.{}", plan.component, gate.name))
-        });
-        let recorded: Vec<String> = recorded.collect();
-        if recorded.iter().any(|known| known == name) {
-            return Some(name.to_owned());
-        }
-        let names = || recorded.iter().map(String::as_str);
-        let problem = Problem::new(format!("`{name}` is no gate whose messages are seen")).did_you_mean(name, names());
-        let problem = problem.note(format!("`pub` and `pull` gates: {}", quoted_list(names())));
-        self.report(problem, node.span);
-        None
-    }
-
-    fn condition(&mut self, entries: &Entries<'_>, gate: &str) -> Option<Condition> {
-        let Some(node) = entries.get("where") else {
-            let problem = Problem::new("a condition is missing").help("write it as `where: 'speed > 1.5'`");
-            self.report_missing(problem, entries);
-            return None;
-        };
-        let checked = node.text().unwrap_or_default().parse::<Condition>().map_err(Problem::from);
-        let checked = checked.and_then(|condition| {
-            super::conditions::check(&condition, self.system, gate)?;
-            Ok(condition)
-        });
-        checked.inspect_err(|problem| self.report(problem.clone(), node.span)).ok()
     }
 }

@@ -1,13 +1,13 @@
 //! The keys of a scenario.
 
 /// The keys at the top.
-pub(super) const TOP: [&str; 4] = ["until", "takes", "faults", "expect"];
+pub(super) const TOP: [&str; 5] = ["until", "delays", "takes", "faults", "expect"];
 /// The keys that say when a fault happens; each fault has one.
 pub(super) const WHEN: [&str; 2] = ["at", "every"];
 /// The keys that say what happens; each fault has one.
-pub(super) const WHAT: [&str; 2] = ["kill", "pause"];
+pub(super) const WHAT: [&str; 3] = ["kill", "pause", "cut"];
 /// The keys of faults.
-pub(super) const FAULT: [&str; 7] = ["at", "every", "kill", "pause", "for", "from", "except"];
+pub(super) const FAULT: [&str; 8] = ["at", "every", "kill", "pause", "cut", "for", "from", "except"];
 /// The keys that say what is expected; each expectation has one.
 pub(super) const EXPECTED: [&str; 3] = ["always", "eventually", "exit"];
 /// The keys of expectations.

@@ -38,7 +38,7 @@ impl<'a> Simulated<'a> {
         self.conductor.now()
     }
 
-    pub(super) fn seat(&mut self, process: usize, component: &str) -> io::Result<Seat> {
+    pub(super) fn seat(&mut self, process: usize, component: Option<&str>) -> io::Result<Seat> {
         self.seated.insert(process);
         self.conductor.seat(process, component)
     }
