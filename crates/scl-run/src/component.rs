@@ -2,6 +2,7 @@
 
 use super::cargo::Target;
 use super::kept_values::KeptValues;
+use super::linkage::is_static;
 use super::policy::Policy;
 use super::program::Program;
 use scl_terminal::Problem;
@@ -48,6 +49,17 @@ impl Component {
     /// As [`check`](Self::check), but only what no build can change: whether a program without a path is installed.
     pub(crate) fn check_installed(&self) -> Result<(), Problem> {
         self.program.check_installed("program", &self.shown())
+    }
+
+    /// Checks that it can take part in a simulation, as far as its file shows.
+    pub(crate) fn check_linkage(&self) -> Result<(), Problem> {
+        if !self.program.file().is_some_and(|file| is_static(&file)) {
+            return Ok(());
+        }
+        let problem =
+            Problem::new(format!("{} is linked statically, so it cannot take part in a simulation", self.shown()));
+        Err(problem
+            .help("link it with the C library of the system: without `-static`, and for a target without `musl`"))
     }
 
     fn shown(&self) -> String {

@@ -20,6 +20,7 @@ mod gateway_program;
 mod kept_values;
 mod launch_file;
 mod lifecycle;
+mod linkage;
 mod lock;
 mod log_file;
 mod member;
@@ -229,6 +230,12 @@ fn run_plan(
     let problems: Vec<Problem> = plan.programs().filter_map(|component| component.check().err()).collect();
     if !problems.is_empty() {
         return Err(problems);
+    }
+    if conductor.is_some() {
+        let static_ones: Vec<Problem> = plan.programs().filter_map(|it| it.check_linkage().err()).collect();
+        if !static_ones.is_empty() {
+            return Err(static_ones);
+        }
     }
     let gateways = plan.gateway.iter().map(|gateway| (gateway, Role::Gateway));
     let recorders = plan.recorder.iter().map(|recorder| (recorder, Role::Recorder));

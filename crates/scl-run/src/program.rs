@@ -105,9 +105,9 @@ impl Program {
             return Err(Problem::new(format!("the folder of {owner} does not exist: `{}`", folder.display())));
         }
         self.check_installed(what, owner)?;
-        let Some(name) = self.command.first().filter(|name| is_path(name)) else { return Ok(()) };
-        // Drops the `./` that a path in a launch file usually starts with.
-        let path: PathBuf = folder.join(name).components().collect();
+        let Some(path) = self.command.first().filter(|name| is_path(name)).and_then(|_| self.file()) else {
+            return Ok(());
+        };
         match () {
             () if is_executable(&path) => Ok(()),
             () if path.is_file() => {
@@ -116,6 +116,13 @@ impl Program {
             }
             () => Err(Problem::new(format!("the {what} of {owner} does not exist: `{}`", path.display()))),
         }
+    }
+
+    /// The file of the program, if it is given as a path or is installed.
+    pub(crate) fn file(&self) -> Option<PathBuf> {
+        let name = self.command.first()?;
+        // Drops the `./` that a path in a launch file usually starts with.
+        if is_path(name) { Some(self.folder.join(name).components().collect()) } else { self.find_installed(name) }
     }
 
     /// The absolute path of a program in the search path.

@@ -2,6 +2,8 @@
 
 use super::{errors, of_program, simulate, text};
 use crate::system::System;
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
 
 #[test]
 fn a_program_that_never_waits_is_named() {
@@ -19,7 +21,21 @@ part; `--patience` gives it more time
 
 #[test]
 fn a_program_without_the_library_is_named() {
-    let system = of_program("#include <unistd.h>\nint main(void) { pause(); }\n", "", &["-static"]);
+    let source = "#include <unistd.h>\nint main(void) { pause(); }\n";
+    let output = simulate(&of_program(source, "", &["-static"]), &[]);
+    let expected = "\
+error: component `program` is linked statically, so it cannot take part in a simulation
+  = help: link it with the C library of the system: without `-static`, and for a target without `musl`
+
+";
+    assert_eq!(errors(&output), expected);
+    assert_eq!(output.status.code(), Some(2));
+
+    // A script that it runs.
+    let system = of_program(source, "", &["-static"]);
+    system.write("script", &format!("#!{}\n", system.path("program").display()));
+    fs::set_permissions(system.path("script"), fs::Permissions::from_mode(0o755)).unwrap();
+    system.write("launch.yaml", "components:\n  program: {command: [./script]}\n");
     let output = simulate(&system, &["--patience", "1s"]);
     let expected = "\
 error: `program` does not take part in the simulation 1 s after its start
