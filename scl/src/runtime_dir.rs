@@ -46,6 +46,7 @@
 //! ```
 
 mod announcement;
+mod arrival_watch;
 mod bind;
 #[cfg(feature = "protobuf")]
 mod compared;
@@ -70,6 +71,7 @@ mod temp_entry;
 mod values;
 
 pub use announcement::{AnnouncedEndpoint, Announcement};
+pub use arrival_watch::ArrivalWatch;
 #[cfg(feature = "zeromq")]
 pub(crate) use bind::{bind_ipc, bind_tcp};
 pub use error::{ComponentProcess, RuntimeDirError};

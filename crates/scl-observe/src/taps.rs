@@ -4,16 +4,19 @@ use crate::folder_changes::FolderChanges;
 use crate::gate::ObservedGate;
 use crate::system::System;
 use crate::woken::Woken;
+use scl::runtime_dir::ArrivalWatch;
 use scl::tap::{Observer, TapEvent};
 use std::collections::VecDeque;
 use std::fmt;
+use std::fs;
 use std::future::poll_fn;
+use std::os::unix::fs::MetadataExt;
 use std::task::{Context, Poll, Waker};
 use std::time::Duration;
 use tokio::time::{Interval, MissedTickBehavior, interval};
 
-/// How often the folder is checked for components that started. A check is one `stat`; the announcements are read only
-/// after a change. Most components take longer than this from their announcement to their first message.
+/// How often the folder is checked for components that started, if nothing tells of their arrival. A check is one
+/// `stat`; the announcements are read only after a change.
 const LOOK: Duration = Duration::from_millis(100);
 
 /// The taps of some gates, or of all gates, as one stream.
@@ -53,6 +56,8 @@ struct Following {
     system: System,
     filter: Box<dyn Fn(&ObservedGate) -> bool + Send>,
     changes: FolderChanges,
+    /// With the inode of the folder. `None` without the folder, or if the user's limit for inotify is reached.
+    arrivals: Option<(u64, ArrivalWatch)>,
     due: Interval,
 }
 
@@ -67,13 +72,14 @@ impl Taps {
     /// Observes every gate with a tap for which `filter` returns true, also of components that start later. Each is
     /// reported as [`TapsEvent::Started`] first.
     ///
-    /// A component is noticed within a tenth of a second after its start, also after the runtime folder was removed and
-    /// created again. Must be called inside a tokio runtime, as must [`next`](Self::next).
+    /// A component is noticed at once when it starts, and within a tenth of a second if it starts after the runtime
+    /// folder was removed and created again. Must be called inside a tokio runtime, as must [`next`](Self::next).
     pub fn follow_all(system: &System, filter: impl Fn(&ObservedGate) -> bool + Send + 'static) -> Self {
         let mut due = interval(LOOK);
         due.set_missed_tick_behavior(MissedTickBehavior::Delay);
         let changes = FolderChanges::new(system.dir().folder().to_owned());
-        let mut taps = Self::empty(Some(Following { system: system.clone(), filter: Box::new(filter), changes, due }));
+        let (system, filter) = (system.clone(), Box::new(filter));
+        let mut taps = Self::empty(Some(Following { system, filter, changes, arrivals: None, due }));
         taps.look();
         taps
     }
@@ -93,7 +99,7 @@ impl Taps {
 
     /// [`next`](Self::next) as a poll function.
     pub fn poll_next(&mut self, cx: &mut Context<'_>) -> Poll<TapsEvent> {
-        while self.following.as_mut().is_some_and(|following| following.due.poll_tick(cx).is_ready()) {
+        while self.following.as_mut().is_some_and(|following| following.poll(cx).is_ready()) {
             self.look();
         }
         if let Some(gate) = self.started.pop_front() {
@@ -152,6 +158,20 @@ impl Taps {
     /// Ends the observers of a gate that was replaced: their sockets may have the same names as the new ones.
     fn close(&mut self, gate: usize) {
         self.observers.iter_mut().filter(|watched| watched.gate == gate).for_each(|watched| watched.observer = None);
+    }
+}
+
+impl Following {
+    /// Returns when it is time to look.
+    fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()> {
+        if self.due.poll_tick(cx).is_ready() {
+            let folder = fs::metadata(self.system.dir().folder()).map(|found| found.ino()).ok();
+            if self.arrivals.as_ref().map(|(watched, _)| *watched) != folder {
+                self.arrivals = folder.zip(ArrivalWatch::start(self.system.dir()).ok());
+            }
+            return Poll::Ready(());
+        }
+        self.arrivals.as_ref().map_or(Poll::Pending, |(_, arrivals)| arrivals.poll_arrived(cx))
     }
 }
 

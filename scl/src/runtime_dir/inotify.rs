@@ -5,6 +5,7 @@ use std::io;
 use std::mem::MaybeUninit;
 use std::os::fd::OwnedFd;
 use std::path::Path;
+use std::task::{Context, Poll, ready};
 use tokio::io::unix::AsyncFd;
 
 /// An instance of inotify. A user can have only a limited number of them, see
@@ -38,6 +39,16 @@ impl Inotify {
             let mut ready = self.0.readable().await?;
             if let Ok(read) = ready.try_io(|inotify| read_now(inotify.get_ref(), &mut handle)) {
                 return read;
+            }
+        }
+    }
+
+    /// [`read`](Self::read) as a poll function.
+    pub(crate) fn poll_read(&self, cx: &mut Context<'_>, mut handle: impl FnMut(&Event<'_>)) -> Poll<io::Result<()>> {
+        loop {
+            let mut ready = ready!(self.0.poll_read_ready(cx))?;
+            if let Ok(read) = ready.try_io(|inotify| read_now(inotify.get_ref(), &mut handle)) {
+                return Poll::Ready(read);
             }
         }
     }
