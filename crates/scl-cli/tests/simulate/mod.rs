@@ -1,6 +1,7 @@
 //! `scl simulate`: programs in simulated time.
 
 mod components;
+mod in_rust;
 mod mistakes;
 mod scenarios;
 
