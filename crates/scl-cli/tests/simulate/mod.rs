@@ -1,8 +1,10 @@
 //! `scl simulate`: programs in simulated time.
 
+mod chaos;
 mod components;
 mod in_rust;
 mod mistakes;
+mod races;
 mod scenarios;
 
 use crate::system::System;
