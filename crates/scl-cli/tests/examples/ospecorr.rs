@@ -1,10 +1,12 @@
-//! `examples/ospecorr` on a band with primary users, in real time, checked by what is true of the simulated band.
+//! `examples/ospecorr` on a band with primary users, in simulated and in real time, checked by what is true of the
+//! simulated band.
 //!
 //! The tests leave recordings and figures in `target/examples/ospecorr`.
 
 mod checks;
 mod recording;
 mod session;
+mod simulated;
 
 use crate::radio::ospecorr::Truth;
 use crate::{built, lock_machine};
@@ -12,16 +14,6 @@ use checks::{Outage, SLOT_US, silences};
 use recording::Recording;
 use serde_json::{Value, json};
 use session::Session;
-
-/// The parts of Figure 7, each with the time at which it is killed, in seconds of the band's clock. Primary users come
-/// at 4 s, 8 s and so on, so the radio is on its new channel by then.
-const KILLS: [(f64, &str); 5] = [
-    (9.5, "signal_detector"),
-    (13.5, "link_optimizer"),
-    (17.5, "resource_map"),
-    (21.5, "radio"),
-    (25.5, "application"),
-];
 
 /// A primary user is to be alone on its channel after this many slots.
 const SLOTS_TO_SILENCE: u64 = 5;
@@ -49,25 +41,6 @@ fn the_radio_leaves_its_channel_to_primary_users_and_the_application_is_served()
     let (recording, log) = session.end();
     check("moves", &recording, &[], &log);
     assert!(!log.contains("restarting"), "{log}");
-}
-
-#[test]
-fn every_part_is_killed_once_and_the_radio_goes_on() {
-    let _machine = lock_machine();
-    let mut session = Session::start("kills");
-    let mut kills = Vec::new();
-    for (at, component) in KILLS {
-        session.run_until(at);
-        kills.push((component, session.kill(component)));
-    }
-    session.run_until(34.0);
-    let (recording, log) = session.end();
-    for (_, component) in KILLS {
-        let line = format!("`{component}` was restarted once; last reason: killed by signal 9 (SIGKILL)");
-        assert!(log.contains(&line), "{component}\n{log}");
-    }
-    let outages: Vec<_> = kills.iter().map(|(component, at)| Outage::of(&recording, component, *at)).collect();
-    check("kills", &recording, &outages, &log);
 }
 
 /// Checks a recording, and writes its figures.

@@ -150,14 +150,14 @@ fn time_of(line: &str) -> f64 {
 }
 
 /// A folder for a system that does not run yet, but can be recorded: `scl record` wants the system's runtime folder.
-pub(super) fn aircraft_folder() -> System {
+fn aircraft_folder() -> System {
     let system = System::of_files(&[]);
     std::fs::DirBuilder::new().recursive(true).mode(0o700).create(system.path("runtime/arcade")).unwrap();
     system
 }
 
 /// `scl` in the folder of the example, whose topology and launch file the recording gets.
-pub(super) fn command(system: &System, arguments: &[&str]) -> Command {
+fn command(system: &System, arguments: &[&str]) -> Command {
     let mut command = system.scl(arguments);
     command.current_dir(example("arcade"));
     for name in ["SCL_SYSTEM", "SCL_TRANSPORT", "SCL_STATS", "SCL_LOG"] {
@@ -167,7 +167,7 @@ pub(super) fn command(system: &System, arguments: &[&str]) -> Command {
 }
 
 /// Starts a recorder, and waits until it prints this.
-pub(super) fn spawn_recorder(command: &mut Command, begun: &str) -> ChildGuard {
+fn spawn_recorder(command: &mut Command, begun: &str) -> ChildGuard {
     let mut recorder = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn_guarded();
     let mut lines = BufReader::new(recorder.stderr.take().unwrap()).lines().map(Result::unwrap);
     assert!(lines.any(|line| line.contains(begun)), "{command:?} does not record");

@@ -6,7 +6,9 @@ use super::write_json;
 use crate::aircraft::arcade::{Arbitration, Authority};
 use crate::lock_machine;
 use crate::simulated::simulate;
+use crate::system::System;
 use serde_json::json;
+use std::path::Path;
 
 /// The parts of Figure 6 except the world itself, each killed once.
 const KILLS: [&str; 8] = [
@@ -67,6 +69,34 @@ fn with_little_charge_the_arbiter_brings_the_aircraft_home() {
     // The mission has failed, but nothing else.
     assert!(flown.log.contains("scl: non-essential component `uav_mission` failed"), "{}", flown.log);
     assert_eq!(flown.code, Some(0), "{}", flown.log);
+}
+
+/// The autopilot in C alone, for which all others are played, does what its twin in Rust has done in their flight.
+#[test]
+fn a_recorded_flight_is_flown_again_in_c_and_each_time_the_same() {
+    let _machine = lock_machine();
+    let flown = simulate("arcade", "twins", &["--profile", "rust-autopilot", "--profile", "hop"], "until: 28s\n");
+    assert_eq!(flown.code, Some(0), "{}", flown.log);
+    let played =
+        format!("simulator,{}", KILLS.iter().filter(|it| **it != "autopilot").copied().collect::<Vec<_>>().join(","));
+    let replay = ["--replay", flown.file.to_str().unwrap(), "--as", &played];
+    let again = ["twins-again", "twins-third"].map(|name| {
+        let again = simulate("arcade", name, &replay, "until: 28s\n");
+        assert_eq!(again.code, Some(0), "{}", again.log);
+        again.file
+    });
+    check_equal(&flown.file, &again[0], "1e-6");
+    check_equal(&again[0], &again[1], "0");
+}
+
+/// The set-points of two recordings are the same within this difference.
+#[track_caller]
+fn check_equal(first: &Path, second: &Path, within: &str) {
+    assert!(Recording::read(first).motors.len() > 1000);
+    let [first, second] = [first, second].map(|file| file.to_str().unwrap());
+    let compare = ["compare", first, second, "--gate", "autopilot.motors", "--within", within];
+    let output = System::of_files(&[]).scl(&compare).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
 }
 
 /// Flies in simulated time, with more arguments of `scl simulate`, through a scenario. The recording gets this name.

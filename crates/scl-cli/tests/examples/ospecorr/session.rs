@@ -4,7 +4,6 @@
 use super::recording::Recording;
 use crate::system::{ChildGuard, SpawnGuarded, System, kill};
 use crate::{built, example};
-use scl_tests::wait_until;
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::fs::DirBuilder;
@@ -85,22 +84,6 @@ impl Session {
                 assert!(!line.contains("not restarted:"), "{}", self.log);
             }
         }
-    }
-
-    /// Kills a component, and waits until another process has taken its place. Returns the time of the kill.
-    pub(super) fn kill(&self, component: &str) -> u64 {
-        let first = self.process_id(component).unwrap_or_else(|| panic!("`{component}` is not running\n{}", self.log));
-        kill("-KILL", first.try_into().unwrap());
-        wait_until(&format!("`{component}` runs again"), || self.process_id(component).is_some_and(|it| it != first));
-        self.time_us
-    }
-
-    /// The process of a component that runs.
-    fn process_id(&self, component: &str) -> Option<u64> {
-        let output = command(&self.system, &["list", "--system", "ospecorr", "--format", "json"]).output().unwrap();
-        let list: Value = serde_json::from_slice(&output.stdout).unwrap();
-        let is_it = |it: &&Value| it["name"] == component && it["state"] == "running";
-        list["components"].as_array().unwrap().iter().find(is_it)?["pid"].as_u64()
     }
 
     /// Presses Ctrl-C, and returns what was recorded, and what `scl run` has printed.
