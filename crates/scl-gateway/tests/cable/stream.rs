@@ -39,8 +39,13 @@ pub(super) fn check() {
         Shape { rate: 10e6, ..Shape::PERFECT },
     ] {
         network.cable.shape(0, shape);
-        connecting.tell("send");
-        assert_eq!(listening.expect_containing("= "), format!("= {LENGTH} unchanged"));
+        // Of some hundred frames, each of which is lost by chance, none may be lost.
+        let mut lost = false;
+        while !lost {
+            connecting.tell("send");
+            assert_eq!(listening.expect_containing("= "), format!("= {LENGTH} unchanged"));
+            lost = shape.loss == 0.0 || network.cable.counts(0).1 > 0;
+        }
     }
     let (passed, lost) = network.cable.counts(0);
     assert!(passed > 600 && lost > 0, "{passed} frames passed, {lost} lost");
