@@ -18,7 +18,7 @@ instant sim_expire_alarm(void) {
         due = period == 0 ? NEVER : due + ((now - due) / period + 1) * period;
         // Noted first, because the thread may handle the signal at once.
         sim_interrupt_first();
-        sim_call(SYS_tgkill, getpid(), getpid(), SIGALRM);
+        sim_call(SYS_kill, getpid(), SIGALRM);
     }
     return due;
 }

@@ -122,6 +122,9 @@ instant sim_instant(clockid_t clock, const struct timespec *time);
 instant sim_after(const struct timespec *duration);
 struct timespec sim_timespec(uint64_t nanoseconds);
 bool sim_is_duration(const struct timespec *duration);
+uint64_t sim_nanoseconds(const struct timespec *duration);
+// What a timer says that is due then, and again after each `period`.
+struct itimerspec sim_left(instant due, uint64_t period);
 
 // futex.c: locks.
 
@@ -151,6 +154,9 @@ void sim_forget_timers(unsigned first, unsigned last);
 
 // alarm.c: the same for the timer that sends SIGALRM.
 instant sim_expire_alarm(void);
+
+// posix_timer.c: the same for those of `timer_create`.
+instant sim_expire_posix_timers(void);
 
 // poll.c: waiting for descriptors.
 

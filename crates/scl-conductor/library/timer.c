@@ -42,7 +42,8 @@ void sim_forget_timers(unsigned first, unsigned last) {
 }
 
 instant sim_expire_timers(void) {
-    instant first = sim_expire_alarm(), now = sim_now();
+    instant alarm = sim_expire_alarm(), posix = sim_expire_posix_timers(), now = sim_now();
+    instant first = alarm < posix ? alarm : posix;
     for (int i = 0; i < slots; i++) {
         struct timer *timer = &timers[i];
         if (!timer->used) continue;
@@ -77,13 +78,6 @@ EXPORT int timerfd_create(int clock, int flags) {
     return -1;
 }
 
-static struct itimerspec left_of(const struct timer *timer) {
-    struct itimerspec left = {.it_interval = sim_timespec(timer->period)};
-    instant now = sim_now();
-    if (timer->due != NEVER) left.it_value = sim_timespec(timer->due > now ? timer->due - now : 1);
-    return left;
-}
-
 EXPORT int timerfd_settime(int descriptor, int flags, const struct itimerspec *next, struct itimerspec *before) {
     struct timer *timer = sim_takes_part() ? timer_of(descriptor) : NULL;
     if (timer == NULL) return REAL(timerfd_settime)(descriptor, flags, next, before);
@@ -91,7 +85,7 @@ EXPORT int timerfd_settime(int descriptor, int flags, const struct itimerspec *n
         errno = EINVAL;
         return -1;
     }
-    if (before != NULL) *before = left_of(timer);
+    if (before != NULL) *before = sim_left(timer->due, timer->period);
     // What has expired is forgotten.
     struct pollfd expired = {.fd = timer->own, .events = POLLIN};
     uint64_t count;
@@ -100,7 +94,7 @@ EXPORT int timerfd_settime(int descriptor, int flags, const struct itimerspec *n
     }
     const struct timespec *first = &next->it_value;
     bool absolute = (flags & TFD_TIMER_ABSTIME) != 0;
-    timer->period = (uint64_t)next->it_interval.tv_sec * 1000000000 + (uint64_t)next->it_interval.tv_nsec;
+    timer->period = sim_nanoseconds(&next->it_interval);
     timer->due = absolute ? sim_instant(timer->clock, first) : sim_after(first);
     if (first->tv_sec == 0 && first->tv_nsec == 0) timer->due = NEVER;
     return 0;
@@ -109,6 +103,6 @@ EXPORT int timerfd_settime(int descriptor, int flags, const struct itimerspec *n
 EXPORT int timerfd_gettime(int descriptor, struct itimerspec *left) {
     struct timer *timer = sim_takes_part() ? timer_of(descriptor) : NULL;
     if (timer == NULL) return REAL(timerfd_gettime)(descriptor, left);
-    *left = left_of(timer);
+    *left = sim_left(timer->due, timer->period);
     return 0;
 }

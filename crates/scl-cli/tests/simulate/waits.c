@@ -234,6 +234,48 @@ static void others(void) {
     SAY("sigwait");
 }
 
+static pthread_t called;
+
+static void call(union sigval value) {
+    called = pthread_self();
+    printf("%s, ", (char *)value.sival_ptr);
+    sem_post(&semaphore);
+}
+
+static void posix_timers(void) {
+    struct sigaction action = {.sa_handler = handle, .sa_flags = SA_RESTART};
+    sigaction(SIGUSR1, &action, NULL);
+    timer_t timer;
+    struct sigevent event = {.sigev_notify = SIGEV_SIGNAL, .sigev_signo = SIGUSR1};
+    timer_create(CLOCK_MONOTONIC, &event, &timer);
+    struct itimerspec times = {.it_value.tv_sec = 2, .it_interval.tv_nsec = 5000000};
+    timer_settime(timer, 0, &times, NULL);
+    for (int i = 0; i < 201; i++) pause();
+    printf("%d, ", handled == SIGUSR1);
+    SAY("timer_create with a signal");
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, SIGUSR1);
+    sigprocmask(SIG_BLOCK, &set, NULL);
+    siginfo_t info;
+    for (int i = 0; i < 3; i++) sigwaitinfo(&set, &info);
+    printf("%d, ", info.si_code == SI_TIMER);
+    timer_gettime(timer, &times);
+    printf("%ld left, ", times.it_value.tv_nsec);
+    timer_delete(timer);
+    SAY("sigwaitinfo");
+    event = (struct sigevent){
+        .sigev_notify = SIGEV_THREAD, .sigev_notify_function = call, .sigev_value.sival_ptr = "a function"};
+    timer_create(CLOCK_REALTIME, &event, &timer);
+    times = (struct itimerspec){.it_value = until(CLOCK_REALTIME, 1.5)};
+    timer_settime(timer, TIMER_ABSTIME, &times, NULL);
+    sem_wait(&semaphore);
+    printf("%d, ", pthread_equal(called, pthread_self()));
+    timer_delete(timer);
+    printf("%d, ", timer_gettime(timer, &times));
+    SAY("timer_create with a thread");
+}
+
 // A system call without the C library, as far as this is known for the processor.
 static long direct(long number, long a, long b, long c, long d) {
 #ifdef __x86_64__
@@ -283,6 +325,7 @@ int main(void) {
     threads();
     clocks();
     others();
+    posix_timers();
     direct_calls();
     // A program that closes all that it does not know.
     printf("%d, ", close_range(3, ~0U, 0));
