@@ -12,6 +12,11 @@ static bool is_seat(int descriptor) {
     return false;
 }
 
+static void forget(unsigned first, unsigned last) {
+    sim_forget_timers(first, last);
+    sim_forget_watched(first, last);
+}
+
 // A child that shares the memory of its parent until it becomes another program closes its own descriptors only.
 static bool takes_part_itself(void) {
     return sim_takes_part() && sim_is_own_process();
@@ -23,14 +28,14 @@ EXPORT int close(int descriptor) {
             errno = EBADF;
             return -1;
         }
-        sim_forget_timers((unsigned)descriptor, (unsigned)descriptor);
+        forget((unsigned)descriptor, (unsigned)descriptor);
     }
     return (int)sim_call(SYS_close, descriptor);
 }
 
 EXPORT int close_range(unsigned first, unsigned last, int flags) {
     if (!takes_part_itself()) return (int)sim_call(SYS_close_range, first, last, flags);
-    if (flags == 0) sim_forget_timers(first, last);
+    if (flags == 0) forget(first, last);
     // What lies before, between and behind those that stay open, which are in order.
     unsigned from = first;
     for (int i = 0; i < SEAT_DESCRIPTORS; i++) {
@@ -51,7 +56,7 @@ EXPORT int dup3(int from, int to, int flags) {
         errno = EBUSY;
         return -1;
     }
-    if (takes_part_itself() && from != to) sim_forget_timers((unsigned)to, (unsigned)to);
+    if (takes_part_itself() && from != to) forget((unsigned)to, (unsigned)to);
     return (int)sim_call(SYS_dup3, from, to, flags);
 }
 

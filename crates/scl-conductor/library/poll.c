@@ -54,6 +54,7 @@ static int wait_for(struct descriptors *of, instant deadline, const sigset_t *ma
     of->wait.attempt = attempt;
     of->wait.deadline = deadline;
     of->wait.interruptible = true;
+    of->wait.attempted = true;
     sigset_t before;
     if (mask != NULL) pthread_sigmask(SIG_SETMASK, mask, &before);
     enum reason reason = sim_wait(&of->wait);
@@ -72,7 +73,7 @@ static long call_epoll(struct descriptors *of, const sigset_t *mask) {
 }
 
 static void watch_epoll(struct wait *wait) {
-    sim_watch(((struct descriptors *)wait)->descriptor, POLLIN);
+    sim_watch_epoll(((struct descriptors *)wait)->descriptor);
 }
 
 static struct descriptors of_epoll(int epoll, struct epoll_event *events, int most) {

@@ -57,6 +57,8 @@ struct wait {
     instant deadline;
     // Whether a signal ends it.
     bool interruptible;
+    // Whether the first attempt was already made, in vain.
+    bool attempted;
     bool woken;
     uint64_t order;
     enum reason reason;
@@ -88,6 +90,10 @@ void sim_begin_looking(void);
 void sim_take_turn(bool again);
 // Makes `scl simulate` give the program a turn when a descriptor is ready for these events of `poll`.
 void sim_watch(int descriptor, short events);
+// The same for something to read from an epoll descriptor, which stays watched until it is closed.
+void sim_watch_epoll(int descriptor);
+// Forgets that descriptors with these numbers are watched, which are closed.
+void sim_forget_watched(unsigned first, unsigned last);
 // Makes `scl simulate` give the program a turn although nothing it waits for has happened.
 void sim_ask_for_turn(void);
 // If `scl simulate` has started this process, returns true with its first turn.

@@ -80,13 +80,14 @@ static void end_waits(void) {
         if (wait == NULL) continue;
         if (wait->woken) {
             end_wait(&threads[i], WOKEN);
-        } else if (wait->attempt != NULL && wait->attempt(wait)) {
+        } else if (wait->attempt != NULL && !wait->attempted && wait->attempt(wait)) {
             end_wait(&threads[i], READY);
         } else if (wait->deadline <= now) {
             end_wait(&threads[i], TIMED_OUT);
         } else if (threads[i].interrupted && wait->interruptible) {
             end_wait(&threads[i], INTERRUPTED);
         }
+        wait->attempted = false;
     }
 }
 

@@ -60,6 +60,10 @@ static _Atomic bool asks;
 static int *noted;
 static size_t noted_count, noted_room;
 
+// The epoll descriptors among them with low numbers. Only `close` closes those; others may be closed unseen.
+#define LOW 1024
+static bool watched_epolls[LOW];
+
 static void note(int descriptor) {
     if (noted_count == noted_room) {
         noted_room = noted_room == 0 ? 64 : 2 * noted_room;
@@ -74,6 +78,7 @@ static void unwatch_all(void) {
         if (noted[i] != attention) sim_call(SYS_epoll_ctl, watched, EPOLL_CTL_DEL, noted[i], NULL);
     }
     noted_count = 0;
+    memset(watched_epolls, 0, sizeof watched_epolls);
 }
 
 static void say(enum kind kind, instant due) {
@@ -111,6 +116,17 @@ void sim_watch(int descriptor, short events) {
     if (sim_call(SYS_epoll_ctl, watched, EPOLL_CTL_MOD, descriptor, &event) == 0) return;
     // It is new, or its number was used for another one before.
     if (sim_call(SYS_epoll_ctl, watched, EPOLL_CTL_ADD, descriptor, &event) == 0) note(descriptor);
+}
+
+void sim_watch_epoll(int descriptor) {
+    bool low = descriptor >= 0 && descriptor < LOW;
+    if (low && watched_epolls[descriptor]) return;
+    sim_watch(descriptor, EPOLLIN);
+    if (low) watched_epolls[descriptor] = true;
+}
+
+void sim_forget_watched(unsigned first, unsigned last) {
+    for (unsigned number = first; number < LOW && number <= last; number++) watched_epolls[number] = false;
 }
 
 void sim_take_turn(bool again) {
