@@ -8,19 +8,15 @@
 
 #define SECOND UINT64_C(1000000000)
 
-// When it expires next, and how long after each time it does again, unless that is 0.
-static instant due = NEVER;
-static uint64_t period;
+static struct schedule schedule = {.due = NEVER};
 
 instant sim_expire_alarm(void) {
-    instant now = sim_now();
-    if (due <= now) {
-        due = period == 0 ? NEVER : due + ((now - due) / period + 1) * period;
+    if (sim_expire(&schedule) > 0) {
         // Noted first, because the thread may handle the signal at once.
         sim_interrupt_first();
         sim_call(SYS_kill, getpid(), SIGALRM);
     }
-    return due;
+    return schedule.due;
 }
 
 static struct timeval timeval_of(uint64_t nanoseconds) {
@@ -39,8 +35,8 @@ static bool is_valid(const struct timeval *time) {
 static struct itimerval left(void) {
     instant now = sim_now();
     // A timer that is due is not one that is off.
-    uint64_t time = due == NEVER ? 0 : due > now + 1000 ? due - now : 1000;
-    return (struct itimerval){.it_value = timeval_of(time), .it_interval = timeval_of(period)};
+    uint64_t time = schedule.due == NEVER ? 0 : schedule.due > now + 1000 ? schedule.due - now : 1000;
+    return (struct itimerval){.it_value = timeval_of(time), .it_interval = timeval_of(schedule.period)};
 }
 
 EXPORT int getitimer(__itimer_which_t which, struct itimerval *value) {
@@ -57,8 +53,8 @@ EXPORT int setitimer(__itimer_which_t which, const struct itimerval *restrict ne
     }
     if (before != NULL) *before = left();
     uint64_t first = next == NULL ? 0 : nanoseconds_of(&next->it_value);
-    period = next == NULL ? 0 : nanoseconds_of(&next->it_interval);
-    due = first == 0 ? NEVER : sim_now() + first;
+    schedule.period = next == NULL ? 0 : nanoseconds_of(&next->it_interval);
+    schedule.due = first == 0 ? NEVER : sim_now() + first;
     return 0;
 }
 

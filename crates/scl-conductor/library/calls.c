@@ -16,9 +16,6 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
-// The size of a signal mask of the kernel, in bytes.
-#define MASK (_NSIG / 8)
-
 // A signal mask as the C library has it; it is longer than that of the kernel.
 static const sigset_t *mask_of(const void *kernels, sigset_t *room) {
     if (kernels == NULL) return NULL;

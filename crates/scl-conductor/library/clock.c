@@ -89,13 +89,6 @@ uint64_t sim_nanoseconds(const struct timespec *duration) {
     return (uint64_t)duration->tv_sec * SECOND + (uint64_t)duration->tv_nsec;
 }
 
-struct itimerspec sim_left(instant due, uint64_t period) {
-    struct itimerspec left = {.it_interval = sim_timespec(period)};
-    // A timer that is due is not one that is off.
-    if (due != NEVER) left.it_value = sim_timespec(due > now ? due - now : 1);
-    return left;
-}
-
 EXPORT int clock_gettime(clockid_t clock, struct timespec *time) {
     if (!sim_takes_part() || !sim_follows(clock)) return REAL(clock_gettime)(clock, time);
     *time = sim_timespec(start_of(clock) + look());

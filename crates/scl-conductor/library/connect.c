@@ -19,7 +19,8 @@ static bool has_path(int socket, const struct sockaddr *address, socklen_t lengt
 
 EXPORT int connect(int socket, const struct sockaddr *address, socklen_t length) {
     int result = REAL(connect)(socket, address, length);
-    if (result < 0 || !sim_takes_part() || !sim_tells_connections() || !has_path(socket, address, length)) return result;
+    if (result < 0 || !sim_takes_part() || !sim_tells_connections()) return result;
+    if (!has_path(socket, address, length)) return result;
     char path[CONNECTION_PATH] = {0};
     size_t written = length - offsetof(struct sockaddr_un, sun_path);
     memcpy(path, ((const struct sockaddr_un *)address)->sun_path, written < sizeof path ? written : sizeof path - 1);

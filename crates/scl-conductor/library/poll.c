@@ -12,9 +12,6 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
-// The size of a signal mask of the kernel, in bytes.
-#define MASK (_NSIG / 8)
-
 static instant after_milliseconds(int timeout) {
     if (timeout < 0) return NEVER;
     const struct timespec duration = {.tv_sec = timeout / 1000, .tv_nsec = (timeout % 1000) * 1000000L};

@@ -14,9 +14,7 @@ struct posix_timer {
     bool used;
     clockid_t clock;
     struct sigevent event;
-    // When it expires next, and how long after each time it does again, unless that is 0.
-    instant due;
-    uint64_t period;
+    struct schedule schedule;
     // How often it had expired before it was last told.
     int overrun;
 };
@@ -77,17 +75,16 @@ static void tell(struct posix_timer *timer, int index) {
 }
 
 instant sim_expire_posix_timers(void) {
-    instant first = NEVER, now = sim_now();
+    instant first = NEVER;
     for (int i = 0; i < slots; i++) {
         struct posix_timer *timer = &timers[i];
         if (!timer->used) continue;
-        if (timer->due <= now) {
-            uint64_t missed = timer->period == 0 ? 0 : (now - timer->due) / timer->period;
-            timer->overrun = missed > INT_MAX ? INT_MAX : (int)missed;
-            timer->due = timer->period == 0 ? NEVER : timer->due + (missed + 1) * timer->period;
+        uint64_t count = sim_expire(&timer->schedule);
+        if (count > 0) {
+            timer->overrun = count > INT_MAX ? INT_MAX : (int)(count - 1);
             tell(timer, i);
         }
-        if (timer->due < first) first = timer->due;
+        if (timer->schedule.due < first) first = timer->schedule.due;
     }
     return first;
 }
@@ -96,7 +93,7 @@ EXPORT int timer_create(clockid_t clock, struct sigevent *restrict event, timer_
     if (!sim_takes_part() || !sim_follows(clock)) return REAL(timer_create)(clock, event, handle);
     for (int i = 0; i < MOST_TIMERS; i++) {
         if (timers[i].used) continue;
-        timers[i] = (struct posix_timer){.used = true, .clock = clock, .due = NEVER};
+        timers[i] = (struct posix_timer){.used = true, .clock = clock, .schedule = {.due = NEVER}};
         if (event != NULL) {
             timers[i].event = *event;
         } else {
@@ -117,15 +114,9 @@ EXPORT int timer_settime(timer_t handle, int flags, const struct itimerspec *res
     if (!sim_takes_part()) return REAL(timer_settime)(handle, flags, next, before);
     struct posix_timer *timer = timer_of(handle);
     if (timer == NULL) return -1;
-    if (!sim_is_duration(&next->it_value) || !sim_is_duration(&next->it_interval)) {
-        errno = EINVAL;
-        return -1;
-    }
-    if (before != NULL) *before = sim_left(timer->due, timer->period);
-    const struct timespec *first = &next->it_value;
-    timer->period = sim_nanoseconds(&next->it_interval);
-    timer->due = (flags & TIMER_ABSTIME) != 0 ? sim_instant(timer->clock, first) : sim_after(first);
-    if (first->tv_sec == 0 && first->tv_nsec == 0) timer->due = NEVER;
+    struct itimerspec left = sim_left(&timer->schedule);
+    if (!sim_set_schedule(&timer->schedule, timer->clock, (flags & TIMER_ABSTIME) != 0, next)) return -1;
+    if (before != NULL) *before = left;
     timer->overrun = 0;
     return 0;
 }
@@ -134,7 +125,7 @@ EXPORT int timer_gettime(timer_t handle, struct itimerspec *left) {
     if (!sim_takes_part()) return REAL(timer_gettime)(handle, left);
     struct posix_timer *timer = timer_of(handle);
     if (timer == NULL) return -1;
-    *left = sim_left(timer->due, timer->period);
+    *left = sim_left(&timer->schedule);
     return 0;
 }
 

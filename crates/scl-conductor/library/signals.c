@@ -6,9 +6,6 @@
 #include <signal.h>
 #include <unistd.h>
 
-// The size of a signal mask of the kernel, in bytes.
-#define MASK (_NSIG / 8)
-
 static int wait_for_handler(void) {
     struct wait wait = {.deadline = NEVER, .interruptible = true};
     sim_wait(&wait);

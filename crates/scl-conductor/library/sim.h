@@ -24,6 +24,9 @@
 
 #define EXPORT __attribute__((visibility("default")))
 
+// The size of a signal mask of the kernel, in bytes.
+#define MASK (_NSIG / 8)
+
 // A time, in nanoseconds since the start of the simulation.
 typedef uint64_t instant;
 #define NEVER UINT64_MAX
@@ -57,7 +60,7 @@ struct wait {
     instant deadline;
     // Whether a signal ends it.
     bool interruptible;
-    // Whether the first attempt was already made, in vain.
+    // Whether an attempt has just failed, and need not be repeated at once.
     bool attempted;
     bool woken;
     uint64_t order;
@@ -129,8 +132,6 @@ instant sim_after(const struct timespec *duration);
 struct timespec sim_timespec(uint64_t nanoseconds);
 bool sim_is_duration(const struct timespec *duration);
 uint64_t sim_nanoseconds(const struct timespec *duration);
-// What a timer says that is due then, and again after each `period`.
-struct itimerspec sim_left(instant due, uint64_t period);
 
 // futex.c: locks.
 
@@ -149,6 +150,20 @@ void sim_catch_direct_calls(void);
 
 // random.c: random numbers.
 void sim_seed(uint64_t seed);
+
+// schedule.c: when timers expire.
+
+struct schedule {
+    // When it expires next, or `NEVER`.
+    instant due;
+    // How long after each time it expires again, unless that is 0.
+    uint64_t period;
+};
+// Sets it as `timerfd_settime` and `timer_settime` do. Returns false and sets `errno` if these are no times.
+bool sim_set_schedule(struct schedule *schedule, clockid_t clock, bool absolute, const struct itimerspec *next);
+// Returns how often it has expired since the last call.
+uint64_t sim_expire(struct schedule *schedule);
+struct itimerspec sim_left(const struct schedule *schedule);
 
 // timer.c: timerfd.
 

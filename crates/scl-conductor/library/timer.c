@@ -16,9 +16,7 @@ struct timer {
     int descriptor;
     int own;
     clockid_t clock;
-    // When it expires next, and how long after each time it does again, unless that is 0.
-    instant due;
-    uint64_t period;
+    struct schedule schedule;
 };
 
 static struct timer timers[MOST_TIMERS];
@@ -42,17 +40,14 @@ void sim_forget_timers(unsigned first, unsigned last) {
 }
 
 instant sim_expire_timers(void) {
-    instant alarm = sim_expire_alarm(), posix = sim_expire_posix_timers(), now = sim_now();
+    instant alarm = sim_expire_alarm(), posix = sim_expire_posix_timers();
     instant first = alarm < posix ? alarm : posix;
     for (int i = 0; i < slots; i++) {
         struct timer *timer = &timers[i];
         if (!timer->used) continue;
-        if (timer->due <= now) {
-            uint64_t count = timer->period == 0 ? 1 : 1 + (now - timer->due) / timer->period;
-            timer->due = timer->period == 0 ? NEVER : timer->due + count * timer->period;
-            sim_call(SYS_write, timer->own, &count, sizeof count);
-        }
-        if (timer->due < first) first = timer->due;
+        uint64_t count = sim_expire(&timer->schedule);
+        if (count > 0) sim_call(SYS_write, timer->own, &count, sizeof count);
+        if (timer->schedule.due < first) first = timer->schedule.due;
     }
     return first;
 }
@@ -70,7 +65,8 @@ EXPORT int timerfd_create(int clock, int flags) {
             return -1;
         }
         own = sim_hide(own);
-        timers[i] = (struct timer){.used = true, .descriptor = descriptor, .own = own, .clock = clock, .due = NEVER};
+        timers[i] = (struct timer){
+            .used = true, .descriptor = descriptor, .own = own, .clock = clock, .schedule = {.due = NEVER}};
         if (i >= slots) slots = i + 1;
         return descriptor;
     }
@@ -81,28 +77,21 @@ EXPORT int timerfd_create(int clock, int flags) {
 EXPORT int timerfd_settime(int descriptor, int flags, const struct itimerspec *next, struct itimerspec *before) {
     struct timer *timer = sim_takes_part() ? timer_of(descriptor) : NULL;
     if (timer == NULL) return REAL(timerfd_settime)(descriptor, flags, next, before);
-    if (!sim_is_duration(&next->it_value) || !sim_is_duration(&next->it_interval)) {
-        errno = EINVAL;
-        return -1;
-    }
-    if (before != NULL) *before = sim_left(timer->due, timer->period);
+    struct itimerspec left = sim_left(&timer->schedule);
+    if (!sim_set_schedule(&timer->schedule, timer->clock, (flags & TFD_TIMER_ABSTIME) != 0, next)) return -1;
+    if (before != NULL) *before = left;
     // What has expired is forgotten.
     struct pollfd expired = {.fd = timer->own, .events = POLLIN};
     uint64_t count;
     if (sim_call(SYS_ppoll, &expired, 1, &(struct timespec){0}, NULL, 0) == 1) {
         sim_call(SYS_read, timer->own, &count, sizeof count);
     }
-    const struct timespec *first = &next->it_value;
-    bool absolute = (flags & TFD_TIMER_ABSTIME) != 0;
-    timer->period = sim_nanoseconds(&next->it_interval);
-    timer->due = absolute ? sim_instant(timer->clock, first) : sim_after(first);
-    if (first->tv_sec == 0 && first->tv_nsec == 0) timer->due = NEVER;
     return 0;
 }
 
 EXPORT int timerfd_gettime(int descriptor, struct itimerspec *left) {
     struct timer *timer = sim_takes_part() ? timer_of(descriptor) : NULL;
     if (timer == NULL) return REAL(timerfd_gettime)(descriptor, left);
-    *left = sim_left(timer->due, timer->period);
+    *left = sim_left(&timer->schedule);
     return 0;
 }

@@ -88,6 +88,15 @@ static void say(enum kind kind, instant due) {
     if (sim_call(SYS_sendto, connection, &said, sizeof said, MSG_NOSIGNAL, NULL, 0) != sizeof said) _exit(126);
 }
 
+// Goes on after a call that has heard nothing, unless `scl simulate` is gone.
+static void hear_nothing(long count) {
+    if (count < 0 && errno == EINTR) {
+        sim_interrupt();
+    } else if (count == 0 || errno != EAGAIN) {
+        _exit(126);
+    }
+}
+
 // A signal ends `recv` only because the socket has a limit: it would go on after handlers with `SA_RESTART`.
 static struct heard hear(void) {
     struct heard heard;
@@ -97,10 +106,8 @@ static struct heard hear(void) {
         ssize_t count = sim_call(SYS_recvfrom, connection, rest, sizeof heard - length, 0, NULL, NULL);
         if (count > 0) {
             length += (size_t)count;
-        } else if (count < 0 && errno == EINTR) {
-            sim_interrupt();
-        } else if (count == 0 || errno != EAGAIN) {
-            _exit(126);
+        } else {
+            hear_nothing(count);
         }
     }
     return heard;
@@ -217,14 +224,7 @@ int sim_tell_connection(int socket, const char path[CONNECTION_PATH]) {
     char answer;
     part = (struct iovec){.iov_base = &answer, .iov_len = sizeof answer};
     long count;
-    while ((count = sim_call(SYS_recvmsg, connection, &message, MSG_CMSG_CLOEXEC)) < 0) {
-        if (errno == EINTR) {
-            sim_interrupt();
-        } else if (errno != EAGAIN) {
-            _exit(126);
-        }
-    }
-    if (count == 0) _exit(126);
+    while ((count = sim_call(SYS_recvmsg, connection, &message, MSG_CMSG_CLOEXEC)) <= 0) hear_nothing(count);
     struct cmsghdr *header = CMSG_FIRSTHDR(&message);
     if (header == NULL || header->cmsg_type != SCM_RIGHTS) return -1;
     int other;
