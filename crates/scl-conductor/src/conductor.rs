@@ -94,15 +94,20 @@ pub struct Conductor {
 
 impl Conductor {
     /// Creates a conductor whose library is kept in a folder, which must exist as long as programs are started.
+    /// Programs and messages take as long as the scenario says, and these of its faults happen.
     ///
     /// # Errors
     ///
-    /// If the library cannot be written.
-    pub fn new(options: Options, folder: &Path) -> io::Result<Self> {
+    /// If the library cannot be written, or the operating system refuses an epoll descriptor.
+    pub fn new(options: Options, scenario: &Scenario, faults: Vec<Fault>, folder: &Path) -> io::Result<Self> {
+        debug_assert!(faults.is_sorted_by_key(|fault| fault.at), "they happen in this order");
         let library = folder.join("libscl_sim.so");
         fs::write(&library, LIBRARY)?;
-        let speed = Speed::new(options.speed);
-        let network = Network::new(options.seed, Vec::new())?;
+        let (seed, speed) = (options.seed, Speed::new(options.speed));
+        let network = Network::new(seed, scenario.routes.clone())?;
+        let takes = scenario.takes.iter().map(|(component, between)| {
+            (component.clone(), (*between, Random::new(seed_of(seed, component, u64::MAX))))
+        });
         Ok(Self {
             options,
             library,
@@ -116,29 +121,11 @@ impl Conductor {
             turns: 0,
             turns_now: 0,
             began: None,
-            takes: HashMap::new(),
-            faults: VecDeque::new(),
+            takes: takes.collect(),
+            faults: faults.into(),
             network,
             killed: VecDeque::new(),
         })
-    }
-
-    /// Lets programs and messages take as long as a scenario says, and these faults happen. Call it before the
-    /// simulation.
-    ///
-    /// # Errors
-    ///
-    /// If the operating system refuses what that takes.
-    pub fn follow(&mut self, scenario: &Scenario, faults: Vec<Fault>) -> io::Result<()> {
-        debug_assert!(faults.is_sorted_by_key(|fault| fault.at), "they happen in this order");
-        let seed = self.options.seed;
-        let takes = scenario.takes.iter().map(|(component, between)| {
-            (component.clone(), (*between, Random::new(seed_of(seed, component, u64::MAX))))
-        });
-        self.takes = takes.collect();
-        self.faults = faults.into();
-        self.network = Network::new(seed, scenario.routes.clone())?;
-        Ok(())
     }
 
     /// Returns how long the simulation has taken, in real time.

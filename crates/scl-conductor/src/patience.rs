@@ -17,7 +17,8 @@ pub(crate) fn never_waits(participant: &Participant, now: Duration, patience: Du
     if participant.pid.is_none() {
         let text = format!("{name} does not take part in the simulation {patience:.0} s after its start");
         return Problem::new(text).help(
-            "a program that removes `LD_PRELOAD` cannot take part; name the program itself, not a script that starts it",
+            "a program that removes `LD_PRELOAD` cannot take part; name the program itself, not a script that starts \
+             it",
         );
     }
     let now = now.as_secs_f64();

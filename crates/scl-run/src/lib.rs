@@ -227,15 +227,13 @@ fn run_plan(
         // Check again: another `scl run` may have started these components during the build.
         already_running::check(plan).map_err(|problem| vec![problem])?;
     }
-    let problems: Vec<Problem> = plan.programs().filter_map(|component| component.check().err()).collect();
+    let check = |component: &Component| {
+        component.check()?;
+        if conductor.is_some() { component.check_linkage() } else { Ok(()) }
+    };
+    let problems: Vec<Problem> = plan.programs().filter_map(|component| check(component).err()).collect();
     if !problems.is_empty() {
         return Err(problems);
-    }
-    if conductor.is_some() {
-        let static_ones: Vec<Problem> = plan.programs().filter_map(|it| it.check_linkage().err()).collect();
-        if !static_ones.is_empty() {
-            return Err(static_ones);
-        }
     }
     let gateways = plan.gateway.iter().map(|gateway| (gateway, Role::Gateway));
     let recorders = plan.recorder.iter().map(|recorder| (recorder, Role::Recorder));

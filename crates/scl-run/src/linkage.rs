@@ -7,7 +7,7 @@ use std::path::Path;
 /// More than the headers of programs take, in bytes.
 const HEADERS: u64 = 4096;
 /// The type of the program header that names the loader (ELF's `PT_INTERP`).
-const LOADER: u32 = 3;
+const LOADER: u64 = 3;
 
 /// Returns true if a file is a program of 64 bits that is linked statically: no loader gives it any library.
 pub(crate) fn is_static(program: &Path) -> bool {
@@ -27,7 +27,7 @@ fn loader(start: &[u8]) -> Option<bool> {
     let (first, size, count) = (number(32, 8)?, number(54, 2)?, number(56, 2)?);
     let headers = (0..count).map(|index| number(usize::try_from(first + index * size).ok()?, 4));
     let kinds: Option<Vec<u64>> = headers.collect();
-    Some(kinds?.contains(&u64::from(LOADER)))
+    Some(kinds?.contains(&LOADER))
 }
 
 #[cfg(test)]

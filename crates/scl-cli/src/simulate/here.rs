@@ -69,10 +69,8 @@ pub(crate) fn simulate_here(here: &HereArguments) -> Result<ExitCode, Vec<Proble
     let until = until.or(scenario.until);
     let chosen = here.with_faults.as_ref().or(here.arguments.faults.as_ref());
     let faults = chosen_faults(&scenario, seed, until, chosen).map_err(|problem| vec![problem])?;
-    let conductor = Conductor::new(options, &here.runtime_folder);
-    let mut conductor = conductor.map_err(|error| vec![failed("write the library", error)])?;
-    let followed = conductor.follow(&scenario, faults.clone());
-    followed.map_err(|error| vec![failed("prepare the simulation", error)])?;
+    let conductor = Conductor::new(options, &scenario, faults.clone(), &here.runtime_folder);
+    let mut conductor = conductor.map_err(|error| vec![failed("prepare the simulation", error)])?;
     // What is expected of messages is looked up in the recording.
     let own = (!scenario.expectations.is_empty()).then(|| here.runtime_folder.join("simulation.mcap"));
     let recording = here.record_to.clone().or(own);

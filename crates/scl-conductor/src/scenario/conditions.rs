@@ -66,7 +66,7 @@ pub(super) fn messages_of(gate: &GatePlan) -> Option<Option<&str>> {
 /// Checks that the messages of a gate have the fields of a condition.
 pub(super) fn check(condition: &Condition, system: &SystemPlan, gate: &str) -> Result<(), Problem> {
     let found = split(gate).and_then(|(component, name)| {
-        let plan = system.components.iter().find(|plan| plan.component == component)?;
+        let plan = system.component(component).ok()?;
         let gate = plan.gate(name)?;
         let descriptors = plan.schema.as_ref().map(|schema| &*schema.descriptors);
         MessageType::new(messages_of(gate)?, &gate.codec, descriptors).ok()

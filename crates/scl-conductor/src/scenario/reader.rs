@@ -11,6 +11,7 @@ use crate::routes::{full_name, routes};
 use scl_plan::{GatePlan, Plan, SystemPlan};
 use scl_terminal::{Problem, parse_duration, quoted_list};
 use scl_text::gate_name::split;
+use scl_text::list::either;
 use scl_topology::source::{SourceFile, Span};
 use scl_topology::yaml::Node;
 use std::time::Duration;
@@ -87,6 +88,14 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Reports a key that has an effect only beside one of others.
+    fn report_useless(&mut self, entries: &Entries<'_>, key: &str, needs: &[&str]) {
+        if entries.get(key).is_some() && needs.iter().all(|needed| entries.get(needed).is_none()) {
+            let problem = Problem::new(format!("`{key}` has no effect without {}", either(needs)));
+            self.report(problem.help(format!("leave out `{key}`")), entries.span);
+        }
+    }
+
     fn list<T>(&mut self, node: &Node, key: &str, read: impl Fn(&mut Self, &Node) -> Option<T>) -> Vec<T> {
         if let Some(items) = node.items() {
             return items.iter().filter_map(|item| read(self, item)).collect();
@@ -132,7 +141,7 @@ impl<'a> Reader<'a> {
     }
 
     fn plan_of(&mut self, component: &str, span: Span) -> Option<&'a Plan> {
-        let found = self.system.components.iter().find(|plan| plan.component == component);
+        let found = self.system.component(component).ok();
         if found.is_none() {
             let names = || self.system.components.iter().map(|plan| plan.component.as_str());
             let problem = Problem::new(format!("unknown component `{component}`")).did_you_mean(component, names());

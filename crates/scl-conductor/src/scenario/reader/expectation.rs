@@ -3,6 +3,7 @@
 use super::super::conditions::{Expectation, Expected, check, messages_of};
 use super::super::rules::{EXPECTATION, EXPECTED};
 use super::{Entries, Reader};
+use crate::routes::full_name;
 use scl_terminal::{Problem, quoted_list};
 use scl_topology::yaml::Node;
 use scl_value::Condition;
@@ -11,12 +12,8 @@ impl Reader<'_> {
     pub(super) fn expectation(&mut self, node: &Node) -> Option<Expectation> {
         let entries = self.entries(node, "an expectation", &EXPECTATION)?;
         let (key, value) = self.one(&entries, "an expectation", &EXPECTED)?;
-        for (other, needs) in [("by", "eventually"), ("code", "exit")] {
-            if entries.get(other).is_some() && key != needs {
-                let problem = Problem::new(format!("`{other}` has no effect without `{needs}`"));
-                self.report(problem.help(format!("leave out `{other}`")), entries.span);
-            }
-        }
+        self.report_useless(&entries, "by", &["eventually"]);
+        self.report_useless(&entries, "code", &["exit"]);
         let place = self.source.place(node.span);
         if key == "exit" {
             let (component, code) = (self.component(value)?, self.code(&entries)?);
@@ -50,7 +47,7 @@ impl Reader<'_> {
         let name = node.text().unwrap_or_default();
         let recorded = self.system.components.iter().flat_map(|plan| {
             let gates = plan.gates.iter().filter(|gate| gate.tap.is_some() && messages_of(gate).is_some());
-            gates.map(|gate| format!("{}.{}", plan.component, gate.name))
+            gates.map(|gate| full_name(&plan.component, &gate.name))
         });
         let recorded: Vec<String> = recorded.collect();
         if recorded.iter().any(|known| known == name) {

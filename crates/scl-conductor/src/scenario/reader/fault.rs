@@ -6,7 +6,6 @@ use crate::faults::{FaultRule, What, When, Whom};
 use crate::random::Between;
 use scl_terminal::Problem;
 use scl_text::gate_name::component_and_gate;
-use scl_text::list::either;
 use scl_topology::source::Span;
 use scl_topology::yaml::Node;
 use std::time::Duration;
@@ -26,12 +25,8 @@ impl Reader<'_> {
             };
             Some((what, self.whom(&entries, key, value)?))
         });
-        for (key, needs) in [("from", &["every"][..]), ("for", &["pause", "cut"])] {
-            if entries.get(key).is_some() && needs.iter().all(|needed| entries.get(needed).is_none()) {
-                let problem = Problem::new(format!("`{key}` has no effect without {}", either(needs)));
-                self.report(problem.help(format!("leave out `{key}`")), entries.span);
-            }
-        }
+        self.report_useless(&entries, "from", &["every"]);
+        self.report_useless(&entries, "for", &["pause", "cut"]);
         let (when, (what, whom)) = when.zip(what)?;
         Some(FaultRule { when, what, whom })
     }
@@ -78,8 +73,7 @@ impl Reader<'_> {
     /// A component, or a gate as `component.gate`.
     fn end(&mut self, node: &Node) -> Option<String> {
         let name = node.text().unwrap_or_default();
-        let is_component = |name: &str| self.system.components.iter().any(|plan| plan.component == name);
-        match component_and_gate(name, is_component) {
+        match component_and_gate(name, |name| self.system.component(name).is_ok()) {
             (_, Some(_)) => self.gate_of(name, node.span).map(|_| name.to_owned()),
             (_, None) => self.component(node),
         }
