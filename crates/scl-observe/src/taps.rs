@@ -8,9 +8,7 @@ use scl::runtime_dir::ArrivalWatch;
 use scl::tap::{Observer, TapEvent};
 use std::collections::VecDeque;
 use std::fmt;
-use std::fs;
 use std::future::poll_fn;
-use std::os::unix::fs::MetadataExt;
 use std::task::{Context, Poll, Waker};
 use std::time::Duration;
 use tokio::time::{Interval, MissedTickBehavior, interval};
@@ -56,8 +54,8 @@ struct Following {
     system: System,
     filter: Box<dyn Fn(&ObservedGate) -> bool + Send>,
     changes: FolderChanges,
-    /// With the inode of the folder. `None` without the folder, or if the user's limit for inotify is reached.
-    arrivals: Option<(u64, ArrivalWatch)>,
+    /// `None` without the folder, or if the user's limit for inotify is reached.
+    arrivals: Option<ArrivalWatch>,
     due: Interval,
 }
 
@@ -165,13 +163,12 @@ impl Following {
     /// Returns when it is time to look.
     fn poll(&mut self, cx: &mut Context<'_>) -> Poll<()> {
         if self.due.poll_tick(cx).is_ready() {
-            let folder = fs::metadata(self.system.dir().folder()).map(|found| found.ino()).ok();
-            if self.arrivals.as_ref().map(|(watched, _)| *watched) != folder {
-                self.arrivals = folder.zip(ArrivalWatch::start(self.system.dir()).ok());
+            if self.arrivals.as_ref().is_none_or(ArrivalWatch::is_over) {
+                self.arrivals = ArrivalWatch::start(self.system.dir()).ok();
             }
             return Poll::Ready(());
         }
-        self.arrivals.as_ref().map_or(Poll::Pending, |(_, arrivals)| arrivals.poll_arrived(cx))
+        self.arrivals.as_mut().map_or(Poll::Pending, |arrivals| arrivals.poll_arrived(cx))
     }
 }
 
