@@ -5,6 +5,7 @@
 mod arcade;
 mod lines;
 mod ospecorr;
+mod processes;
 mod simulated;
 #[allow(dead_code, reason = "the other tests use the rest")]
 #[path = "../system/mod.rs"]

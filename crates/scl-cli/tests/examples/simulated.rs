@@ -1,7 +1,8 @@
 //! Examples in simulated time: `scl simulate` runs and records them.
 
+use crate::built;
+use crate::processes::command;
 use crate::system::System;
-use crate::{built, example};
 use std::path::PathBuf;
 
 /// A simulation that is over.
@@ -24,12 +25,7 @@ pub(crate) fn simulate(of: &str, name: &str, arguments: &[&str], scenario: &str)
     }
     let scenario = system.path("scenario.yaml");
     let given = ["simulate", ".", "--scenario", scenario.to_str().unwrap(), "-o", file.to_str().unwrap()];
-    let mut command = system.scl(&[&given[..], arguments].concat());
-    command.current_dir(example(of));
-    for name in ["SCL_SYSTEM", "SCL_TRANSPORT", "SCL_STATS", "SCL_LOG"] {
-        command.env_remove(name);
-    }
-    let output = command.output().unwrap();
+    let output = command(of, &system, &[&given[..], arguments].concat()).output().unwrap();
     let [out, err] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
     println!("{}", err.lines().last().unwrap_or_default());
     let log = format!("{out}{err}");

@@ -3,9 +3,8 @@
 //!
 //! `SCL_TEST_SEEDS` is the seeds, such as `1..10000`; otherwise, there are a few, other ones for each commit.
 
-use super::{of_components, simulate, text};
+use super::{of_components, plan, simulate, text};
 use scl::bytes::Bytes;
-use scl::plan::SystemPlan;
 use scl::untyped::Component;
 use scl::{PeerStats, Pub, Push, Sub};
 use std::collections::HashMap;
@@ -99,8 +98,7 @@ struct Status {
 type Shared = Arc<Mutex<Status>>;
 
 fn play(name: &str) {
-    let plan = SystemPlan::from_json(&std::fs::read_to_string("plan.json").unwrap()).unwrap();
-    let mut component = Component::open_blocking(plan.component(name).unwrap()).unwrap();
+    let mut component = Component::open_blocking(&plan(name)).unwrap();
     let status = Shared::default();
     match name {
         "source" => send_all(&mut component, &status),

@@ -1,9 +1,8 @@
 //! Components of SCL in simulated time: async, blocking, and with several threads.
 
-use super::{errors, lines_of, of_components, simulate, text};
+use super::{errors, lines_of, of_components, plan, simulate, text};
 use crate::system::{ChildGuard, SpawnGuarded, System};
 use scl::bytes::Bytes;
-use scl::plan::{Plan, SystemPlan};
 use scl::untyped::Component;
 use std::collections::HashMap;
 use std::fs;
@@ -50,11 +49,6 @@ const MS: Duration = Duration::from_millis(1);
 /// Starts the programs of the system in this order.
 fn system(test: &str, order: &[&str]) -> System {
     of_components(TOPOLOGY, test, PLAYS, order)
-}
-
-fn plan(component: &str) -> Plan {
-    let system = SystemPlan::from_json(&fs::read_to_string("plan.json").unwrap()).unwrap();
-    system.component(component).unwrap().clone()
 }
 
 /// Plays the component that the environment names, or returns.

@@ -9,6 +9,7 @@ mod scenarios;
 
 use crate::system::System;
 use expect_test::{ExpectFile, expect_file};
+use scl::plan::{Plan, SystemPlan};
 use std::process::{Command, Output};
 
 /// Runs a simulation in a system's folder.
@@ -65,6 +66,12 @@ fn of_components(topology: &str, test: &str, plays: &str, order: &[&str]) -> Sys
     assert!(plan.status.success(), "{}", text(&plan.stderr));
     system.write("plan.json", &text(&plan.stdout));
     system
+}
+
+/// The plan of a component, in a process that plays it.
+fn plan(component: &str) -> Plan {
+    let system = SystemPlan::from_json(&std::fs::read_to_string("plan.json").unwrap()).unwrap();
+    system.component(component).unwrap().clone()
 }
 
 #[track_caller]

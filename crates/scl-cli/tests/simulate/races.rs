@@ -1,8 +1,7 @@
 //! A program with a race, which shows only when messages of different gates take different times: some seeds find it.
 
-use super::{of_components, simulate, text};
+use super::{of_components, plan, simulate, text};
 use scl::bytes::Bytes;
-use scl::plan::SystemPlan;
 use scl::untyped::Component;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -30,8 +29,7 @@ const PLAYS: &str = "SCL_TEST_RACE_PLAYS";
 /// Plays the component that the environment names, or returns false.
 fn play() -> bool {
     let Ok(name) = std::env::var(PLAYS) else { return false };
-    let plan = SystemPlan::from_json(&std::fs::read_to_string("plan.json").unwrap()).unwrap();
-    let mut component = Component::open_blocking(plan.component(&name).unwrap()).unwrap();
+    let mut component = Component::open_blocking(&plan(&name)).unwrap();
     let number = |bytes: Bytes| text(&bytes).parse::<u64>().unwrap();
     if name == "planner" {
         let (mut limit, mut speed) = (component.publisher("limit").unwrap(), component.publisher("speed").unwrap());

@@ -1,10 +1,10 @@
 //! Scenarios: faults, and what must hold all the same.
 
-use super::{errors, lines_of, of_components, simulate, text};
+use super::{errors, lines_of, of_components, plan, simulate, text};
 use crate::system::System;
 use scl::bytes::Bytes;
-use scl::plan::SystemPlan;
 use scl::untyped::Component;
+use scl_record::format::SIMULATION_START;
 use std::thread;
 use std::time::{Duration, SystemTime};
 
@@ -27,8 +27,6 @@ connections:
 
 /// Names the program that a process is.
 const PLAYS: &str = "SCL_TEST_SCENARIO_PLAYS";
-/// The start of a simulation, in seconds since 1970.
-const START: u64 = 1_767_225_600;
 const TICK: Duration = Duration::from_millis(100);
 
 pub(super) fn system(test: &str, scenario: &str) -> System {
@@ -39,14 +37,13 @@ pub(super) fn system(test: &str, scenario: &str) -> System {
 
 /// The time of the simulation, in seconds.
 fn since_start() -> f64 {
-    (SystemTime::UNIX_EPOCH.elapsed().unwrap() - Duration::from_secs(START)).as_secs_f64()
+    (SystemTime::UNIX_EPOCH.elapsed().unwrap() - SIMULATION_START).as_secs_f64()
 }
 
 /// Plays the component that the environment names, or returns false.
 pub(super) fn play() -> bool {
     let Ok(name) = std::env::var(PLAYS) else { return false };
-    let plan = SystemPlan::from_json(&std::fs::read_to_string("plan.json").unwrap()).unwrap();
-    let mut component = Component::open_blocking(plan.component(&name).unwrap()).unwrap();
+    let mut component = Component::open_blocking(&plan(&name)).unwrap();
     if name != "pump" {
         let mut level = component.subscriber("level").unwrap();
         while let Ok(message) = level.recv_blocking() {

@@ -6,7 +6,11 @@ use std::process::Command;
 /// It would ask the processor for random numbers, without any call of the C library.
 #[test]
 fn random_numbers_of_cpp_come_from_the_seed() {
-    let source = "#include <cstdio>\n#include <random>\nint main() { std::random_device device; printf(\"%u\\n\", device()); }\n";
+    let source = "\
+#include <cstdio>
+#include <random>
+int main() { std::random_device device; printf(\"%u\\n\", device()); }
+";
     let system = System::of_files(&[
         ("program.cpp", source),
         ("launch.yaml", "components:\n  program: {command: [./program]}\n"),

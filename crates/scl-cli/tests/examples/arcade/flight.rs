@@ -1,20 +1,18 @@
 //! A flight of `examples/arcade` in real time: `scl run` flies, `scl record` records, `scl echo` tells that it flies.
 
 use super::recording::Recording;
+use crate::processes::{BUILD_LIMIT, HANG_LIMIT, command, folder_of, send_lines, spawn_recorder};
 use crate::system::{ChildGuard, SpawnGuarded, System, kill};
 use crate::{built, example};
 use serde_json::Value;
 use std::fmt::Write as _;
-use std::io::{BufRead, BufReader, Read};
-use std::os::unix::fs::DirBuilderExt as _;
+use std::io::Read;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-/// A test that hears nothing for longer has failed. Compilers print little.
-const BUILD_LIMIT: Duration = Duration::from_secs(3600);
-const HANG_LIMIT: Duration = Duration::from_secs(300);
+const SYSTEM: &str = "arcade";
 
 /// No mission takes longer, in seconds of the vehicle's clock.
 const LONGEST_FLIGHT: f64 = 240.0;
@@ -52,16 +50,17 @@ impl Flight {
     /// Builds and starts the aircraft with more arguments of `scl run`, and waits until all components are ready. The
     /// recording gets this name.
     pub(super) fn start(name: &str, arguments: &[&str]) -> Self {
-        let system = aircraft_folder();
+        let system = folder_of(SYSTEM);
         std::fs::create_dir_all(built("arcade")).unwrap();
         let file = built("arcade").join(name).with_extension("mcap");
         let (sender, events) = channel();
         // It begins first, so that no message is missing.
         let record = ["record", "--system", "arcade", "--overwrite", "--format", "json", "-o", file.to_str().unwrap()];
-        let recorder = spawn_recorder(&mut command(&system, &record), "recording `arcade`");
+        let recorder = spawn_recorder(SYSTEM, &mut command(SYSTEM, &system, &record));
         let folder = example("arcade");
         let arguments = [&["run", folder.to_str().unwrap()], arguments].concat();
-        let mut run = command(&system, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn_guarded();
+        let mut run =
+            command(SYSTEM, &system, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn_guarded();
         send_lines(run.stdout.take().unwrap(), &sender, Event::Line);
         send_lines(run.stderr.take().unwrap(), &sender, Event::Line);
         let mut flight = Self { others: Vec::new(), run, recorder, system, file, events, log: String::new() };
@@ -82,7 +81,7 @@ impl Flight {
 
     /// `scl`, looking at this system.
     pub(super) fn command(&self, arguments: &[&str]) -> Command {
-        command(&self.system, arguments)
+        command(SYSTEM, &self.system, arguments)
     }
 
     /// What happens next.
@@ -147,41 +146,4 @@ fn time_of(line: &str) -> f64 {
         number => number.as_f64().unwrap(),
     };
     time_us / 1e6
-}
-
-/// A folder for a system that does not run yet, but can be recorded: `scl record` wants the system's runtime folder.
-fn aircraft_folder() -> System {
-    let system = System::of_files(&[]);
-    std::fs::DirBuilder::new().recursive(true).mode(0o700).create(system.path("runtime/arcade")).unwrap();
-    system
-}
-
-/// `scl` in the folder of the example, whose topology and launch file the recording gets.
-fn command(system: &System, arguments: &[&str]) -> Command {
-    let mut command = system.scl(arguments);
-    command.current_dir(example("arcade"));
-    for name in ["SCL_SYSTEM", "SCL_TRANSPORT", "SCL_STATS", "SCL_LOG"] {
-        command.env_remove(name);
-    }
-    command
-}
-
-/// Starts a recorder, and waits until it prints this.
-fn spawn_recorder(command: &mut Command, begun: &str) -> ChildGuard {
-    let mut recorder = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn_guarded();
-    let mut lines = BufReader::new(recorder.stderr.take().unwrap()).lines().map(Result::unwrap);
-    assert!(lines.any(|line| line.contains(begun)), "{command:?} does not record");
-    // So that it can print the others.
-    std::thread::spawn(move || lines.for_each(drop));
-    recorder
-}
-
-fn send_lines(stream: impl Read + Send + 'static, sender: &Sender<Event>, event: fn(String) -> Event) {
-    let sender = sender.clone();
-    std::thread::spawn(move || {
-        for line in BufReader::new(stream).lines().map_while(Result::ok) {
-            // The test may have ended.
-            let _ = sender.send(event(line));
-        }
-    });
 }

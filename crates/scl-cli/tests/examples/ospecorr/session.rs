@@ -2,21 +2,18 @@
 //! the time.
 
 use super::recording::Recording;
+use crate::processes::{BUILD_LIMIT, HANG_LIMIT, command, folder_of, send_lines, spawn_recorder};
 use crate::system::{ChildGuard, SpawnGuarded, System, kill};
 use crate::{built, example};
 use serde_json::Value;
 use std::fmt::Write as _;
-use std::fs::DirBuilder;
-use std::io::{BufRead, BufReader, Read};
-use std::os::unix::fs::DirBuilderExt;
+use std::io::Read;
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::process::Stdio;
+use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-/// A test that hears nothing for longer has failed. Compilers print little.
-const BUILD_LIMIT: Duration = Duration::from_secs(3600);
-const HANG_LIMIT: Duration = Duration::from_secs(300);
+const SYSTEM: &str = "ospecorr";
 
 /// A running system with its recorder. Dropping it ends all processes.
 pub(super) struct Session {
@@ -42,18 +39,17 @@ enum Event {
 impl Session {
     /// Builds and starts the radio, and waits until all components are ready. The recording gets this name.
     pub(super) fn start(name: &str) -> Self {
-        let system = System::of_files(&[]);
+        let system = folder_of(SYSTEM);
         std::fs::create_dir_all(built("ospecorr")).unwrap();
         let file = built("ospecorr").join(name).with_extension("mcap");
         let (sender, events) = channel();
-        // The recorder begins first, so that no message is missing; it needs the folder of the system.
-        let mut folder = DirBuilder::new();
-        folder.recursive(true).mode(0o700).create(system.path("runtime/ospecorr")).unwrap();
+        // The recorder begins first, so that no message is missing.
         let record = ["record", "--system", "ospecorr", "--overwrite", "-o", file.to_str().unwrap()];
-        let recorder = spawn_recorder(&mut command(&system, &record));
+        let recorder = spawn_recorder(SYSTEM, &mut command(SYSTEM, &system, &record));
         let folder = example("ospecorr");
         let arguments = ["run", folder.to_str().unwrap(), "--profile", "visits"];
-        let mut run = command(&system, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn_guarded();
+        let mut run =
+            command(SYSTEM, &system, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn_guarded();
         send_lines(run.stdout.take().unwrap(), &sender, Event::Line);
         send_lines(run.stderr.take().unwrap(), &sender, Event::Line);
         let mut session = Self { echo: None, run, recorder, system, file, events, time_us: 0, log: String::new() };
@@ -61,7 +57,8 @@ impl Session {
             session.next(BUILD_LIMIT);
         }
         let echo = ["echo", "spectrum.truth", "--system", "ospecorr", "--format", "json"];
-        let mut echo = command(&session.system, &echo).stdout(Stdio::piped()).stderr(Stdio::null()).spawn_guarded();
+        let mut echo =
+            command(SYSTEM, &session.system, &echo).stdout(Stdio::piped()).stderr(Stdio::null()).spawn_guarded();
         send_lines(echo.stdout.take().unwrap(), &sender, |line| Event::Time(time_of(&line)));
         session.echo = Some(echo);
         session
@@ -115,35 +112,4 @@ fn time_of(line: &str) -> u64 {
         Value::String(digits) => digits.parse().unwrap(),
         number => number.as_u64().unwrap(),
     }
-}
-
-/// `scl` in the folder of the example, whose topology and launch file the recording gets.
-fn command(system: &System, arguments: &[&str]) -> Command {
-    let mut command = system.scl(arguments);
-    command.current_dir(example("ospecorr"));
-    for name in ["SCL_SYSTEM", "SCL_TRANSPORT", "SCL_STATS", "SCL_LOG"] {
-        command.env_remove(name);
-    }
-    command
-}
-
-/// Starts a recorder, and waits until it waits for components.
-fn spawn_recorder(command: &mut Command) -> ChildGuard {
-    let mut recorder = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn_guarded();
-    let mut lines = BufReader::new(recorder.stderr.take().unwrap()).lines();
-    let first = lines.next().unwrap().unwrap();
-    assert!(first.starts_with("recording"), "{first}");
-    // So that it can print the others.
-    std::thread::spawn(move || lines.map_while(Result::ok).for_each(drop));
-    recorder
-}
-
-fn send_lines(stream: impl Read + Send + 'static, sender: &Sender<Event>, event: fn(String) -> Event) {
-    let sender = sender.clone();
-    std::thread::spawn(move || {
-        for line in BufReader::new(stream).lines().map_while(Result::ok) {
-            // The test may have ended.
-            let _ = sender.send(event(line));
-        }
-    });
 }
