@@ -17,11 +17,11 @@ use std::time::Duration;
 /// use scl_simulate::Simulation;
 /// use std::time::Duration;
 /// # #[derive(Clone, PartialEq, prost::Message)]
-/// # struct World { #[prost(double, tag = "1")] height: f64 }
+/// # struct World { #[prost(bool, tag = "6")] on_ground: bool }
 ///
-/// let flight = Simulation::of("examples/arcade").scenario("rough_day.yaml").seed(7).run()?;
+/// let flight = Simulation::of("examples/arcade").scenario("examples/arcade/rough_day.yaml").seed(7).run()?;
 /// let (time, world) = flight.last::<World>("simulator.world")?;
-/// assert!(world.height < 0.1 && time < Duration::from_secs(75), "{time:?} {world:?}");
+/// assert!(world.on_ground && time > Duration::from_secs(75), "{time:?} {world:?}");
 /// # Ok::<(), scl_simulate::SimulationError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -37,8 +37,8 @@ impl Simulation {
         Self { command: "scl".into(), arguments: vec!["simulate".into(), folder.as_ref().into()] }
     }
 
-    /// Ends it after this time of the simulation, in microseconds; otherwise, it ends when the programs have, or when
-    /// the scenario says.
+    /// Ends it after this time of the simulation, to the microsecond; otherwise, it ends when the programs have, or
+    /// when the scenario says.
     pub fn until(self, time: Duration) -> Self {
         self.option("--until", format!("{}us", time.as_micros()))
     }

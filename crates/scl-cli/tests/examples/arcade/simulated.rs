@@ -4,9 +4,9 @@ use super::flight::Flown;
 use super::recording::Recording;
 use super::write_json;
 use crate::aircraft::arcade::{Arbitration, Authority};
-use crate::lock_machine;
 use crate::simulated::simulate;
 use crate::system::System;
+use crate::{example, lock_machine};
 use serde_json::json;
 use std::path::Path;
 
@@ -26,10 +26,13 @@ const KILLS: [&str; 8] = [
 #[test]
 fn a_flight_through_random_kills_is_repeated_to_the_last_bit() {
     let _machine = lock_machine();
-    let scenario = "until: 25s\nfaults: [{every: 3s..8s, kill: any, except: [simulator, uav_mission]}]\n";
+    let scenario = std::fs::read_to_string(example("arcade").join("rough_day.yaml")).unwrap();
+    let page = include_str!("../../../../../docs/simulate.md");
+    assert!(page.contains(&format!("```yaml\n{scenario}```\n")), "docs/simulate.md shows another scenario");
+    // It ends before what it expects, so that only the recordings say anything.
     let recordings = ["first", "second"].map(|name| {
-        let flown = simulate("arcade", name, &["--seed", "5"], scenario);
-        assert!(flown.log.contains("is killed"), "{}", flown.log);
+        let flown = simulate("arcade", name, &["--seed", "5", "--until", "25s"], &scenario);
+        assert!(flown.log.contains("`autopilot` is killed"), "{}", flown.log);
         std::fs::read(flown.file).unwrap()
     });
     assert!(recordings[0] == recordings[1], "the recordings differ");
