@@ -1,0 +1,13 @@
+//! Pictures of systems, for `scl graph` and `scl watch`: a [`Diagram`] says what is drawn, [`Layout`] where, and
+//! [`draw`] writes both as SVG.
+
+mod diagram;
+mod layout;
+mod svg;
+mod system;
+mod text;
+
+pub use diagram::{Block, Diagram, Edge, End, Frame, Row};
+pub use layout::{Layout, Placed, Point, Rectangle};
+pub use svg::draw;
+pub use system::{Detail, Options, diagram_of};
