@@ -5,13 +5,15 @@ use crate::process::ProcessFigures;
 use crate::{Activity, Component, System, throughput};
 use scl::runtime_dir::{ComponentStats, GateFigures};
 use scl_plan::{GateKind, GatePlan};
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
 use std::time::{Duration, Instant, SystemTime};
 
 /// Takes snapshots of a system.
 #[derive(Debug)]
 pub struct Watch {
     system: System,
+    /// The shortest time over which rates are measured.
+    window: Duration,
     before: HashMap<String, Before>,
 }
 
@@ -19,7 +21,8 @@ pub struct Watch {
 #[derive(Debug)]
 struct Before {
     processor: Option<(u32, Instant, Duration)>,
-    stats: Option<ComponentStats>,
+    /// Its figures: the newest, and earlier ones back to the beginning of the window.
+    stats: VecDeque<ComponentStats>,
     /// The latest rates, kept until the component has written its figures again.
     rates: Vec<Option<f64>>,
 }
@@ -87,16 +90,27 @@ pub struct ConnectionRow {
 impl Watch {
     /// Watches this system.
     pub fn new(system: System) -> Self {
-        Self { system, before: HashMap::new() }
+        Self::with_window(system, Duration::ZERO)
+    }
+
+    /// Watches this system. Rates are measured over at least this time, even if snapshots follow each other faster: a
+    /// gate that sends twice a second does so in every other snapshot of a quarter of a second.
+    pub fn with_window(system: System, window: Duration) -> Self {
+        Self { system, window, before: HashMap::new() }
     }
 
     /// Takes a snapshot.
     pub fn look(&mut self) -> Snapshot {
-        let (now, time) = (Instant::now(), SystemTime::now());
         let components = self.system.components();
+        self.look_at(&components)
+    }
+
+    /// Takes a snapshot of components that were just read.
+    pub fn look_at(&mut self, components: &[Component]) -> Snapshot {
+        let (now, time) = (Instant::now(), SystemTime::now());
         let mut snapshot = Snapshot { system: self.system.name().to_owned(), ..Snapshot::default() };
         let mut seen = HashMap::new();
-        for component in &components {
+        for component in components {
             let before = self.before.remove(&component.name);
             let (row, processor) = component_row(component, before.as_ref(), now, time);
             let rates = rates(component, before.as_ref());
@@ -104,7 +118,8 @@ impl Watch {
                 snapshot.gates.extend(gate_rows(component, &rates));
             }
             snapshot.components.push(row);
-            seen.insert(component.name.clone(), Before { processor, stats: component.stats.clone(), rates });
+            let stats = readings(before, component.stats.as_ref(), self.window);
+            seen.insert(component.name.clone(), Before { processor, stats, rates });
         }
         self.before = seen;
         snapshot
@@ -180,12 +195,27 @@ fn gate_rows(component: &Component, rates: &[Option<f64>]) -> Vec<GateRow> {
     gates.map(row).collect()
 }
 
+/// The readings that the next rates are measured from: the newest, and before it the latest that is as old as the
+/// window.
+fn readings(before: Option<Before>, newest: Option<&ComponentStats>, window: Duration) -> VecDeque<ComponentStats> {
+    let Some(newest) = newest else { return VecDeque::new() };
+    let mut readings = before.map(|before| before.stats).unwrap_or_default();
+    readings.retain(|reading| reading.started == newest.started && reading.written < newest.written);
+    readings.push_back(newest.clone());
+    let is_old =
+        |reading: &ComponentStats| newest.written.duration_since(reading.written).is_ok_and(|age| age >= window);
+    while readings.get(1).is_some_and(is_old) {
+        readings.pop_front();
+    }
+    readings
+}
+
 /// Messages per second of each gate; the previous ones if the figures were not written since.
 fn rates(component: &Component, before: Option<&Before>) -> Vec<Option<f64>> {
     let (Some(plan), Some(stats), Some(before)) = (component.plan(), &component.stats, before) else {
         return Vec::new();
     };
-    let Some(old) = before.stats.as_ref().filter(|old| old.started == stats.started) else { return Vec::new() };
+    let Some(old) = before.stats.front().filter(|old| old.started == stats.started) else { return Vec::new() };
     match throughput::rates(plan, old, stats) {
         Some(rates) => rates.iter().map(|rate| Some(rate.messages)).collect(),
         None => before.rates.clone(),

@@ -118,11 +118,5 @@ impl Watched {
 
 /// Returns the types of a gate's messages or requests, and of its replies.
 fn types_of(gate: &ObservedGate) -> (MessageType, MessageType) {
-    let read = |name: Option<&str>| {
-        let messages = MessageType::new(name, &gate.codec, gate.schema.as_deref());
-        messages.unwrap_or_else(|error| MessageType::opaque(error.to_string()))
-    };
-    let mut types = gate.payload.types();
-    let first = types.next();
-    (read(first), read(types.next().or(first)))
+    MessageType::of_gate(gate.payload.types(), &gate.codec, gate.schema.as_deref())
 }
