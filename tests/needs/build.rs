@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// Programs of which it is enough that they are there.
-const PROGRAMS: [&str; 7] = ["fish", "git", "node", "npm", "python3", "systemd-analyze", "zsh"];
+const PROGRAMS: [&str; 8] = ["chromium", "fish", "git", "node", "npm", "python3", "systemd-analyze", "zsh"];
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");

@@ -66,6 +66,8 @@ mod schema;
 mod simulate;
 #[cfg(feature = "observe")]
 mod top;
+#[cfg(feature = "watch")]
+mod watch;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use exit::Outcome;
@@ -183,6 +185,8 @@ commands! {
     Stop(request::StopArguments) => request::stop;
     #[cfg(feature = "observe")]
     Top(top::TopArguments) => top::top;
+    #[cfg(feature = "watch")]
+    Watch(watch::WatchArguments) => watch::watch;
     #[cfg(feature = "run")]
     #[command(name = run::START_WORD, hide = true)]
     Start(run::StartArguments) => run::start_component;

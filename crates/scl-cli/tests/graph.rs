@@ -214,9 +214,9 @@ fn a_picture_shows_gates_and_groups() {
         <g class="frame"><rect x="154" y="16" width="214" height="190" rx="8"/><text x="163" y="34">arm</text></g>
         <g class="frame"><rect x="202" y="44" width="152" height="92" rx="8"/><text x="211" y="62">hand</text></g>
         <g class="edge"><title>pilot.grip → arm.hand.finger.grip: bytes</title><path class="reach" d="M106 108H154H202H250"/><path d="M106 108H154H202H250" marker-end="url(#arrow)"/></g>
-        <g class="block"><title>arm.hand.finger</title><rect x="250" y="72" width="90" height="50" rx="5"/><text class="name" x="295" y="89.5">finger</text><path class="line" d="M250 98h90"/><text class="gate" x="259" y="112">grip</text><text class="kind right" x="331" y="112">sub</text></g>
-        <g class="block"><title>pilot</title><rect x="16" y="72" width="90" height="50" rx="5"/><text class="name" x="61" y="89.5">pilot</text><path class="line" d="M16 98h90"/><text class="gate right" x="97" y="112">grip</text><text class="kind" x="25" y="112">pub</text></g>
-        <g class="block"><title>arm.planner</title><rect x="154" y="158" width="90" height="34" rx="5"/><text class="name" x="199" y="179.5">planner</text></g>
+        <g class="block"><title>arm.hand.finger</title><rect class="border" x="250" y="72" width="90" height="50" rx="5"/><text class="name" x="295" y="89.5">finger</text><path class="line" d="M250 98h90"/><text class="gate" x="259" y="112">grip</text><text class="kind right" x="331" y="112">sub</text></g>
+        <g class="block"><title>pilot</title><rect class="border" x="16" y="72" width="90" height="50" rx="5"/><text class="name" x="61" y="89.5">pilot</text><path class="line" d="M16 98h90"/><text class="gate right" x="97" y="112">grip</text><text class="kind" x="25" y="112">pub</text></g>
+        <g class="block"><title>arm.planner</title><rect class="border" x="154" y="158" width="90" height="34" rx="5"/><text class="name" x="199" y="179.5">planner</text></g>
         </svg>
     "#]].assert_eq(&picture);
 }

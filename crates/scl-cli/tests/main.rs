@@ -116,4 +116,6 @@ mod systemd;
 mod ticker;
 #[cfg(feature = "observe")]
 mod top;
+#[cfg(feature = "watch")]
+mod watch;
 mod workspace;

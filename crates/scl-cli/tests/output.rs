@@ -27,6 +27,7 @@ const COMMANDS: &[(&[&str], i32)] = &[
     (&["generate", "--for", "python", "-o", "generated"], 0),
     (&["get"], 0),
     (&["graph"], 0),
+    (&["graph", "--format", "svg"], 0),
     (&["hz", "sensor.measurements", "--once"], 0),
     (&["hz", "sensor.measurements", "--for", "2s", "--format", "json"], 0),
     (&["info", "sensor"], 0),
@@ -39,6 +40,10 @@ const COMMANDS: &[(&[&str], i32)] = &[
     (&["compare", "flight.mcap", "flight.mcap"], 0),
     (&["schema"], 0),
     (&["top", "--once", "--period", "100ms"], 0),
+    #[cfg(feature = "watch")]
+    (&["watch"], 0),
+    #[cfg(feature = "watch")]
+    (&["watch", "--svg"], 0),
     (&["--help"], 0),
     (&["echo", "--help"], 0),
     (&["--version"], 0),

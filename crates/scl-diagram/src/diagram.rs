@@ -1,7 +1,9 @@
 //! What is drawn: blocks with rows, frames around blocks, and edges between rows or whole blocks.
 
+use crate::live::{Figures, Flow, State};
+
 /// A picture without positions.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Diagram {
     /// The name of the system.
     pub title: String,
@@ -16,7 +18,7 @@ pub struct Diagram {
 }
 
 /// A rectangle around a group of components.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
     /// The text in its upper left corner.
     pub title: String,
@@ -25,7 +27,7 @@ pub struct Frame {
 }
 
 /// A component.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Block {
     /// Its full name: `arm.planner`.
     pub name: String,
@@ -35,10 +37,12 @@ pub struct Block {
     pub rows: Vec<Row>,
     /// The frame that it is in.
     pub frame: Option<usize>,
+    /// What it is doing; `None` in a picture of a topology.
+    pub state: Option<State>,
 }
 
 /// A gate.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// Its name.
     pub name: String,
@@ -46,6 +50,8 @@ pub struct Row {
     pub kind: String,
     /// What it carries, without the names of packages; empty for bytes.
     pub types: String,
+    /// What it has done, in place of kind and types; `None` in a picture of a topology.
+    pub figures: Option<Figures>,
 }
 
 /// One end of an edge: a row of a block, or the whole block.
@@ -58,7 +64,7 @@ pub struct End {
 }
 
 /// What two ends exchange.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Edge {
     /// The end that sends or asks.
     pub from: End,
@@ -70,6 +76,10 @@ pub struct Edge {
     pub asks: bool,
     /// What a viewer reads who points at the edge, one connection per line.
     pub details: Vec<String>,
+    /// Its connections: the gate that sends and the gate that receives, each as `component.gate`.
+    pub connections: Vec<(String, String)>,
+    /// What flows through it; `None` in a picture of a topology.
+    pub flow: Option<Flow>,
 }
 
 impl Diagram {

@@ -20,7 +20,7 @@ use metrics::{ABOVE_FRAME, LOOP, MARGIN, ends_of};
 use nesting::{Nesting, Side};
 use std::collections::HashMap;
 
-pub(crate) use metrics::{FONT, HEAD, ROW};
+pub(crate) use metrics::{CURVE, FONT, HEAD, RATE, ROW};
 
 /// A position in pixels; y grows downwards.
 #[derive(Debug, Clone, Copy, PartialEq)]

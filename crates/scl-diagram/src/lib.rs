@@ -3,11 +3,13 @@
 
 mod diagram;
 mod layout;
+mod live;
 mod svg;
 mod system;
 mod text;
 
 pub use diagram::{Block, Diagram, Edge, End, Frame, Row};
 pub use layout::{Layout, Placed, Point, Rectangle};
+pub use live::{Figures, Flow, State};
 pub use svg::draw;
 pub use system::{Detail, Options, diagram_of};

@@ -1,12 +1,14 @@
 //! The drawing as SVG: one file without links to others, light or dark as the viewer's desktop is.
 
-use crate::diagram::{Block, Diagram, Edge, End};
-use crate::layout::{FONT, HEAD, Layout, Placed, Point, ROW};
+use crate::diagram::{Block, Diagram, Edge, End, Row};
+use crate::layout::{CURVE, FONT, HEAD, Layout, Placed, Point, RATE, ROW, Rectangle};
 use crate::text;
 use std::collections::HashMap;
 use std::fmt::{self, Write as _};
 
 const STYLE: &str = include_str!("svg/style.css");
+/// What is added for a running system.
+const LIVE_STYLE: &str = include_str!("svg/live.css");
 /// The heads of arrows, for the ends of edges.
 const ARROWS: &str = r#"<defs><marker id="arrow" viewBox="0 0 8 8" refX="8" refY="4" markerWidth="8" markerHeight="8" markerUnits="userSpaceOnUse" orient="auto-start-reverse"><path class="arrow" d="M0 0.5L8 4L0 7.5Z"/></marker></defs>
 "#;
@@ -34,7 +36,8 @@ fn write_all(out: &mut String, diagram: &Diagram, layout: &Layout) -> fmt::Resul
         "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"scl\" role=\"img\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {width} {height}\">"
     )?;
-    writeln!(out, "<title>{}</title>\n<style>\n{STYLE}</style>", escape(&diagram.title))?;
+    let live = if diagram.blocks.iter().any(|block| block.state.is_some()) { LIVE_STYLE } else { "" };
+    writeln!(out, "<title>{}</title>\n<style>\n{STYLE}{live}</style>", escape(&diagram.title))?;
     out.push_str(ARROWS);
     writeln!(out, "<rect class=\"ground\" width=\"{width}\" height=\"{height}\"/>")?;
     for (frame, area) in diagram.frames.iter().zip(&layout.frames) {
@@ -51,8 +54,8 @@ fn write_all(out: &mut String, diagram: &Diagram, layout: &Layout) -> fmt::Resul
             area.y + 18.0
         )?;
     }
-    for (edge, points) in diagram.edges.iter().zip(&layout.edges) {
-        write_edge(out, edge, points)?;
+    for (index, (edge, points)) in diagram.edges.iter().zip(&layout.edges).enumerate() {
+        write_edge(out, index, edge, points)?;
     }
     let facing = Facing::of(diagram, layout);
     for (index, (block, placed)) in diagram.blocks.iter().zip(&layout.blocks).enumerate() {
@@ -66,7 +69,7 @@ fn write_all(out: &mut String, diagram: &Diagram, layout: &Layout) -> fmt::Resul
     Ok(())
 }
 
-fn write_edge(out: &mut String, edge: &Edge, points: &[Point]) -> fmt::Result {
+fn write_edge(out: &mut String, index: usize, edge: &Edge, points: &[Point]) -> fmt::Result {
     let [first, rest @ ..] = points else { return Ok(()) };
     let mut path = format!("M{} {}", first.x, first.y);
     let mut at = first;
@@ -80,6 +83,10 @@ fn write_edge(out: &mut String, edge: &Edge, points: &[Point]) -> fmt::Result {
         at = point;
     }
     let class = if edge.asks { "edge asks" } else { "edge" };
+    let live = edge.flow.map_or_else(String::new, |flow| {
+        let width = flow.width();
+        format!(" flow-{}\" data-part=\"edge {index}\" style=\"--width:{width:.1}", flow.word())
+    });
     let start = if edge.both_ways { " marker-start=\"url(#arrow)\"" } else { "" };
     let mut details = edge.details.iter().take(MOST_DETAILS).map(|it| escape(it)).collect::<Vec<_>>().join("\n");
     if let Some(more) = edge.details.len().checked_sub(MOST_DETAILS + 1) {
@@ -87,7 +94,7 @@ fn write_edge(out: &mut String, edge: &Edge, points: &[Point]) -> fmt::Result {
     }
     writeln!(
         out,
-        "<g class=\"{class}\"><title>{details}</title><path class=\"reach\" d=\"{path}\"/>\
+        "<g class=\"{class}{live}\"><title>{details}</title><path class=\"reach\" d=\"{path}\"/>\
          <path d=\"{path}\"{start} marker-end=\"url(#arrow)\"/></g>"
     )
 }
@@ -116,27 +123,69 @@ impl Facing {
 fn write_block(out: &mut String, index: usize, block: &Block, placed: &Placed, facing: &Facing) -> fmt::Result {
     let area = placed.area;
     let (x, y, width, height) = (area.x, area.y, area.width, area.height);
-    write!(out, "<g class=\"block\"><title>{}</title>", escape(&block.name))?;
-    write!(out, "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" rx=\"5\"/>")?;
+    let live = block.state.map_or_else(String::new, |state| {
+        let name = escape(&block.name);
+        format!(" state-{}\" data-part=\"block {index}\" data-component=\"{name}\" tabindex=\"0", state.word())
+    });
+    write!(out, "<g class=\"block{live}\"><title>{}</title>", escape(&block.name))?;
+    write!(out, "<rect class=\"border\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" rx=\"5\"/>")?;
     let head = if block.rows.is_empty() { height } else { HEAD };
-    let middle = (x + width / 2.0, y + head / 2.0 + 4.5);
-    write!(out, "<text class=\"name\" x=\"{}\" y=\"{}\">{}</text>", middle.0, middle.1, escape(&block.title))?;
+    let (middle, base) = (x + width / 2.0, y + head / 2.0 + 4.5);
+    write!(out, "<text class=\"name\" x=\"{middle}\" y=\"{base}\">{}</text>", escape(&block.title))?;
+    if let Some(state) = block.state {
+        let right = x + width - BESIDE_TEXT;
+        write!(out, "<text class=\"badge right\" x=\"{right}\" y=\"{base}\">{}</text>", state.badge())?;
+    }
     if !block.rows.is_empty() {
         write!(out, "<path class=\"line\" d=\"M{x} {}h{width}\"/>", y + HEAD)?;
     }
     for (place, &row) in placed.rows.iter().enumerate().take(block.rows.len()) {
-        let y = y + HEAD + ROW * place as f64 + ROW / 2.0 + 4.0;
-        let (left, right) = (x + BESIDE_TEXT, x + width - BESIDE_TEXT);
         let is_right = facing.is_right(End { block: index, row: Some(row) });
-        let row = &block.rows[row];
-        let (name_at, kind_at) = if is_right { (right, left) } else { (left, right) };
-        let (name_class, kind_class) = if is_right { ("gate right", "kind") } else { ("gate", "kind right") };
-        let kind = if row.types.is_empty() { row.kind.clone() } else { format!("{} {}", row.kind, row.types) };
-        write!(out, "<text class=\"{name_class}\" x=\"{name_at}\" y=\"{y}\">{}</text>", escape(&row.name))?;
-        write!(out, "<text class=\"{kind_class}\" x=\"{kind_at}\" y=\"{y}\">{}</text>", escape(&kind))?;
+        let area = Rectangle { x, y: y + HEAD + ROW * place as f64, width, height: ROW };
+        write_row(out, &format!("{index} {row}"), &block.name, &block.rows[row], area, is_right)?;
     }
     out.push_str("</g>\n");
     Ok(())
+}
+
+/// Writes a row. Its name is on the side that faces its peers.
+fn write_row(out: &mut String, part: &str, block: &str, row: &Row, area: Rectangle, is_right: bool) -> fmt::Result {
+    let (left, right, y) = (area.x + BESIDE_TEXT, area.x + area.width - BESIDE_TEXT, area.y + ROW / 2.0 + 4.0);
+    let (name_at, other_at) = if is_right { (right, left) } else { (left, right) };
+    let (name_class, other_class) = if is_right { ("gate right", "") } else { ("gate", " right") };
+    let name = escape(&row.name);
+    let name_text = format!("<text class=\"{name_class}\" x=\"{name_at}\" y=\"{y}\">{name}</text>");
+    let kind = if row.types.is_empty() { row.kind.clone() } else { format!("{} {}", row.kind, row.types) };
+    let kind = escape(&kind);
+    let Some(figures) = &row.figures else {
+        return write!(out, "{name_text}<text class=\"kind{other_class}\" x=\"{other_at}\" y=\"{y}\">{kind}</text>");
+    };
+    let gate = format!("{}.{name}", escape(block));
+    let bad = if figures.is_bad { " bad" } else { "" };
+    write!(out, "<g class=\"row{bad}\" data-part=\"row {part}\" data-gate=\"{gate}\" tabindex=\"0\">")?;
+    write!(out, "<title>{gate}: {kind}</title>")?;
+    let Rectangle { x, y: top, width, height } = area;
+    write!(out, "<rect class=\"reach\" x=\"{x}\" y=\"{top}\" width=\"{width}\" height=\"{height}\"/>")?;
+    // How full the queue is, as a line at the lower edge.
+    let (most, bottom) = (width - 2.0, top + height - 3.0);
+    let filled = most * figures.filled;
+    write!(
+        out,
+        "<rect class=\"filled\" data-most=\"{most}\" x=\"{}\" y=\"{bottom}\" width=\"{filled:.1}\" height=\"2\"/>",
+        x + 1.0
+    )?;
+    let curve = if is_right { left } else { right - RATE - CURVE };
+    let rate = if is_right { left + CURVE + RATE } else { right };
+    let (rate_text, trouble) = (escape(&figures.rate), escape(&figures.trouble));
+    write!(
+        out,
+        "{name_text}<path class=\"spark\" data-area='{{\"x\":{curve},\"y\":{},\"width\":{},\"height\":{}}}'/>\
+         <text class=\"rate right\" x=\"{rate}\" y=\"{y}\">{rate_text}</text>\
+         <text class=\"trouble\" x=\"{curve}\" y=\"{y}\">{trouble}</text></g>",
+        top + 4.0,
+        CURVE - 4.0,
+        ROW - 9.0
+    )
 }
 
 /// Escapes a text for SVG. Control characters, which XML does not allow, become spaces.

@@ -1,6 +1,7 @@
 //! The diagram of a system: its components as blocks, its gates as rows, its groups as frames.
 
 use crate::diagram::{Block, Diagram, Edge, End, Frame, Row};
+use crate::live::{Figures, Flow, State};
 use crate::text::shorten;
 use scl_plan::{GateKind, GatePlan, Payload, SystemPlan};
 use std::collections::{HashMap, HashSet};
@@ -28,6 +29,8 @@ pub struct Options {
     pub detail: Option<Detail>,
     /// Whether it shows gates that are connected with every other component, such as the log's.
     pub everyone: bool,
+    /// Whether there is room for what a running system does.
+    pub live: bool,
 }
 
 /// The diagram of a system.
@@ -55,12 +58,17 @@ pub fn diagram_of(system: &SystemPlan, options: Options) -> Diagram {
                     name: gate.name.clone(),
                     kind: gate.kind.word().to_owned(),
                     types: shorten(&short_types(&gate.payload), LONGEST_TYPES),
+                    figures: options.live.then(Figures::default),
                 });
             }
         }
-        diagram.blocks.push(Block { name: plan.component.clone(), title: title.to_owned(), rows, frame });
+        let state = options.live.then_some(State::Stopped);
+        diagram.blocks.push(Block { name: plan.component.clone(), title: title.to_owned(), rows, frame, state });
     }
     diagram.edges = edges(system, &ends);
+    if options.live {
+        diagram.edges.iter_mut().for_each(|edge| edge.flow = Some(Flow::NotConnected));
+    }
     if detail == Detail::Components {
         diagram.edges = merged(diagram.edges);
     }
@@ -117,7 +125,8 @@ fn edges(system: &SystemPlan, ends: &HashMap<(&str, &str), End>) -> Vec<Edge> {
                 let arrow = if asks { '⇄' } else { '→' };
                 let (name, peer_gate, payload) = (&gate.name, &connection.peer_gate, &gate.payload);
                 let detail = format!("{component}.{name} {arrow} {peer}.{peer_gate}: {payload}");
-                edges.push(Edge { from, to, both_ways: asks, asks, details: vec![detail] });
+                let connections = vec![(format!("{component}.{name}"), format!("{peer}.{peer_gate}"))];
+                edges.push(Edge { from, to, both_ways: asks, asks, details: vec![detail], connections, flow: None });
             }
         }
     }
@@ -135,6 +144,7 @@ fn merged(edges: Vec<Edge>) -> Vec<Edge> {
                 into.both_ways |= edge.both_ways || into.from != edge.from;
                 into.asks &= edge.asks;
                 into.details.extend(edge.details);
+                into.connections.extend(edge.connections);
             }
             None => {
                 known.insert(ends, merged.len());

@@ -16,9 +16,10 @@ fn diagrams() -> impl Strategy<Value = Diagram> {
         let frames: Vec<Frame> = frames.collect();
         let blocks = blocks.iter().enumerate().map(|(index, &(frame, rows))| {
             let name = format!("block_{index}");
-            let rows = (0..rows).map(|row| Row { name: format!("gate_{row}"), kind: "pub".into(), types: "T".into() });
+            let row = |row| Row { name: format!("gate_{row}"), kind: "pub".into(), types: "T".into(), figures: None };
+            let rows = (0..rows).map(row);
             let frame = (frame as usize % (frames.len() + 1)).checked_sub(1);
-            Block { title: name.clone(), name, rows: rows.collect(), frame }
+            Block { title: name.clone(), name, rows: rows.collect(), frame, state: None }
         });
         let blocks: Vec<Block> = blocks.collect();
         let end = |block: u32, row: u32| {
@@ -28,7 +29,8 @@ fn diagrams() -> impl Strategy<Value = Diagram> {
         };
         let edges = edges.iter().map(|&(from, from_row, to, to_row)| {
             let (from, to) = (end(from, from_row), end(to, to_row));
-            Edge { from, to, both_ways: false, asks: false, details: Vec::new() }
+            let (details, connections) = (Vec::new(), Vec::new());
+            Edge { from, to, both_ways: false, asks: false, details, connections, flow: None }
         });
         let edges = edges.collect();
         Diagram { title: "random".into(), frames, blocks, edges, notes: Vec::new() }

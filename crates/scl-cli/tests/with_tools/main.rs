@@ -4,6 +4,8 @@
 
 #[cfg(feature = "bench")]
 mod bench;
+#[cfg(feature = "watch")]
+mod browser;
 #[cfg(all(feature = "run", feature = "generate", feature = "record"))]
 mod drive;
 mod editor;
@@ -12,6 +14,7 @@ mod languages;
 mod lsp;
 #[cfg(feature = "record")]
 mod mcap;
+mod npm;
 #[cfg(feature = "record")]
 #[allow(dead_code, reason = "the other tests use the rest")]
 #[path = "../rover/mod.rs"]
@@ -30,3 +33,5 @@ mod simulate;
 #[allow(dead_code, reason = "the other tests use the rest")]
 #[path = "../system/mod.rs"]
 mod system;
+#[cfg(feature = "watch")]
+mod watch;

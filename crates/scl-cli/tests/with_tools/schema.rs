@@ -5,11 +5,9 @@ mod agreement;
 use crate::lsp::Server;
 use crate::system::System;
 use scl_needs::needs;
-use scl_tests::lock_file;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::OnceLock;
 
 const ROVER: &str = "\
 # yaml-language-server: $schema=topology.schema.json
@@ -138,31 +136,8 @@ exports: {command: planner.command}
 
 /// The server's program, installed below the target folder once.
 fn language_server() -> PathBuf {
-    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
-    PROGRAM.get_or_init(install_language_server).clone()
-}
-
-fn install_language_server() -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("yaml-language-server-1.25.0");
-    // Tests that install it at the same time would leave half of each.
-    let _lock = lock_file(&folder.with_extension("lock"));
-    let program = folder.join("node_modules/yaml-language-server/bin/yaml-language-server");
-    if !program.is_file() {
-        let installed = folder.with_extension("new");
-        // What an installation that was cut off has left.
-        let _nothing_there = std::fs::remove_dir_all(&installed);
-        let mut install = Command::new("npm");
-        install.args(["install", "--no-audit", "--no-fund", "yaml-language-server@1.25.0", "--prefix"]).arg(&installed);
-        let output = install.output().unwrap();
-        let error = String::from_utf8_lossy(&output.stderr);
-        assert!(
-            output.status.success(),
-            "`npm` cannot install yaml-language-server; is its registry reachable?\n{error}"
-        );
-        // In one step, so that an installation that was cut off is not taken for a whole one.
-        std::fs::rename(&installed, &folder).unwrap();
-    }
-    program
+    let modules = crate::npm::installed("yaml-language-server", "1.25.0");
+    modules.join("yaml-language-server/bin/yaml-language-server")
 }
 
 /// The server on the files of a system that has its schema beside the topology.

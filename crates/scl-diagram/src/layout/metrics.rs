@@ -33,16 +33,26 @@ pub(crate) const NARROWEST_GAP: f64 = 48.0;
 pub(crate) const WIDEST_GAP: f64 = 150.0;
 /// How far an edge from a block to itself is from the block.
 pub(crate) const LOOP: f64 = 14.0;
+/// The part of a row with the figures of a gate: a curve, and to its right the rate.
+pub(crate) const CURVE: f64 = 40.0;
+pub(crate) const RATE: f64 = 40.0;
+const FIGURES: f64 = CURVE + RATE;
+/// The room for the word that says what a component is doing.
+const BADGE: f64 = 52.0;
 /// The size of names, and of all other texts of rows.
 pub(crate) const FONT: f64 = 12.0;
 const SMALL_FONT: f64 = 10.0;
 
 /// The width of a block.
 pub(crate) fn width_of(block: &Block) -> f64 {
-    let head = width(&block.title) * FONT * 1.08 + 2.0 * BESIDE_TEXT; // bold
+    let badges = if block.state.is_some() { 2.0 * BADGE } else { 0.0 }; // the title stays in the middle
+    let head = width(&block.title) * FONT * 1.08 + badges + 2.0 * BESIDE_TEXT; // bold
     let rows = block.rows.iter().map(|row| {
-        let small = width(&row.kind) + width(" ") + width(&row.types);
-        width(&row.name) * FONT + small * SMALL_FONT + 3.0 * BESIDE_TEXT
+        let small = match row.figures {
+            Some(_) => FIGURES,
+            None => (width(&row.kind) + width(" ") + width(&row.types)) * SMALL_FONT,
+        };
+        width(&row.name) * FONT + small + 3.0 * BESIDE_TEXT
     });
     rows.fold(head.max(NARROWEST), f64::max).round()
 }

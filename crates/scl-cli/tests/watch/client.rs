@@ -1,0 +1,112 @@
+//! A browser of few words: HTTP/1.1 and server-sent events over a socket.
+
+use crate::rover::Rover;
+use crate::system::{ChildGuard, SpawnGuarded};
+use serde_json::Value;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::process::Stdio;
+
+/// A running `scl watch`.
+pub(super) struct Watch {
+    _process: ChildGuard,
+    pub(super) address: String,
+    pub(super) token: String,
+}
+
+pub(super) struct Response {
+    pub(super) status: u16,
+    pub(super) headers: Vec<String>,
+    reader: BufReader<TcpStream>,
+}
+
+/// The events of a page.
+pub(super) struct Events {
+    response: Response,
+    received: Vec<u8>,
+}
+
+impl Watch {
+    /// Starts it, and reads the address that it prints.
+    pub(super) fn start(rover: &Rover) -> Self {
+        let mut process = rover.scl(&["watch"]).stdout(Stdio::piped()).spawn_guarded();
+        let mut line = String::new();
+        BufReader::new(process.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        let (address, token) = line.trim().strip_prefix("http://").unwrap().split_once("/?token=").unwrap();
+        Self { address: address.to_owned(), token: token.to_owned(), _process: process }
+    }
+
+    /// Gets a path, with the token.
+    pub(super) fn get(&self, path: &str) -> Response {
+        let separator = if path.contains('?') { '&' } else { '?' };
+        self.request("GET", &format!("{path}{separator}token={}", self.token), &self.address)
+    }
+
+    /// Sends a request with this header `Host`.
+    pub(super) fn request(&self, method: &str, target: &str, host: &str) -> Response {
+        let mut stream = TcpStream::connect(&self.address).unwrap();
+        let request = format!("{method} {target} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n");
+        stream.write_all(request.as_bytes()).unwrap();
+        let mut reader = BufReader::new(stream);
+        let mut line = || {
+            let mut line = String::new();
+            reader.read_line(&mut line).unwrap();
+            line.trim_end().to_owned()
+        };
+        let status = line().split(' ').nth(1).unwrap().parse().unwrap();
+        let headers = std::iter::from_fn(|| Some(line()).filter(|line| !line.is_empty()));
+        let headers = headers.map(|line| line.to_lowercase()).collect();
+        Response { status, headers, reader }
+    }
+
+    /// Opens the events of a page.
+    pub(super) fn events(&self, query: &str) -> Events {
+        let response = self.get(&format!("/events?{query}"));
+        assert_eq!(response.status, 200);
+        Events { response, received: Vec::new() }
+    }
+}
+
+impl Response {
+    /// The whole body, which has a length.
+    pub(super) fn text(mut self) -> String {
+        let mut text = String::new();
+        self.reader.read_to_string(&mut text).unwrap();
+        text
+    }
+
+    fn line(&mut self) -> String {
+        let mut line = String::new();
+        self.reader.read_line(&mut line).unwrap();
+        line.trim_end().to_owned()
+    }
+
+    /// The next part of a body without a length.
+    fn chunk(&mut self) -> Vec<u8> {
+        let length = usize::from_str_radix(&self.line(), 16).unwrap();
+        let mut chunk = vec![0; length];
+        self.reader.read_exact(&mut chunk).unwrap();
+        assert_eq!(self.line(), "");
+        chunk
+    }
+}
+
+impl Events {
+    /// The next event with this name.
+    pub(super) fn next(&mut self, wanted: &str) -> Value {
+        loop {
+            while let Some(end) = self.received.windows(2).position(|pair| pair == b"\n\n") {
+                let event: Vec<u8> = self.received.drain(..end + 2).collect();
+                let event = String::from_utf8(event).unwrap();
+                let Some(event) = event.strip_prefix("event: ") else { continue };
+                let (name, data) = event.split_once("\ndata: ").unwrap();
+                if name == wanted {
+                    return serde_json::from_str(data).unwrap();
+                }
+            }
+            let chunk = self.response.chunk();
+            assert!(!chunk.is_empty(), "the stream has ended");
+            self.received.extend(chunk);
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! The page of `scl watch` in a real browser.
+
+use crate::browser::Browser;
+use crate::rover::Rover;
+use crate::system::{ChildGuard, SpawnGuarded};
+use scl_needs::needs;
+use serde_json::Value;
+use std::io::{BufRead, BufReader};
+use std::process::Stdio;
+
+/// Starts `scl watch`, and returns its process and the address of its page.
+fn watch(rover: &Rover) -> (ChildGuard, String) {
+    let mut process = rover.scl(&["watch"]).stdout(Stdio::piped()).spawn_guarded();
+    let mut line = String::new();
+    BufReader::new(process.stdout.take().unwrap()).read_line(&mut line).unwrap();
+    (process, line.trim().to_owned())
+}
+
+fn open(rover: &Rover) -> (ChildGuard, Browser) {
+    let (process, address) = watch(rover);
+    let mut browser = Browser::start();
+    browser.run(&format!("await page.goto({address:?})"));
+    browser.run(r#"await page.waitForSelector('.state-running[data-component="sensor"]')"#);
+    (process, browser)
+}
+
+/// The colour of a component's border.
+fn border(browser: &mut Browser, component: &str) -> Value {
+    browser.run(&format!(
+        r#"return await page.$eval('[data-component="{component}"] > .border', (it) => getComputedStyle(it).stroke)"#
+    ))
+}
+
+#[needs("node", "npm", "chromium")]
+#[test]
+fn a_killed_component_becomes_red_and_green_again() {
+    let mut rover = Rover::start();
+    let (_watch, mut browser) = open(&rover);
+    assert_eq!(border(&mut browser, "sensor"), "rgb(26, 127, 55)");
+    rover.kill("sensor");
+    browser.run(r#"await page.waitForSelector('.state-dead[data-component="sensor"]')"#);
+    assert_eq!(border(&mut browser, "sensor"), "rgb(196, 51, 29)");
+    let problems = browser.run(r##"return await page.textContent("#problems")"##);
+    assert!(problems.as_str().unwrap().contains("sensor was killed or has crashed"), "{problems}");
+    rover.play(&["sensor"], |_| {});
+    browser.run(r#"await page.waitForSelector('.state-running[data-component="sensor"]')"#);
+    assert_eq!(browser.run("return errors"), serde_json::json!([]));
+}
+
+#[needs("node", "npm", "chromium")]
+#[test]
+fn a_click_at_a_gate_shows_its_messages_and_plots_a_number() {
+    let rover = Rover::start();
+    let (_watch, mut browser) = open(&rover);
+    browser.run(r#"await page.click('[data-gate="sensor.measurements"]')"#);
+    browser
+        .run(r##"await page.waitForFunction(() => document.querySelector("#message").textContent.includes("speed"))"##);
+    browser.run(r##"await page.selectOption("#field", "count")"##);
+    browser.run(r##"await page.waitForFunction(() => document.querySelector("#plot path").getAttribute("d"))"##);
+    browser.run(r#"await page.keyboard.press("Escape")"#);
+    browser.run(r##"await page.waitForSelector("#details", { state: "hidden" })"##);
+    // With the keyboard alone.
+    browser.run(r#"await page.focus('[data-component="controller"]'); await page.keyboard.press("Enter")"#);
+    browser.run(r##"await page.waitForFunction(() => document.querySelector("#facts").textContent.includes("MiB"))"##);
+    assert_eq!(browser.run("return errors"), serde_json::json!([]));
+}
+
+#[needs("node", "npm", "chromium")]
+#[test]
+fn a_hostile_message_is_shown_as_text() {
+    let hostile = r#"</script><img src=x onerror="window.harmed = true"><script>window.harmed = true</script>"#;
+    let mut rover = Rover::stopped();
+    rover.play_alone("logger");
+    let message = serde_json::json!({ "text": hostile }).to_string();
+    let mut sending = rover.scl(&["pub", "controller.log", &message, "--rate", "20"]);
+    let _sending = sending.stdout(Stdio::null()).spawn_guarded();
+    let (_watch, address) = watch(&rover);
+    let mut browser = Browser::start();
+    browser.run(&format!("await page.goto({address:?})"));
+    browser.run(r#"await page.click('[data-gate="logger.events"]')"#);
+    browser.run(
+        r##"await page.waitForFunction(() => document.querySelector("#message").textContent.includes("onerror"))"##,
+    );
+    assert_eq!(browser.run("return await page.evaluate(() => window.harmed === undefined)"), true);
+    assert_eq!(browser.run("return await page.evaluate(() => document.images.length)"), 0);
+    assert_eq!(browser.run("return errors"), serde_json::json!([]));
+}

@@ -1,0 +1,36 @@
+//! The live picture of a running system, for `scl watch`: a page in a browser with the components, what flows between
+//! their gates, and what is wrong now. Nothing is read while no page is open, and components notice nothing.
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+mod access;
+mod board;
+mod details;
+mod happenings;
+mod http;
+mod live;
+mod plans;
+mod problems;
+mod server;
+mod site;
+mod stream;
+
+pub use server::Server;
+
+use scl_observe::System;
+use scl_plan::SystemPlan;
+use site::{Look, Site, VARIANTS};
+use std::thread::sleep;
+use std::time::Duration;
+
+/// The time over which the rates of a still picture are measured: components write their figures twice in it.
+const MEASURED: Duration = Duration::from_secs(1);
+
+/// Draws a system as it is now, as SVG. Blocks the thread for a second.
+#[must_use]
+pub fn picture(system: &System, file: Option<SystemPlan>) -> String {
+    let site = Site::new(system.clone(), file);
+    let mut look = Look::new(&site);
+    look.look();
+    sleep(MEASURED);
+    look.picture(VARIANTS[0])
+}
