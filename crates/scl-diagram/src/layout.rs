@@ -66,8 +66,6 @@ pub struct Layout {
     pub frames: Vec<Rectangle>,
     /// The points that each edge leads through, from where it starts. It is horizontal in each of them.
     pub edges: Vec<Vec<Point>>,
-    /// How often edges cross between two layers; edges that share their end do not cross.
-    pub crossings: usize,
 }
 
 impl Layout {
@@ -83,7 +81,6 @@ impl Layout {
                 blocks: vec![Placed::default(); diagram.blocks.len()],
                 frames: vec![Rectangle::default(); diagram.frames.len()],
                 edges: Vec::new(),
-                crossings: 0,
             },
             between: vec![None; diagram.edges.len()],
             inside: HashMap::new(),
@@ -108,7 +105,6 @@ impl Drawing {
     fn add(&mut self, level: &Level, frame: Option<usize>, origin: Point) {
         let moved =
             |points: &[Point]| points.iter().map(|it| Point { x: origin.x + it.x, y: origin.y + it.y }).collect();
-        self.layout.crossings += level.crossings;
         for (&edge, between) in &level.edges {
             self.between[edge] = Some(Between { points: moved(&between.points), ..*between });
         }
@@ -127,6 +123,7 @@ impl Drawing {
             }
         }
     }
+
     /// The points of an edge: out of the frames around its left end, on to the right one, and into the frames around
     /// that.
     fn path(&self, diagram: &Diagram, index: usize, edge: &Edge) -> Vec<Point> {

@@ -2,15 +2,15 @@
 
 use crate::diagram::{Block, Diagram, Edge, End, Frame, Row};
 use crate::live::{Figures, Flow, State};
-use crate::text::shorten;
 use scl_plan::{GateKind, GatePlan, Payload, SystemPlan};
+use scl_terminal::shorten;
 use std::collections::{HashMap, HashSet};
 
 /// With more components than this, a diagram shows no gates unless they are asked for.
 const MOST_WITH_GATES: usize = 12;
 /// The fewest components of which one can have a gate for all the others.
 const FEWEST_FOR_EVERYONE: usize = 4;
-/// Longest text of a row's types, in characters.
+/// Longest text of a row's types, in columns.
 const LONGEST_TYPES: usize = 20;
 
 /// What the blocks show.

@@ -19,11 +19,3 @@ fn character_width(character: char) -> f64 {
         other => 0.65 * other.width().unwrap_or(0) as f64,
     }
 }
-
-/// Shortens a text to at most this many characters; `…` stands for the rest.
-pub(crate) fn shorten(text: &str, most: usize) -> String {
-    if text.chars().count() <= most {
-        return text.to_owned();
-    }
-    text.chars().take(most.saturating_sub(1)).chain(['…']).collect()
-}

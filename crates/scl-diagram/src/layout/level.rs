@@ -25,7 +25,8 @@ pub(crate) struct Level {
     pub(crate) edges: BTreeMap<usize, Between>,
     /// The points, from left to right, of what leads from an end to the border, or from the border to an end.
     pub(crate) leaving: BTreeMap<Inside, Vec<Point>>,
-    pub(crate) crossings: usize,
+    /// Where edges cross the border: the ends that they come from, from top to bottom.
+    ports: Vec<(Inside, f64)>,
 }
 
 /// The part of an edge between two members of a level.
@@ -101,10 +102,10 @@ impl Level {
             links.push(if inside.side == Side::Left { (border, at) } else { (at, border) });
         }
         let mut layered = Layered::of(items, &links);
-        let crossings = order::order(&mut layered);
+        order::order(&mut layered);
         let places = Places::of(&layered);
 
-        let mut level = Self { crossings, ..Self::default() };
+        let mut level = Self::default();
         for (edge, &(left, right)) in edges.iter().zip(&links) {
             let points = points_of(&layered, &places, left, right);
             level.edges.insert(edge.index, Between { frame, forwards: edge.forwards, points });
@@ -125,6 +126,7 @@ impl Level {
             (parts[part], item_of(nesting, parts[part], &content, 0), content)
         }));
         level.surround(frame.is_some(), leaving);
+        level.ports = level.ports();
         level
     }
 
@@ -174,7 +176,6 @@ impl Level {
         }
     }
 
-    /// Where edges cross the border of the frame: the ends that they come from, from top to bottom.
     fn ports(&self) -> Vec<(Inside, f64)> {
         let at_border = |(inside, points): (&Inside, &Vec<Point>)| {
             let point = if inside.side == Side::Left { points.first() } else { points.last() };
@@ -187,7 +188,7 @@ impl Level {
 
     /// The number of ports above one.
     fn port_of(&self, inside: Inside) -> usize {
-        self.ports().iter().take_while(|(above, _)| *above != inside).count()
+        self.ports.iter().take_while(|(above, _)| *above != inside).count()
     }
 }
 
@@ -254,7 +255,7 @@ fn item_of(nesting: &Nesting<'_>, part: Part, content: &Level, layer: usize) -> 
             Item { layer, width: width_of(block), height: height_of(block), offsets, order, is: Is::Block }
         }
         Part::Frame(_) => {
-            let offsets: Vec<f64> = content.ports().iter().map(|(_, y)| ABOVE_FRAME + y).collect();
+            let offsets: Vec<f64> = content.ports.iter().map(|(_, y)| ABOVE_FRAME + y).collect();
             let order = (0..offsets.len()).collect();
             let (width, height) = (content.width, ABOVE_FRAME + content.height + BELOW_FRAME);
             Item { layer, width, height, offsets, order, is: Is::Frame }

@@ -11,8 +11,8 @@ const PATIENCE: usize = 4;
 /// Maximum number of rounds of exchanges.
 const EXCHANGES: usize = 8;
 
-/// Orders the items of all layers and the rows of all blocks, and returns the number of crossings that are left.
-pub(crate) fn order(layered: &mut Layered) -> usize {
+/// Orders the items of all layers and the rows of all blocks.
+pub(crate) fn order(layered: &mut Layered) {
     let mut order = Order::of(layered);
     let mut best = (order.crossings(), order.snapshot());
     let mut patience = PATIENCE;
@@ -32,7 +32,6 @@ pub(crate) fn order(layered: &mut Layered) -> usize {
             break;
         }
     }
-    order.crossings()
 }
 
 /// The order of the layers, and that of each item's ports.
@@ -113,28 +112,12 @@ impl<'l> Order<'l> {
     }
 
     fn order_layer(&mut self, layer: usize, by: Side) {
-        let items = self.layered.layers[layer].clone();
+        let mut items = std::mem::take(&mut self.layered.layers[layer]);
         for &item in &items {
             self.order_rows(item, by);
         }
-        let mean = |&item: &usize| {
-            let ports = self.neighbours(by)[item].iter().flatten().copied();
-            self.mean(ports).map(|mean| (item, mean))
-        };
-        let mut sorted: Vec<(usize, f64)> = items.iter().filter_map(mean).collect();
-        sorted.sort_by(|(_, one), (_, other)| one.total_cmp(other));
-        // Items without neighbours on this side keep their places.
-        let mut sorted = sorted.into_iter().map(|(item, _)| item);
-        let neighbours = match by {
-            Side::Left => &self.left,
-            Side::Right => &self.right,
-        };
-        for place in &mut self.layered.layers[layer] {
-            let has_neighbours = neighbours[*place].iter().any(|ports| !ports.is_empty());
-            if let Some(item) = has_neighbours.then(|| sorted.next()).flatten() {
-                *place = item;
-            }
-        }
+        reorder(&mut items, |&item| self.mean(self.neighbours(by)[item].iter().flatten().copied()));
+        self.layered.layers[layer] = items;
         self.count(layer);
     }
 
@@ -143,18 +126,10 @@ impl<'l> Order<'l> {
         if self.layered.items[item].is != Is::Block {
             return;
         }
-        let order = self.layered.items[item].order.clone();
+        let mut rows = self.layered.items[item].order.clone();
         let faces = |row: usize| by == Side::Left || self.left[item][row].is_empty();
-        let mean = |&row: &usize| {
-            let ports = self.neighbours(by)[item][row].iter().copied();
-            self.mean(ports).filter(|_| faces(row)).map(|mean| (row, mean))
-        };
-        let mut sorted: Vec<(usize, f64)> = order.iter().filter_map(mean).collect();
-        let places: Vec<usize> = (0..order.len()).filter(|&rank| mean(&order[rank]).is_some()).collect();
-        sorted.sort_by(|(_, one), (_, other)| one.total_cmp(other));
-        for (rank, (row, _)) in places.into_iter().zip(sorted) {
-            self.layered.items[item].order[rank] = row;
-        }
+        reorder(&mut rows, |&row| self.mean(self.neighbours(by)[item][row].iter().copied()).filter(|_| faces(row)));
+        self.layered.items[item].order = rows;
     }
 
     /// Exchanges neighbours in all layers where that leaves fewer crossings. Returns whether it did.
@@ -207,6 +182,17 @@ impl<'l> Order<'l> {
         self.layered.layers = layers;
         self.layered.items.iter_mut().zip(orders).for_each(|(item, order)| item.order = order);
         (0..self.layered.layers.len()).for_each(|layer| self.count(layer));
+    }
+}
+
+/// Orders those that have a key, among each other; the others keep their places.
+fn reorder(items: &mut [usize], key: impl Fn(&usize) -> Option<f64>) {
+    let keyed = items.iter().enumerate().filter_map(|(place, item)| Some((place, *item, key(item)?)));
+    let mut keyed: Vec<(usize, usize, f64)> = keyed.collect();
+    let places: Vec<usize> = keyed.iter().map(|&(place, ..)| place).collect();
+    keyed.sort_by(|(.., one), (.., other)| one.total_cmp(other));
+    for (place, (_, item, _)) in places.into_iter().zip(keyed) {
+        items[place] = item;
     }
 }
 

@@ -38,17 +38,19 @@ impl Places {
 
     /// The height at which a port is.
     pub(crate) fn of_port(&self, layered: &Layered, port: Port) -> f64 {
-        self.y[port.item] + layered.items[port.item].offset(port.port)
+        height_of(layered, &self.y, port)
     }
+}
+
+/// The height of a port, given the upper edges of the items.
+fn height_of(layered: &Layered, y: &[f64], port: Port) -> f64 {
+    y[port.item] + layered.items[port.item].offset(port.port)
 }
 
 /// The space between a layer and the next: wider if links go far up or down.
 fn gap_after(layered: &Layered, y: &[f64], layer: usize) -> f64 {
     let links = layered.segments.iter().filter(|it| layered.items[it.left.item].layer == layer);
-    let rise = links.map(|it| {
-        let [left, right] = [it.left, it.right].map(|port| y[port.item] + layered.items[port.item].offset(port.port));
-        (right - left).abs()
-    });
+    let rise = links.map(|it| (height_of(layered, y, it.right) - height_of(layered, y, it.left)).abs());
     (rise.fold(0.0, f64::max) * 0.25).clamp(NARROWEST_GAP, WIDEST_GAP).round()
 }
 
@@ -75,8 +77,7 @@ fn vertical(layered: &Layered) -> Vec<f64> {
         for link in links {
             let (own, other) = if side == Side::Left { (link.right, link.left) } else { (link.left, link.right) };
             let weight = weight(&layered.items[own.item], &layered.items[other.item]);
-            let other = y[other.item] + layered.items[other.item].offset(other.port);
-            sum += weight * (other - layered.items[own.item].offset(own.port));
+            sum += weight * (height_of(layered, y, other) - layered.items[own.item].offset(own.port));
             weights += weight;
         }
         if links.is_empty() { idle } else { (sum / weights, weights) }
