@@ -39,16 +39,22 @@ impl Page {
     }
 }
 
+/// A running system whose page shows that all its components run.
+fn watched() -> (Rover, Watch, Page) {
+    let rover = Rover::start();
+    let watch = Watch::start(&rover);
+    let mut page = Page::open(&watch);
+    page.wait_until(all_run);
+    (rover, watch, page)
+}
+
 fn all_run(page: &Page) -> bool {
     COMPONENTS.iter().all(|component| page.state(component) == "running")
 }
 
 #[test]
 fn a_killed_component_is_seen() {
-    let mut rover = Rover::start();
-    let watch = Watch::start(&rover);
-    let mut page = Page::open(&watch);
-    page.wait_until(all_run);
+    let (mut rover, _watch, mut page) = watched();
     assert_eq!(page.state("actuator"), "stopped");
     page.wait_until(|page| page.text("problems") == "[]");
 
@@ -62,10 +68,7 @@ fn a_killed_component_is_seen() {
 
 #[test]
 fn a_system_that_vanishes_and_returns_is_followed() {
-    let mut rover = Rover::start();
-    let watch = Watch::start(&rover);
-    let mut page = Page::open(&watch);
-    page.wait_until(all_run);
+    let (mut rover, _watch, mut page) = watched();
     COMPONENTS.iter().for_each(|component| rover.stop(component));
     std::fs::remove_dir_all(rover.runtime_dir()).unwrap();
     page.wait_until(|page| COMPONENTS.iter().all(|component| page.state(component) == "stopped"));

@@ -6,7 +6,7 @@ use scl_value::{FieldPath, MessageType, Value, to_yaml};
 use serde_json::{Value as Json, json};
 use std::collections::VecDeque;
 use std::time::Duration;
-use tokio::time::{Instant, sleep, sleep_until};
+use tokio::time::{Instant, sleep_until};
 
 /// The time between two values that the page gets.
 const PERIOD: Duration = Duration::from_millis(250);
@@ -72,9 +72,8 @@ impl Details {
                 },
                 () = sleep_until(self.next) => {
                     self.next = Instant::now() + PERIOD;
-                    match open.take(&self.gate) {
-                        Some(shown) => return shown,
-                        None => sleep(Duration::ZERO).await,
+                    if let Some(shown) = open.take(&self.gate) {
+                        return shown;
                     }
                 }
             }

@@ -8,27 +8,27 @@ use std::net::TcpStream;
 use std::process::Stdio;
 
 /// A running `scl watch`.
-pub(super) struct Watch {
+pub(crate) struct Watch {
     _process: ChildGuard,
-    pub(super) address: String,
-    pub(super) token: String,
+    pub(crate) address: String,
+    pub(crate) token: String,
 }
 
-pub(super) struct Response {
-    pub(super) status: u16,
-    pub(super) headers: Vec<String>,
+pub(crate) struct Response {
+    pub(crate) status: u16,
+    pub(crate) headers: Vec<String>,
     reader: BufReader<TcpStream>,
 }
 
 /// The events of a page.
-pub(super) struct Events {
+pub(crate) struct Events {
     response: Response,
     received: Vec<u8>,
 }
 
 impl Watch {
     /// Starts it, and reads the address that it prints.
-    pub(super) fn start(rover: &Rover) -> Self {
+    pub(crate) fn start(rover: &Rover) -> Self {
         let mut process = rover.scl(&["watch"]).stdout(Stdio::piped()).spawn_guarded();
         let mut line = String::new();
         BufReader::new(process.stdout.take().unwrap()).read_line(&mut line).unwrap();
@@ -37,13 +37,13 @@ impl Watch {
     }
 
     /// Gets a path, with the token.
-    pub(super) fn get(&self, path: &str) -> Response {
+    pub(crate) fn get(&self, path: &str) -> Response {
         let separator = if path.contains('?') { '&' } else { '?' };
         self.request("GET", &format!("{path}{separator}token={}", self.token), &self.address)
     }
 
     /// Sends a request with this header `Host`.
-    pub(super) fn request(&self, method: &str, target: &str, host: &str) -> Response {
+    pub(crate) fn request(&self, method: &str, target: &str, host: &str) -> Response {
         let mut stream = TcpStream::connect(&self.address).unwrap();
         let request = format!("{method} {target} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n");
         stream.write_all(request.as_bytes()).unwrap();
@@ -60,7 +60,7 @@ impl Watch {
     }
 
     /// Opens the events of a page.
-    pub(super) fn events(&self, query: &str) -> Events {
+    pub(crate) fn events(&self, query: &str) -> Events {
         let response = self.get(&format!("/events?{query}"));
         assert_eq!(response.status, 200);
         Events { response, received: Vec::new() }
@@ -69,7 +69,7 @@ impl Watch {
 
 impl Response {
     /// The whole body, which has a length.
-    pub(super) fn text(mut self) -> String {
+    pub(crate) fn text(mut self) -> String {
         let mut text = String::new();
         self.reader.read_to_string(&mut text).unwrap();
         text
@@ -93,7 +93,7 @@ impl Response {
 
 impl Events {
     /// The next event with this name.
-    pub(super) fn next(&mut self, wanted: &str) -> Value {
+    pub(crate) fn next(&mut self, wanted: &str) -> Value {
         loop {
             while let Some(end) = self.received.windows(2).position(|pair| pair == b"\n\n") {
                 let event: Vec<u8> = self.received.drain(..end + 2).collect();

@@ -6,6 +6,10 @@
 mod bench;
 #[cfg(feature = "watch")]
 mod browser;
+#[cfg(feature = "watch")]
+#[allow(dead_code, reason = "the other tests use the rest")]
+#[path = "../watch/client.rs"]
+mod client;
 #[cfg(all(feature = "run", feature = "generate", feature = "record"))]
 mod drive;
 mod editor;

@@ -1,27 +1,26 @@
 //! The page of `scl watch` in a real browser.
 
 use crate::browser::Browser;
+use crate::client::Watch;
 use crate::rover::Rover;
-use crate::system::{ChildGuard, SpawnGuarded};
+use crate::system::SpawnGuarded;
 use scl_needs::needs;
 use serde_json::Value;
-use std::io::{BufRead, BufReader};
 use std::process::Stdio;
 
-/// Starts `scl watch`, and returns its process and the address of its page.
-fn watch(rover: &Rover) -> (ChildGuard, String) {
-    let mut process = rover.scl(&["watch"]).stdout(Stdio::piped()).spawn_guarded();
-    let mut line = String::new();
-    BufReader::new(process.stdout.take().unwrap()).read_line(&mut line).unwrap();
-    (process, line.trim().to_owned())
+/// Opens the page in a browser.
+fn open(rover: &Rover) -> (Watch, Browser) {
+    let watch = Watch::start(rover);
+    let mut browser = Browser::start();
+    browser.run(&format!("await page.goto('http://{}/?token={}')", watch.address, watch.token));
+    (watch, browser)
 }
 
-fn open(rover: &Rover) -> (ChildGuard, Browser) {
-    let (process, address) = watch(rover);
-    let mut browser = Browser::start();
-    browser.run(&format!("await page.goto({address:?})"));
+/// Opens the page, and waits until it shows that the sensor runs.
+fn open_running(rover: &Rover) -> (Watch, Browser) {
+    let (watch, mut browser) = open(rover);
     browser.run(r#"await page.waitForSelector('.state-running[data-component="sensor"]')"#);
-    (process, browser)
+    (watch, browser)
 }
 
 /// The colour of a component's border.
@@ -35,7 +34,7 @@ fn border(browser: &mut Browser, component: &str) -> Value {
 #[test]
 fn a_killed_component_becomes_red_and_green_again() {
     let mut rover = Rover::start();
-    let (_watch, mut browser) = open(&rover);
+    let (_watch, mut browser) = open_running(&rover);
     assert_eq!(border(&mut browser, "sensor"), "rgb(26, 127, 55)");
     rover.kill("sensor");
     browser.run(r#"await page.waitForSelector('.state-dead[data-component="sensor"]')"#);
@@ -51,7 +50,7 @@ fn a_killed_component_becomes_red_and_green_again() {
 #[test]
 fn a_click_at_a_gate_shows_its_messages_and_plots_a_number() {
     let rover = Rover::start();
-    let (_watch, mut browser) = open(&rover);
+    let (_watch, mut browser) = open_running(&rover);
     browser.run(r#"await page.click('[data-gate="sensor.measurements"]')"#);
     browser
         .run(r##"await page.waitForFunction(() => document.querySelector("#message").textContent.includes("speed"))"##);
@@ -74,9 +73,7 @@ fn a_hostile_message_is_shown_as_text() {
     let message = serde_json::json!({ "text": hostile }).to_string();
     let mut sending = rover.scl(&["pub", "controller.log", &message, "--rate", "20"]);
     let _sending = sending.stdout(Stdio::null()).spawn_guarded();
-    let (_watch, address) = watch(&rover);
-    let mut browser = Browser::start();
-    browser.run(&format!("await page.goto({address:?})"));
+    let (_watch, mut browser) = open(&rover);
     browser.run(r#"await page.click('[data-gate="logger.events"]')"#);
     browser.run(
         r##"await page.waitForFunction(() => document.querySelector("#message").textContent.includes("onerror"))"##,
