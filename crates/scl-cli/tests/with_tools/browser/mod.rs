@@ -4,6 +4,7 @@ use crate::system::{ChildGuard, SpawnGuarded};
 use serde_json::Value;
 use std::io::{BufRead, BufReader, Write};
 use std::process::{ChildStdout, Command, Stdio};
+use tempfile::TempDir;
 
 /// Runs each line of its input as the body of a function with the page, and prints the result as JSON.
 const DRIVER: &str = r#"
@@ -29,6 +30,8 @@ run().catch((error) => { console.error(error); process.exit(1); });
 pub(crate) struct Browser {
     process: ChildGuard,
     results: BufReader<ChildStdout>,
+    /// Where it has its profile.
+    _folder: TempDir,
 }
 
 impl Browser {
@@ -36,9 +39,11 @@ impl Browser {
         let modules = crate::npm::installed("playwright-core", "1.56.1");
         let mut command = Command::new("node");
         command.args(["-e", DRIVER]).arg(scl_needs::path_of!("chromium")).env("NODE_PATH", modules);
-        let mut process = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn_guarded();
+        let folder = tempfile::tempdir().unwrap();
+        command.env("TMPDIR", folder.path()).stdin(Stdio::piped()).stdout(Stdio::piped());
+        let mut process = command.spawn_guarded();
         let results = BufReader::new(process.stdout.take().unwrap());
-        Self { process, results }
+        Self { process, results, _folder: folder }
     }
 
     /// Runs JavaScript on one line, with `page` and `errors`, and returns what it returns.
@@ -47,5 +52,13 @@ impl Browser {
         let mut line = String::new();
         self.results.read_line(&mut line).unwrap();
         serde_json::from_str(&line).unwrap_or_else(|error| panic!("{script}: {error}: {line}"))
+    }
+}
+
+impl Drop for Browser {
+    /// Lets the browser close: its processes would go on writing to the folder.
+    fn drop(&mut self) {
+        drop(self.process.stdin.take());
+        _ = self.process.wait();
     }
 }
