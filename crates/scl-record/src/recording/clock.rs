@@ -31,6 +31,16 @@ pub(crate) struct Times {
 }
 
 impl Clock {
+    /// A clock that was set back by this time before.
+    pub(super) fn set_back_by(set_back: u64) -> Self {
+        Self { set_back, ..Self::default() }
+    }
+
+    /// The time by which it was set back so far, in nanoseconds.
+    pub(super) fn set_back(&self) -> u64 {
+        self.set_back
+    }
+
     /// Returns the corrected times of the next message.
     pub(crate) fn times(&mut self, message: &RecordedMessage) -> Times {
         let received = message.received_ns;

@@ -9,7 +9,7 @@ use mcap::McapError;
 use mcap::records::{Channel, MessageHeader, Record, op};
 use scl_terminal::{Problem, escape};
 use std::collections::{HashMap, VecDeque};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// One message, request or reply.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -30,12 +30,19 @@ pub struct RecordedMessage {
 pub struct Messages {
     files: VecDeque<PathBuf>,
     records: Option<Records>,
-    /// Schemas and channels of the current file, by their ids.
-    schemas: HashMap<u16, RecordedSchema>,
-    channel_ids: HashMap<u16, Origin>,
+    known: Known,
+    /// Where the record with the latest message begins in its file.
+    offset: u64,
     channels: Vec<RecordedChannel>,
     others: Vec<OtherTopic>,
     ready: VecDeque<RecordedMessage>,
+}
+
+/// Schemas and channels of the current file, by their ids.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Known {
+    schemas: HashMap<u16, RecordedSchema>,
+    channel_ids: HashMap<u16, Origin>,
 }
 
 /// Whether SCL or another program recorded a channel, with the index in `channels` or `others`.
@@ -58,6 +65,38 @@ impl Messages {
         Self { files, ..Self::default() }
     }
 
+    /// The messages of a file from this byte on, of which this is known, and these channels of the whole recording.
+    pub(super) fn resume(
+        path: &Path,
+        offset: Option<u64>,
+        known: Known,
+        channels: Vec<RecordedChannel>,
+    ) -> Result<Self, Problem> {
+        let mut records = Records::open(path)?;
+        if let Some(offset) = offset {
+            records.go_to(offset)?;
+        }
+        Ok(Self { records: Some(records), known, channels, ..Self::default() })
+    }
+
+    /// What is known at the end of a file.
+    pub(super) fn into_known(self) -> (Known, Vec<RecordedChannel>) {
+        (self.known, self.channels)
+    }
+
+    /// Where the record with the latest message begins in its file.
+    pub(super) fn offset(&self) -> u64 {
+        self.offset
+    }
+
+    /// Where the record begins that the next message is in, or one before it.
+    pub(super) fn next_offset(&self) -> u64 {
+        match &self.records {
+            Some(records) if self.ready.is_empty() => records.position(),
+            _ => self.offset,
+        }
+    }
+
     /// The next message; `None` at the end.
     ///
     /// # Errors
@@ -69,14 +108,14 @@ impl Messages {
             }
             let Some(mut records) = self.records.take() else {
                 let Some(path) = self.files.pop_front() else { return Ok(None) };
-                self.schemas.clear();
-                self.channel_ids.clear();
+                self.known = Known::default();
                 self.records = Some(Records::open(&path)?);
                 continue;
             };
             if let Some(header) = records.next()?
                 && header.opcode != op::DATA_END
             {
+                self.offset = header.offset;
                 self.read_record(&mut records, header)?;
                 self.records = Some(records);
             }
@@ -117,16 +156,16 @@ impl Messages {
         match record {
             Record::Schema { header, data } => {
                 let (id, data) = (header.id, Bytes::copy_from_slice(&data));
-                self.schemas.insert(id, RecordedSchema { name: header.name, encoding: header.encoding, data });
+                self.known.schemas.insert(id, RecordedSchema { name: header.name, encoding: header.encoding, data });
             }
             Record::Channel(channel) => {
                 // Chunks and files of a recording repeat the channels.
                 let origin = self.origin(&channel);
-                self.channel_ids.insert(channel.id, origin);
+                self.known.channel_ids.insert(channel.id, origin);
             }
             Record::Message { header, data } => {
                 let MessageHeader { channel_id, sequence, log_time, publish_time } = header;
-                let known = self.channel_ids.get(&channel_id);
+                let known = self.known.channel_ids.get(&channel_id);
                 let channel = match *known.ok_or_else(|| Fault::damaged("a message belongs to no channel"))? {
                     Origin::Scl(channel) => channel,
                     Origin::Other(index) => {
@@ -145,7 +184,7 @@ impl Messages {
     }
 
     fn origin(&mut self, channel: &Channel) -> Origin {
-        let schema = self.schemas.get(&channel.schema_id).cloned().unwrap_or_default();
+        let schema = self.known.schemas.get(&channel.schema_id).cloned().unwrap_or_default();
         let schema_name = schema.name.clone();
         match RecordedChannel::new(channel, schema) {
             Ok(recorded) => Origin::Scl(index_of(&mut self.channels, |known| *known == recorded, || recorded.clone())),

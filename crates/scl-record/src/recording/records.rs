@@ -61,6 +61,13 @@ impl Records {
         Ok(Self::new(path, file, magic.len() as u64, metadata.len()))
     }
 
+    /// Goes on with the record that begins at this byte.
+    pub(super) fn go_to(&mut self, offset: u64) -> Result<(), Problem> {
+        self.file.seek(SeekFrom::Start(offset)).map_err(|error| unreadable(&self.path, &error))?;
+        (self.offset, self.unread) = (offset, 0);
+        Ok(())
+    }
+
     /// The records of a file of this size, whose first `offset` bytes were read already.
     pub(crate) fn new(path: &Path, file: File, offset: u64, size: u64) -> Self {
         Self { path: path.to_owned(), file: BufReader::new(file), offset, unread: 0, size }
