@@ -62,6 +62,8 @@ mod request;
 #[cfg(feature = "run")]
 mod run;
 mod schema;
+#[cfg(feature = "watch")]
+mod serving;
 #[cfg(feature = "simulate")]
 mod simulate;
 #[cfg(feature = "observe")]

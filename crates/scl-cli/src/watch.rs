@@ -2,11 +2,15 @@
 
 use crate::load::{MaxSize, TOPOLOGY, load_file, show_errors};
 use crate::observed::SystemArgument;
+use crate::serving::{cannot_listen, serve_until_stopped};
 use clap::Args;
 use scl_observe::{StopSignals, System, block_on};
 use scl_plan::SystemPlan;
-use scl_terminal::{Problem, output_is_closed, print_out};
-use scl_watch::{Server, picture};
+use scl_record::recording::{Recording, find_files};
+use scl_terminal::{Problem, print_out};
+use scl_watch::{Server, Source, picture};
+use std::env::current_exe;
+use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -15,16 +19,19 @@ use std::process::ExitCode;
 /// Prints the address of the page, and serves it until it is stopped. The page is for this machine and for those who
 /// know the whole address: it contains a token. Nothing is read while no page is open, and components notice nothing.
 ///
-/// A click at a gate shows its last message, and a plot of a field; a click at a component its process and parameters.
+/// A click at a gate shows its last message, and a plot of a field; a click at a component its process, parameters and
+/// log. With `--control`, the page can also act.
 /// From another machine: `ssh -L 8080:127.0.0.1:8080 board scl watch --port 8080`.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   scl watch                             open the address that it prints
   scl watch --system rover --port 8080
+  scl watch --control                   with buttons to restart and stop components, set parameters, call gates
   scl watch --svg > now.svg             the picture of this moment, as a file
+  scl watch --replay flight.mcap        a recording, with a slider for the time
 
-Exit code: 0 shown, or stopped with Ctrl-C, 2 no such system, or the port is in use.")]
+Exit code: 0 shown, or stopped with Ctrl-C, 2 no such system or recording, or the port is in use.")]
 pub(crate) struct WatchArguments {
     #[command(flatten)]
     system: SystemArgument,
@@ -35,54 +42,77 @@ pub(crate) struct WatchArguments {
     #[arg(long, value_name = "PORT", default_value_t = 0, hide_default_value = true)]
     port: u16,
     /// Print the picture of this moment as SVG, and exit.
-    #[arg(long, conflicts_with = "port")]
+    #[arg(long, conflicts_with_all = ["port", "control"])]
     svg: bool,
+    /// Show a recording, with a slider for the time.
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["svg", "control", "system"])]
+    replay: Vec<PathBuf>,
+    /// Let pages restart and stop components, set live parameters, and call gates.
+    #[arg(long)]
+    control: bool,
 }
 
 /// The body of `scl watch`.
 pub(crate) fn watch(arguments: &WatchArguments) -> Result<ExitCode, Problem> {
-    let system = System::find_or_await(arguments.system.name())?;
-    let file = plan_of_file(arguments.topology.as_deref(), system.name())?;
-    if arguments.svg {
-        print_out(&picture(&system, file));
-        return Ok(ExitCode::SUCCESS);
-    }
+    let source = match &arguments.replay[..] {
+        [] => {
+            let system = System::find_or_await(arguments.system.name())?;
+            let file = plan_of_file(arguments.topology.as_deref(), system.name())?;
+            if arguments.svg {
+                print_out(&picture(&system, file));
+                return Ok(ExitCode::SUCCESS);
+            }
+            let program = current_exe().unwrap_or_else(|_| "scl".into());
+            Source::system(system, file, program, arguments.control)
+        }
+        files => recorded(files, arguments.topology.as_deref())?,
+    };
     block_on(async {
         let mut stop = StopSignals::watch()?;
-        let server = Server::bind(([127, 0, 0, 1], arguments.port).into(), system, file).await;
-        let server = server.map_err(|error| {
-            Problem::new(format!("cannot listen at 127.0.0.1:{}: {error}", arguments.port))
-                .help("choose another port with `--port`, or none for any that is free")
-        })?;
-        print_out(&format!("{}\n", server.url()));
-        if output_is_closed() {
-            return Ok(ExitCode::SUCCESS);
-        }
-        tokio::select! {
-            () = server.serve() => {}
-            () = stop.received() => {}
-        }
-        Ok(ExitCode::SUCCESS)
+        let address = SocketAddr::from(([127, 0, 0, 1], arguments.port));
+        let help = "choose another port with `--port`, or none for any that is free";
+        let server = Server::bind(address, source).await.map_err(cannot_listen(address, help))?;
+        Ok(serve_until_stopped(&server.url(), server.serve(), &mut stop).await)
     })
+}
+
+/// A recording, drawn as the plan in it says, or another topology.
+fn recorded(files: &[PathBuf], topology: Option<&Path>) -> Result<Source, Problem> {
+    let recording = Recording::open(&find_files(files)?)?;
+    let plan = match topology {
+        Some(file) => plan_of(file)?,
+        None => recording.plan()?.ok_or_else(|| {
+            Problem::new(format!("`{}` does not say which components there were", recording.name()))
+                .help("name the topology file with `--topology`")
+        })?,
+    };
+    Source::recording(&recording, plan)
 }
 
 /// The plan of the system in a topology file; that of the working folder need not exist, or be of this system.
 fn plan_of_file(file: Option<&Path>, system: &str) -> Result<Option<SystemPlan>, Problem> {
-    let path = file.unwrap_or(Path::new(TOPOLOGY));
-    if file.is_none() && !path.is_file() {
-        return Ok(None);
+    let Some(file) = file else {
+        let here = Path::new(TOPOLOGY);
+        let plan = here.is_file().then(|| load_file(here, MaxSize::default()).system_plan()).flatten();
+        return Ok(plan.filter(|plan| plan.system == system));
+    };
+    let plan = plan_of(file)?;
+    if plan.system != system {
+        return Err(Problem::new(format!(
+            "`{}` is of the system `{}`, not of `{system}`",
+            file.display(),
+            plan.system
+        ))
+        .help(format!("choose it with `--system {}`", plan.system)));
     }
-    let loaded = load_file(path, MaxSize::default());
-    match loaded.system_plan() {
-        Some(plan) if plan.system == system => Ok(Some(plan)),
-        Some(plan) if file.is_some() => {
-            Err(Problem::new(format!("`{}` is of the system `{}`, not of `{system}`", path.display(), plan.system))
-                .help(format!("choose it with `--system {}`", plan.system)))
-        }
-        None if file.is_some() => {
-            show_errors(&loaded);
-            Err(Problem::new(format!("`{}` has errors", path.display())))
-        }
-        _ => Ok(None),
-    }
+    Ok(Some(plan))
+}
+
+/// The plan of a topology file.
+fn plan_of(file: &Path) -> Result<SystemPlan, Problem> {
+    let loaded = load_file(file, MaxSize::default());
+    loaded.system_plan().ok_or_else(|| {
+        show_errors(&loaded);
+        Problem::new(format!("`{}` has errors", file.display()))
+    })
 }

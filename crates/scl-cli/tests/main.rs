@@ -12,6 +12,9 @@ mod check_inputs;
 #[cfg(feature = "run")]
 mod check_launch;
 mod check_watch;
+#[cfg(feature = "watch")]
+#[path = "watch/client.rs"]
+mod client;
 #[cfg(feature = "record")]
 mod compare;
 #[cfg(feature = "observe")]
@@ -118,4 +121,8 @@ mod ticker;
 mod top;
 #[cfg(feature = "watch")]
 mod watch;
+#[cfg(feature = "watch")]
+mod watch_control;
+#[cfg(feature = "watch")]
+mod watch_replay;
 mod workspace;

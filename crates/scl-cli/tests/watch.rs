@@ -1,9 +1,7 @@
 //! `scl watch`: what its page gets, with real components, over real sockets.
 
-mod client;
-
+use crate::client::{Events, Watch, request};
 use crate::rover::{COMPONENTS, Rover};
-use client::{Events, Watch};
 use serde_json::{Map, Value};
 
 /// What a page knows: the latest value of each name.
@@ -42,7 +40,7 @@ impl Page {
 /// A running system whose page shows that all its components run.
 fn watched() -> (Rover, Watch, Page) {
     let rover = Rover::start();
-    let watch = Watch::start(&rover);
+    let watch = Watch::start(rover.scl(&["watch"]));
     let mut page = Page::open(&watch);
     page.wait_until(all_run);
     (rover, watch, page)
@@ -79,7 +77,7 @@ fn a_system_that_vanishes_and_returns_is_followed() {
 #[test]
 fn rows_and_edges_show_what_flows() {
     let rover = Rover::start();
-    let watch = Watch::start(&rover);
+    let watch = Watch::start(rover.scl(&["watch"]));
     let mut page = Page::open(&watch);
     let flows = |page: &Page| page.known.iter().any(|(name, it)| name.starts_with("edge") && it["flow"] == "messages");
     let rates = |page: &Page| {
@@ -92,7 +90,7 @@ fn rows_and_edges_show_what_flows() {
 #[test]
 fn the_messages_of_a_gate_are_decoded_and_their_numbers_plotted() {
     let rover = Rover::start();
-    let watch = Watch::start(&rover);
+    let watch = Watch::start(rover.scl(&["watch"]));
     let shown = watch.events("gate=sensor.measurements").next("gate");
     let field = shown["fields"][0].as_str().unwrap().to_owned();
     assert!(shown["text"].as_str().unwrap().contains(&field), "{shown}");
@@ -105,7 +103,7 @@ fn the_messages_of_a_gate_are_decoded_and_their_numbers_plotted() {
 #[test]
 fn a_gate_without_messages_is_explained() {
     let rover = Rover::start();
-    let watch = Watch::start(&rover);
+    let watch = Watch::start(rover.scl(&["watch"]));
     let shown = watch.events("gate=sensor.measurement").next("gate");
     assert!(shown["error"].as_str().unwrap().contains("`measurement`"), "{shown}");
     let answer = watch.get("/events?gate=sensor.measurements&field=a..b");
@@ -116,8 +114,8 @@ fn a_gate_without_messages_is_explained() {
 #[test]
 fn only_the_whole_address_gives_access() {
     let rover = Rover::start();
-    let watch = Watch::start(&rover);
-    let status = |method: &str, target: &str, host: &str| watch.request(method, target, host).status;
+    let watch = Watch::start(rover.scl(&["watch"]));
+    let status = |method: &str, target: &str, host: &str| request(&watch.address, method, target, host, "").status;
     let right = format!("/?token={}", watch.token);
     assert_eq!(status("GET", &right, &watch.address), 200);
     assert_eq!(status("GET", "/", &watch.address), 403);
@@ -131,7 +129,7 @@ fn only_the_whole_address_gives_access() {
 #[test]
 fn the_page_runs_only_its_own_script_and_loads_nothing_from_elsewhere() {
     let rover = Rover::start();
-    let watch = Watch::start(&rover);
+    let watch = Watch::start(rover.scl(&["watch"]));
     let answer = watch.get("/");
     let policy = answer.headers.iter().find(|line| line.starts_with("content-security-policy:")).unwrap().clone();
     let nonce = policy.split_once("'nonce-").unwrap().1.split_once('\'').unwrap().0.to_owned();
@@ -146,7 +144,7 @@ fn the_page_runs_only_its_own_script_and_loads_nothing_from_elsewhere() {
 #[test]
 fn pages_beyond_the_limit_are_refused_until_others_close() {
     let rover = Rover::start();
-    let watch = Watch::start(&rover);
+    let watch = Watch::start(rover.scl(&["watch"]));
     let mut pages: Vec<Events> = (0..100).map(|_| watch.events("view=0")).collect();
     let answer = watch.get("/events?view=0");
     assert_eq!(answer.status, 503);
@@ -173,7 +171,7 @@ fn a_still_picture_shows_this_moment() {
 #[test]
 fn a_port_in_use_is_explained() {
     let rover = Rover::start();
-    let watch = Watch::start(&rover);
+    let watch = Watch::start(rover.scl(&["watch"]));
     let port = watch.address.rsplit_once(':').unwrap().1;
     let error = rover.error(&["watch", "--port", port], 2);
     assert!(error.contains(&format!("cannot listen at 127.0.0.1:{port}")), "{error}");

@@ -24,10 +24,12 @@ const PAUSE: Duration = Duration::from_millis(100);
 pub(crate) type Answer = Response<BoxBody<Bytes, Infallible>>;
 
 /// Answers all requests.
-pub(crate) async fn serve(
+pub(crate) async fn serve<F>(
     listener: &TcpListener,
-    answer: impl Fn(&Request<Incoming>) -> Answer + Clone + Send + Sync + 'static,
-) {
+    answer: impl Fn(Request<Incoming>) -> F + Clone + Send + Sync + 'static,
+) where
+    F: Future<Output = Answer> + Send,
+{
     let connections = Arc::new(Semaphore::new(MOST_CONNECTIONS));
     loop {
         let Ok((stream, _)) = listener.accept().await else {
@@ -39,8 +41,8 @@ pub(crate) async fn serve(
         let answer = answer.clone();
         tokio::spawn(async move {
             let service = service_fn(|request| {
-                let answered = answer(&request);
-                async move { Ok::<_, Infallible>(answered) }
+                let answered = answer(request);
+                async move { Ok::<_, Infallible>(answered.await) }
             });
             let mut connection = http1::Builder::new();
             connection.timer(TokioTimer::new()).header_read_timeout(PATIENCE);

@@ -4,21 +4,27 @@
 
 mod access;
 mod board;
+mod commands;
 mod details;
 mod happenings;
 mod http;
 mod live;
+mod log;
+mod picture;
 mod plans;
 mod problems;
+mod replay;
 mod server;
+mod shown;
 mod site;
 mod stream;
 
-pub use server::Server;
+pub use server::{Server, Source};
 
+use picture::VARIANTS;
 use scl_observe::System;
 use scl_plan::SystemPlan;
-use site::{Look, Site, VARIANTS};
+use site::{Look, Site};
 use std::thread::sleep;
 use std::time::Duration;
 

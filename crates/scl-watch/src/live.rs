@@ -116,7 +116,8 @@ fn state_of(activity: Option<Activity>) -> State {
     }
 }
 
-fn figures_of(
+/// The figures of a gate of a component, which has a row if it runs.
+pub(crate) fn figures_of(
     plans: &SystemPlan,
     component: &str,
     row: Option<&GateRow>,
@@ -158,7 +159,9 @@ fn flow_of(edge: &Edge, rows: &HashMap<String, &GateRow>, troubles: &Troubles, n
         let is_connected = index.and_then(|index| row.connections[index].connected);
         connected &= is_connected != Some(false);
         dropping |= index.is_some_and(|index| troubles.of(from).is_some_and(|it| it.is_dropping_to(index, now)));
-        per_second += row.rate.filter(|_| is_connected == Some(true)).unwrap_or(0.0);
+        // Recordings have no figures of senders that share a receiver.
+        let rate = row.rate.or_else(|| rows.get(to)?.rate);
+        per_second += rate.filter(|_| is_connected == Some(true)).unwrap_or(0.0);
     }
     match (dropping, connected) {
         (true, _) => Flow::Dropping,

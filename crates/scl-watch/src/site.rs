@@ -2,14 +2,14 @@
 
 use crate::board::Board;
 use crate::happenings::Happenings;
-use crate::live::{Troubles, enliven};
+use crate::live::{Troubles, enliven, figures_of};
+use crate::picture::{Picture, VARIANTS};
 use crate::plans::plans_of;
 use crate::problems::problems_of;
-use scl_diagram::{Detail, Diagram, Flow, Layout, Options, diagram_of, draw};
-use scl_observe::{Snapshot, System, Watch};
+use scl_diagram::{Layout, Options, diagram_of, draw};
+use scl_observe::{ComponentRow, GateRow, Snapshot, System, Watch};
 use scl_plan::SystemPlan;
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 use tokio::sync::Notify;
 use tokio::time::{MissedTickBehavior, interval};
@@ -18,15 +18,7 @@ use tokio::time::{MissedTickBehavior, interval};
 const PERIOD: Duration = Duration::from_millis(250);
 
 /// The time over which rates are measured: components write their figures four times in it.
-const WINDOW: Duration = Duration::from_secs(2);
-
-/// The ways to draw a system.
-pub(crate) const VARIANTS: [Options; 4] = [
-    Options { detail: None, everyone: false, live: true },
-    Options { detail: Some(Detail::Gates), everyone: false, live: true },
-    Options { detail: Some(Detail::Components), everyone: false, live: true },
-    Options { detail: Some(Detail::Gates), everyone: true, live: true },
-];
+pub(crate) const WINDOW: Duration = Duration::from_secs(2);
 
 /// What all pages of a server share.
 pub(crate) struct Site {
@@ -72,13 +64,7 @@ pub(crate) struct Look<'s> {
     troubles: Troubles,
     happenings: Happenings,
     plans: SystemPlan,
-    drawn: [Option<Drawn>; VARIANTS.len()],
-}
-
-/// A diagram of the present plans.
-struct Drawn {
-    diagram: Diagram,
-    picture: String,
+    pictures: [Picture; VARIANTS.len()],
 }
 
 impl<'s> Look<'s> {
@@ -90,7 +76,7 @@ impl<'s> Look<'s> {
             troubles: Troubles::default(),
             happenings: Happenings::default(),
             plans,
-            drawn: std::array::from_fn(|_| None),
+            pictures: std::array::from_fn(Picture::new),
         }
     }
 
@@ -101,10 +87,18 @@ impl<'s> Look<'s> {
         let events = self.happenings.to_json();
         for variant in 0..VARIANTS.len() {
             if self.site.boards[variant].watchers() > 0 {
-                let mut values = self.draw(variant, &snapshot, now);
+                let plans = &self.plans;
+                let mut values = self.pictures[variant].values(plans, |diagram| {
+                    enliven(diagram, plans, &snapshot, &self.troubles, now);
+                });
                 values.insert("problems".to_owned(), json!(problems));
                 values.insert("events".to_owned(), events.clone());
-                values.extend(snapshot.components.iter().map(|row| (format!("component {}", row.name), details(row))));
+                values.extend(
+                    snapshot
+                        .components
+                        .iter()
+                        .map(|row| (format!("component {}", row.name), self.details(row, &snapshot, now))),
+                );
                 self.site.boards[variant].show(values);
             }
         }
@@ -120,7 +114,7 @@ impl<'s> Look<'s> {
         let plans = plans_of(&self.site.system, &components, self.site.file.as_ref());
         if plans != self.plans {
             self.plans = plans;
-            self.drawn = std::array::from_fn(|_| None);
+            self.pictures.iter_mut().for_each(Picture::forget);
         }
         (snapshot, now)
     }
@@ -133,40 +127,31 @@ impl<'s> Look<'s> {
         draw(&diagram, &Layout::of(&diagram))
     }
 
-    /// The values of a board: the picture without figures, and the figures.
-    fn draw(&mut self, variant: usize, snapshot: &Snapshot, now: Instant) -> BTreeMap<String, Value> {
-        let plans = &self.plans;
-        let drawn = self.drawn[variant].get_or_insert_with(|| {
-            let diagram = diagram_of(plans, VARIANTS[variant]);
-            let picture = draw(&diagram, &Layout::of(&diagram));
-            Drawn { diagram, picture }
-        });
-        enliven(&mut drawn.diagram, plans, snapshot, &self.troubles, now);
-        let mut values = BTreeMap::from([("picture".to_owned(), json!(drawn.picture))]);
-        for (index, block) in drawn.diagram.blocks.iter().enumerate() {
-            values.insert(format!("block {index}"), json!({"state": block.state.map(|state| state.word())}));
-            for (row, figures) in
-                block.rows.iter().enumerate().filter_map(|(row, it)| Some((row, it.figures.as_ref()?)))
-            {
-                let value = json!({
-                    "rate": figures.rate, "perSecond": figures.per_second, "filled": figures.filled,
-                    "trouble": figures.trouble, "bad": figures.is_bad,
-                });
-                values.insert(format!("row {index} {row}"), value);
-            }
-        }
-        for (index, edge) in drawn.diagram.edges.iter().enumerate() {
-            let flow = edge.flow.unwrap_or(Flow::Idle);
-            values.insert(format!("edge {index}"), json!({"flow": flow.word(), "width": flow.width()}));
-        }
-        values
+    /// What the page shows of a component that is clicked at.
+    fn details(&self, row: &ComponentRow, snapshot: &Snapshot, now: Instant) -> Value {
+        let gates = gates_of(&row.name, &self.plans, snapshot, &self.troubles, now);
+        json!({
+            "activity": row.activity.word(), "pid": row.pid, "processor": row.processor, "memory": row.memory,
+            "since": row.since.map(|since| since.as_secs()), "parameters": row.parameters, "gates": gates,
+        })
     }
 }
 
-/// What the page shows of a component that is clicked at.
-fn details(row: &scl_observe::ComponentRow) -> Value {
-    json!({
-        "activity": row.activity.word(), "pid": row.pid, "processor": row.processor, "memory": row.memory,
-        "since": row.since.map(|since| since.as_secs()), "parameters": row.parameters,
-    })
+/// What the page shows of the gates of a component that is clicked at.
+pub(crate) fn gates_of(
+    component: &str,
+    plans: &SystemPlan,
+    snapshot: &Snapshot,
+    troubles: &Troubles,
+    now: Instant,
+) -> Vec<Value> {
+    let gate = |row: &GateRow| {
+        let name = row.name();
+        let figures = figures_of(plans, component, Some(row), troubles.of(&name), now);
+        json!({
+            "name": name, "kind": row.kind.word(), "rate": figures.rate, "trouble": figures.trouble,
+            "bad": figures.is_bad,
+        })
+    };
+    snapshot.gates.iter().filter(|row| row.component == component).map(gate).collect()
 }

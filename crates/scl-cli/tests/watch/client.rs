@@ -1,11 +1,10 @@
 //! A browser of few words: HTTP/1.1 and server-sent events over a socket.
 
-use crate::rover::Rover;
 use crate::system::{ChildGuard, SpawnGuarded};
 use serde_json::Value;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 
 /// A running `scl watch`.
 pub(crate) struct Watch {
@@ -26,37 +25,52 @@ pub(crate) struct Events {
     received: Vec<u8>,
 }
 
-impl Watch {
-    /// Starts it, and reads the address that it prints.
-    pub(crate) fn start(rover: &Rover) -> Self {
-        let mut process = rover.scl(&["watch"]).stdout(Stdio::piped()).spawn_guarded();
+/// Starts a command that serves, and reads the address that it prints: `http://<address>/<path>`.
+pub(crate) fn start_server(mut command: Command) -> (ChildGuard, String, String) {
+    let mut process = command.stdout(Stdio::piped()).spawn_guarded();
+    let mut line = String::new();
+    BufReader::new(process.stdout.take().unwrap()).read_line(&mut line).unwrap();
+    let (address, path) = line.trim().strip_prefix("http://").unwrap().split_once('/').unwrap();
+    (process, address.to_owned(), path.to_owned())
+}
+
+/// Sends a request with this header `Host`.
+pub(crate) fn request(address: &str, method: &str, target: &str, host: &str, body: &str) -> Response {
+    let mut stream = TcpStream::connect(address).unwrap();
+    let length = body.len();
+    let head =
+        format!("{method} {target} HTTP/1.1\r\nHost: {host}\r\nContent-Length: {length}\r\nConnection: close\r\n\r\n");
+    // What is refused early is not read to its end.
+    _ = stream.write_all((head + body).as_bytes());
+    let mut reader = BufReader::new(stream);
+    let mut line = || {
         let mut line = String::new();
-        BufReader::new(process.stdout.take().unwrap()).read_line(&mut line).unwrap();
-        let (address, token) = line.trim().strip_prefix("http://").unwrap().split_once("/?token=").unwrap();
-        Self { address: address.to_owned(), token: token.to_owned(), _process: process }
+        reader.read_line(&mut line).unwrap();
+        line.trim_end().to_owned()
+    };
+    let status = line().split(' ').nth(1).unwrap().parse().unwrap();
+    let headers = std::iter::from_fn(|| Some(line()).filter(|line| !line.is_empty()));
+    let headers = headers.map(|line| line.to_lowercase()).collect();
+    Response { status, headers, reader }
+}
+
+impl Watch {
+    /// Starts a `scl watch`.
+    pub(crate) fn start(command: Command) -> Self {
+        let (process, address, path) = start_server(command);
+        let token = path.strip_prefix("?token=").unwrap().to_owned();
+        Self { address, token, _process: process }
     }
 
     /// Gets a path, with the token.
     pub(crate) fn get(&self, path: &str) -> Response {
         let separator = if path.contains('?') { '&' } else { '?' };
-        self.request("GET", &format!("{path}{separator}token={}", self.token), &self.address)
+        request(&self.address, "GET", &format!("{path}{separator}token={}", self.token), &self.address, "")
     }
 
-    /// Sends a request with this header `Host`.
-    pub(crate) fn request(&self, method: &str, target: &str, host: &str) -> Response {
-        let mut stream = TcpStream::connect(&self.address).unwrap();
-        let request = format!("{method} {target} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n");
-        stream.write_all(request.as_bytes()).unwrap();
-        let mut reader = BufReader::new(stream);
-        let mut line = || {
-            let mut line = String::new();
-            reader.read_line(&mut line).unwrap();
-            line.trim_end().to_owned()
-        };
-        let status = line().split(' ').nth(1).unwrap().parse().unwrap();
-        let headers = std::iter::from_fn(|| Some(line()).filter(|line| !line.is_empty()));
-        let headers = headers.map(|line| line.to_lowercase()).collect();
-        Response { status, headers, reader }
+    /// Posts a body, with the token.
+    pub(crate) fn post(&self, path: &str, body: &str) -> Response {
+        request(&self.address, "POST", &format!("{path}?token={}", self.token), &self.address, body)
     }
 
     /// Opens the events of a page.

@@ -10,7 +10,12 @@ use std::process::Stdio;
 
 /// Opens the page in a browser.
 fn open(rover: &Rover) -> (Watch, Browser) {
-    let watch = Watch::start(rover);
+    open_with(rover, &["watch"])
+}
+
+/// Opens the page of a `scl watch` with these arguments.
+fn open_with(rover: &Rover, arguments: &[&str]) -> (Watch, Browser) {
+    let watch = Watch::start(rover.scl(arguments));
     let mut browser = Browser::start();
     browser.run(&format!("await page.goto('http://{}/?token={}')", watch.address, watch.token));
     (watch, browser)
@@ -80,5 +85,53 @@ fn a_hostile_message_is_shown_as_text() {
     );
     assert_eq!(browser.run("return await page.evaluate(() => window.harmed === undefined)"), true);
     assert_eq!(browser.run("return await page.evaluate(() => document.images.length)"), 0);
+    assert_eq!(browser.run("return errors"), serde_json::json!([]));
+}
+
+#[needs("node", "npm", "chromium")]
+#[test]
+fn a_component_leads_to_its_gates_and_what_can_be_done() {
+    let rover = Rover::start();
+    let (_watch, mut browser) = open_with(&rover, &["watch", "--control"]);
+    browser.run(r#"await page.waitForSelector('.state-running[data-component="controller"]')"#);
+    browser.run(r#"await page.click('[data-component="controller"] > .name')"#);
+    browser.run(r##"await page.click("#stop")"##);
+    browser.run(
+        r##"await page.waitForFunction(() => document.querySelector("#done").textContent.includes("runs without `scl run`"))"##,
+    );
+    browser.run(r##"await page.click("#gates button:text-is('commands')")"##);
+    assert_eq!(browser.run(r##"return await page.textContent("#subject")"##), "controller.commands");
+    browser.run(
+        r##"await page.waitForFunction(() => document.querySelector("#request").value.includes("target_speed"))"##,
+    );
+    browser.run(r##"await page.click("#send")"##);
+    browser.run(
+        r##"await page.waitForFunction(() => document.querySelector("#done").textContent.includes("every requester"))"##,
+    );
+    assert_eq!(browser.run("return errors"), serde_json::json!([]));
+}
+
+#[needs("node", "npm", "chromium")]
+#[test]
+fn a_recording_has_a_slider() {
+    let rover = Rover::start();
+    let output = rover.scl(&["record", "--for", "3s", "-o", "flight.mcap"]).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let (_watch, mut browser) = open_with(&rover, &["watch", "--replay", "flight.mcap"]);
+    browser.run(r##"await page.waitForFunction(() => document.querySelector("#time").textContent.includes(" of "))"##);
+    browser.run(r#"await page.click('[data-gate="sensor.measurements"]')"#);
+    browser.run(r#"await page.focus("body"); await page.keyboard.press(" ")"#);
+    browser.run(r##"await page.waitForFunction(() => document.querySelector("#play").textContent === "▶")"##);
+    let at = |browser: &mut Browser, position: &str| {
+        browser.run(&format!(r##"await page.fill("#position", "{position}")"##));
+        browser.run(&format!(
+            r##"await page.waitForFunction(() => parseFloat(document.querySelector("#time").textContent) === {position})"##
+        ));
+        browser.run(
+            r##"await page.waitForFunction(() => document.querySelector("#message").textContent.includes("speed"))"##,
+        );
+        browser.run(r##"return await page.textContent("#facts")"##)
+    };
+    assert_ne!(at(&mut browser, "2"), at(&mut browser, "0.5"));
     assert_eq!(browser.run("return errors"), serde_json::json!([]));
 }

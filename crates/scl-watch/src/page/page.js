@@ -1,22 +1,19 @@
-"use strict";
 // Shows what the server sends: the picture once, and then what has changed in it. Texts of the system become text nodes;
 // only the picture, which the server has drawn and escaped, becomes elements.
-const token = new URLSearchParams(location.search).get("token");
-const at = (id) => document.getElementById(id);
 const history = new Map(); // the rates of each row, one for each half second
 const HISTORY = 120, TICK = 500, POINTS = 3000;
-let known = {}, parts = {}, drawn = "", selected = null, source = null, field = "", points = [], zoom = null;
+let known = {}, parts = {}, drawn = "", source = null, zoom = null;
 
 function connect() {
   if (source) source.close();
   const query = new URLSearchParams({ token, view: at("view").value });
-  if (selected && selected.gate) {
-    query.set("gate", selected.gate);
-    if (field) query.set("field", field);
+  for (const [name, value] of Object.entries({ ...selected, field, ...playQuery() })) {
+    if (value || value === 0) query.set(name, value);
   }
   source = new EventSource("/events?" + query);
   source.addEventListener("state", (event) => show(JSON.parse(event.data)));
   source.addEventListener("gate", (event) => showGate(JSON.parse(event.data)));
+  source.addEventListener("log", (event) => showLog(JSON.parse(event.data)));
   source.addEventListener("open", () => { known = {}; showProblems(); });
   source.addEventListener("error", () => {
     at("problems").className = "away";
@@ -39,6 +36,7 @@ function show(values) {
     if (kind === "edge" && part) showEdge(part, value);
     if (kind === "problems") showProblems();
     if (kind === "events") showEvents(value);
+    if (kind === "time") showTime(value);
     if (kind === "component" && selected && selected.component === rest.join(" ")) showComponent(value);
   }
 }
@@ -56,9 +54,9 @@ function drawPicture(text) {
     parts[part.dataset.part] = part;
     if (part.dataset.gate || part.dataset.component) {
       part.classList.toggle("selected", isSelected(part));
-      part.addEventListener("click", (event) => { event.stopPropagation(); select(part); });
+      part.addEventListener("click", (event) => { event.stopPropagation(); select(part.dataset); });
       part.addEventListener("keydown", (event) => {
-        if (event.key === "Enter") { event.stopPropagation(); select(part); }
+        if (event.key === "Enter") { event.stopPropagation(); select(part.dataset); }
       });
     }
   }
@@ -84,7 +82,7 @@ function setClass(part, prefix, word) {
 function showBlock(part, value) {
   setClass(part, "state-", value.state);
   const badge = part.querySelector(".badge");
-  badge.textContent = value.state === "running" || value.state === "stopped" ? "" : value.state;
+  badge.textContent = ["running", "stopped", null].includes(value.state) ? "" : value.state;
 }
 
 function showRow(part, value) {
@@ -141,108 +139,6 @@ setInterval(() => {
   }
 }, TICK);
 
-function isSelected(part) {
-  const { gate, component } = part.dataset;
-  if (selected === null) return false;
-  return gate !== undefined ? gate === selected.gate : component !== undefined && component === selected.component;
-}
-
-function markSelected() {
-  for (const part of Object.values(parts)) part.classList.toggle("selected", isSelected(part));
-}
-
-function select(part) {
-  selected = { gate: part.dataset.gate, component: part.dataset.component };
-  markSelected();
-  field = "";
-  points = [];
-  at("details").hidden = false;
-  at("subject").textContent = selected.gate || selected.component;
-  for (const id of ["facts", "message", "calls", "field"]) at(id).replaceChildren();
-  at("plot").hidden = at("calls").hidden = true;
-  if (selected.component) {
-    showComponent(known["component " + selected.component] || { activity: "stopped", parameters: [] });
-  } else {
-    at("message").textContent = "waiting for a message";
-  }
-  connect();
-}
-
-function deselect() {
-  at("details").hidden = true;
-  const had = selected && selected.gate;
-  selected = null;
-  markSelected();
-  if (had) connect();
-}
-
-function facts(entries) {
-  const shown = entries.filter(([, value]) => value !== null && value !== undefined);
-  at("facts").replaceChildren(...shown.flatMap(([name, value]) => [element("dt", name), element("dd", value)]));
-}
-
-function showComponent(value) {
-  facts([
-    ["state", value.activity],
-    ["process", value.pid],
-    ["running for", value.since === null || value.since === undefined ? null : value.since + " s"],
-    ["processor", typeof value.processor === "number" ? (value.processor * 100).toFixed(1) + " %" : null],
-    ["memory", typeof value.memory === "number" ? (value.memory / 1048576).toFixed(1) + " MiB" : null],
-    ...value.parameters.map(([name, text]) => [name, text]),
-  ]);
-}
-
-function showGate(value) {
-  if (!selected || value.gate !== selected.gate) return;
-  if (value.error) {
-    at("message").textContent = value.error;
-    return;
-  }
-  facts([
-    ["sent", new Date(value.time).toLocaleTimeString()],
-    ["number", value.sequence],
-    ["size", value.bytes + " B"],
-  ]);
-  at("message").textContent = value.text;
-  showFields(value.fields);
-  points.push(...value.points);
-  points.splice(0, Math.max(0, points.length - POINTS));
-  plot();
-  const rows = value.calls.slice().reverse().map((call) => {
-    const row = document.createElement("tr");
-    row.append(element("td", call.kind), element("td", call.call), element("td", call.text));
-    return row;
-  });
-  at("calls").hidden = rows.length === 0;
-  at("calls").replaceChildren(...rows);
-}
-
-function showFields(fields) {
-  const choice = at("field");
-  at("plot").hidden = fields.length === 0;
-  const shown = [...choice.options].map((option) => option.value).slice(1);
-  if (fields.join("\n") === shown.join("\n")) return;
-  choice.replaceChildren(element("option", "–", { value: "" }), ...fields.map((it) => element("option", it, { value: it })));
-  choice.value = fields.includes(field) ? field : "";
-}
-
-function plot() {
-  const path = at("plot").querySelector("path");
-  if (points.length < 2) {
-    path.setAttribute("d", "");
-    at("range").textContent = field ? "waiting for numbers" : "choose a field";
-    return;
-  }
-  const values = points.map(([, value]) => value).filter(Number.isFinite);
-  const [start, end] = [points[0][0], points[points.length - 1][0]];
-  const [low, high] = [Math.min(...values), Math.max(...values)];
-  const x = (time) => ((time - start) / Math.max(end - start, 1)) * 300;
-  const y = (value) => 115 - ((value - low) / (high - low || 1)) * 110;
-  const drawn = points.filter(([, value]) => Number.isFinite(value)).map(([time, value]) => `${x(time)} ${y(value)}`);
-  path.setAttribute("d", "M" + drawn.join("L"));
-  at("range").textContent = `${low.toPrecision(5)} to ${high.toPrecision(5)}, ${((end - start) / 1e3).toFixed(1)} s`;
-}
-
 function search() {
   const wanted = at("search").value.trim().toLowerCase();
   for (const block of at("picture").querySelectorAll(".block")) {
@@ -253,13 +149,11 @@ function search() {
 
 at("search").addEventListener("input", search);
 at("view").addEventListener("change", () => { deselect(); history.clear(); connect(); });
-at("close").addEventListener("click", deselect);
-at("field").addEventListener("change", () => { field = at("field").value; points = []; connect(); });
 at("larger").addEventListener("click", () => { zoom = Math.min(zoom * 1.25, 4); resize(); });
 at("smaller").addEventListener("click", () => { zoom = Math.max(zoom / 1.25, 0.1); resize(); });
 document.addEventListener("keydown", (event) => {
   if (event.key === "Escape") { at("search").value = ""; search(); deselect(); }
-  if (event.target instanceof HTMLInputElement || event.target instanceof HTMLSelectElement) return;
+  if (event.target.matches("input, select, textarea")) return;
   if (event.key === "/") { event.preventDefault(); at("search").focus(); }
   if (event.key === "+") at("larger").click();
   if (event.key === "-") at("smaller").click();
