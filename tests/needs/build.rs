@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// Programs of which it is enough that they are there.
-const PROGRAMS: [&str; 8] = ["chromium", "fish", "git", "node", "npm", "python3", "systemd-analyze", "zsh"];
+const PROGRAMS: [&str; 10] =
+    ["chromium", "fish", "git", "node", "npm", "prometheus", "promtool", "python3", "systemd-analyze", "zsh"];
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");

@@ -38,6 +38,8 @@ mod log;
 mod measure;
 #[cfg(feature = "observe")]
 mod meters;
+#[cfg(feature = "watch")]
+mod metrics;
 #[cfg(feature = "new")]
 mod new;
 #[cfg(feature = "observe")]
@@ -160,6 +162,8 @@ commands! {
     List(list::ListArguments) => list::list;
     #[cfg(feature = "run")]
     Log(log::LogArguments) => log::log;
+    #[cfg(feature = "watch")]
+    Metrics(metrics::MetricsArguments) => metrics::metrics;
     #[cfg(feature = "new")]
     New(new::NewArguments) => new::new;
     Plan(plan::PlanArguments) => plan::plan;

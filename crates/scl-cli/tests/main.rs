@@ -53,6 +53,8 @@ mod json;
 mod list;
 #[cfg(feature = "run")]
 mod log;
+#[cfg(feature = "watch")]
+mod metrics;
 #[cfg(feature = "new")]
 mod new;
 #[cfg(feature = "record")]

@@ -41,6 +41,10 @@ const COMMANDS: &[(&[&str], i32)] = &[
     (&["schema"], 0),
     (&["top", "--once", "--period", "100ms"], 0),
     #[cfg(feature = "watch")]
+    (&["metrics"], 0),
+    #[cfg(feature = "watch")]
+    (&["metrics", "--dashboard"], 0),
+    #[cfg(feature = "watch")]
     (&["watch"], 0),
     #[cfg(feature = "watch")]
     (&["watch", "--svg"], 0),

@@ -2,6 +2,7 @@
 
 use crate::component::Component;
 use crate::peer::{Peer, peers};
+use crate::process::ProcessFigures;
 use crate::throughput::{GateRate, message_count};
 use scl::runtime_dir::{ComponentProcess, ComponentState, ConnectionFigures, GateFigures};
 use scl_plan::{GatePlan, Payload};
@@ -27,6 +28,11 @@ impl Component {
             ComponentState::Running(_) => None,
             _ => self.announcement.as_ref().map(|announcement| announcement.pid),
         }
+    }
+
+    /// Processor time and memory of its process, if it runs and is visible from here.
+    pub fn process_figures(&self) -> Option<ProcessFigures> {
+        self.process_id().filter(|_| self.is_running()).and_then(ProcessFigures::read)
     }
 
     /// The other host on which the component runs, if it does. Its process here is then the gateway that stands in for

@@ -48,6 +48,7 @@ pub use doctor::{Finding, Severity, examine};
 pub use gate::{ObservedGate, Tap};
 pub use measure::{GateReport, Measurement, Meter, at_taps};
 pub use peer::{Peer, connected_peers, peers};
+pub use process::ProcessFigures;
 pub use rate::{RateFigures, RateMeter};
 pub use runtime::{StopSignals, block_on, watch_signal};
 pub use scl_terminal::problem_of;

@@ -6,11 +6,11 @@ use std::time::Duration;
 
 /// Processor time and memory of a process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct ProcessFigures {
+pub struct ProcessFigures {
     /// Processor time of all its threads so far.
-    pub(crate) processor_time: Duration,
+    pub processor_time: Duration,
     /// Resident memory in bytes.
-    pub(crate) memory: u64,
+    pub memory: u64,
 }
 
 impl ProcessFigures {

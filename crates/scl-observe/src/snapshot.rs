@@ -1,7 +1,6 @@
 //! A system at one moment: its components and gates, with rates since the previous snapshot. Only files are read, so it
 //! costs the components nothing.
 
-use crate::process::ProcessFigures;
 use crate::{Activity, Component, System, throughput};
 use scl::runtime_dir::{ComponentStats, GateFigures};
 use scl_plan::{GateKind, GatePlan};
@@ -147,7 +146,7 @@ fn component_row(
     time: SystemTime,
 ) -> (ComponentRow, ProcessorTime) {
     let pid = component.process_id().filter(|_| component.is_running());
-    let process = pid.and_then(ProcessFigures::read);
+    let process = component.process_figures();
     let measured = pid.zip(process).map(|(pid, process)| (pid, now, process.processor_time));
     let processor = measured.zip(before.and_then(|before| before.processor)).and_then(|(after, before)| {
         let elapsed = after.1.duration_since(before.1).as_secs_f64();

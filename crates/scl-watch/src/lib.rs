@@ -1,5 +1,6 @@
-//! The live picture of a running system, for `scl watch`: a page in a browser with the components, what flows between
-//! their gates, and what is wrong now. Nothing is read while no page is open, and components notice nothing.
+//! What SCL serves of running systems: to a browser, the live picture of `scl watch` with the components, what flows
+//! between their gates, and what is wrong now; to Prometheus, the figures of `scl metrics`. Nothing is read while
+//! nobody asks, and components notice nothing.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod access;
@@ -10,6 +11,7 @@ mod happenings;
 mod http;
 mod live;
 mod log;
+mod metrics;
 mod picture;
 mod plans;
 mod problems;
@@ -19,6 +21,7 @@ mod shown;
 mod site;
 mod stream;
 
+pub use metrics::{DASHBOARD, MetricsServer, metrics};
 pub use server::{Server, Source};
 
 use picture::VARIANTS;

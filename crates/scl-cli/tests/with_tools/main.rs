@@ -18,6 +18,8 @@ mod languages;
 mod lsp;
 #[cfg(feature = "record")]
 mod mcap;
+#[cfg(feature = "watch")]
+mod metrics;
 mod npm;
 #[cfg(feature = "record")]
 #[allow(dead_code, reason = "the other tests use the rest")]
