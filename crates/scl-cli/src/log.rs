@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use scl_run::{LogEntry, LogFolder, LogReader, LogStream, running_systems};
 use scl_terminal::{
     Problem, choose_system, escape, escape_json, output_is_closed, output_is_terminal, parse_duration, print_out,
-    quoted_list, timestamp,
+    quoted_list, reader_has_gone, timestamp,
 };
 use std::collections::VecDeque;
 use std::env;
@@ -80,7 +80,7 @@ pub(crate) fn log(arguments: &LogArguments) -> Result<ExitCode, Problem> {
     let mut printer = Printer::new(arguments);
     print_existing(arguments, &mut reader, &mut printer).map_err(unreadable)?;
     // Follow until a signal ends the process or the reader closes the output.
-    while arguments.follow && !output_is_closed() {
+    while arguments.follow && !output_is_closed() && !reader_has_gone() {
         match reader.next_entry().map_err(unreadable)? {
             Some(entry) => printer.print(&entry),
             None => sleep(LOOK),

@@ -15,6 +15,7 @@ pub use error::{message_and_help, problem_of};
 pub use escape::{escape, escape_bytes, escape_json};
 pub use print::{
     finish_output, note_failure, output_is_closed, output_is_terminal, print_err, print_out, print_out_bytes,
+    reader_has_gone,
 };
 pub use problem::Problem;
 pub use scl_text::{duration::parse_duration, list::quoted_list, suggest::closest_name};

@@ -4,6 +4,7 @@
 //! one. A command that prints a stream checks [`output_is_closed`] after each message, to end when no more can be
 //! printed. Lints forbid other ways of writing to standard output.
 
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::process::ExitCode;
 use std::sync::OnceLock;
@@ -32,6 +33,14 @@ pub fn print_out_bytes(bytes: &[u8]) {
 /// Whether a write to standard output has failed: its reader has gone, or the disk is full.
 pub fn output_is_closed() -> bool {
     FAILURE.get().is_some()
+}
+
+/// Whether the reader of standard output has gone, for commands that may have nothing to print for long.
+pub fn reader_has_gone() -> bool {
+    let output = io::stdout();
+    let mut polled = [PollFd::new(&output, PollFlags::empty())];
+    let is_polled = poll(&mut polled, Some(&Timespec::default())).is_ok();
+    is_polled && polled[0].revents().intersects(PollFlags::ERR | PollFlags::HUP)
 }
 
 /// Whether standard output is a terminal.
