@@ -157,6 +157,17 @@ fn pages_beyond_the_limit_are_refused_until_others_close() {
 }
 
 #[test]
+fn a_component_with_500_gates_is_drawn() {
+    let gates: String = (0..500).map(|number| format!("      - g{number}: pub\n")).collect();
+    let rover = Rover::of(&format!("system: many\ncomponents:\n  - name: hub\n    gates:\n{gates}connections: []\n"));
+    let watch = Watch::start(rover.scl(&["watch", "--system", "many"]));
+    let mut page = Page::open(&watch);
+    page.wait_until(|page| page.known.contains_key("picture"));
+    let picture = page.known["picture"].as_str().unwrap();
+    assert_eq!(picture.matches("data-gate=\"hub.g").count(), 500);
+}
+
+#[test]
 fn a_still_picture_shows_this_moment() {
     let rover = Rover::start();
     let picture = rover.text(&["watch", "--svg"]);

@@ -64,6 +64,14 @@ fn a_page_plays_to_the_end() {
 }
 
 #[test]
+fn a_recording_that_is_removed_meanwhile_is_explained() {
+    let (rover, watch) = replayed();
+    std::fs::remove_file(rover.path("flight.mcap")).unwrap();
+    let state = watch.events("view=0").next("state");
+    assert!(state["problems"][0].as_str().unwrap().contains("cannot read `flight.mcap`"), "{state}");
+}
+
+#[test]
 fn what_is_no_recording_of_a_system_is_explained() {
     let rover = Rover::stopped();
     assert!(rover.error(&["watch", "--replay", "flight.mcap"], 2).contains("`flight.mcap`"));

@@ -45,7 +45,7 @@ pub(crate) struct Play {
 }
 
 /// One page.
-pub(crate) struct Player {
+struct Player {
     recorded: Arc<Recorded>,
     picture: Picture,
     board: Board,
@@ -95,12 +95,31 @@ impl Recorded {
     }
 }
 
+/// Plays a recording for a page until that closes, or shows why it cannot.
+pub(crate) async fn play(
+    recorded: Arc<Recorded>,
+    variant: usize,
+    play: Play,
+    gate: Option<(String, Option<FieldPath>)>,
+    mut events: Events,
+) {
+    let played = match Player::new(recorded, variant, play, gate) {
+        Ok(player) => player.run(&mut events).await,
+        Err(problem) => Err(problem),
+    };
+    if let Err(problem) = played
+        && events.send("state", &json!({"problems": [problem.message()]})).await
+    {
+        events.closed().await;
+    }
+}
+
 impl Player {
     /// Goes to a position.
     ///
     /// # Errors
     /// A file cannot be read or is damaged.
-    pub(crate) fn new(
+    fn new(
         recorded: Arc<Recorded>,
         variant: usize,
         play: Play,
@@ -129,7 +148,10 @@ impl Player {
     }
 
     /// Sends what changes, until the page closes.
-    pub(crate) async fn play(mut self, mut events: Events) {
+    ///
+    /// # Errors
+    /// A file cannot be read any more.
+    async fn run(mut self, events: &mut Events) -> Result<(), Problem> {
         let mut due = interval(PERIOD);
         due.set_missed_tick_behavior(MissedTickBehavior::Delay);
         let (mut version, mut before) = (0, Instant::now());
@@ -140,17 +162,13 @@ impl Player {
                 _ = due.tick() => true,
             };
             if !is_there {
-                return;
+                return Ok(());
             }
             let now = Instant::now();
             let passed = Duration::try_from_secs_f64(now.duration_since(before).as_secs_f64() * self.speed);
             before = now;
             self.position = (self.position + passed.unwrap_or_default()).min(self.recorded.index.length());
-            if let Err(problem) = self.advance() {
-                // The file was removed or changed.
-                events.send("problem", &json!(problem.message())).await;
-                return;
-            }
+            self.advance()?;
             self.show(now);
             let (values, newest) = self.board.since(version);
             version = newest;
@@ -158,7 +176,7 @@ impl Player {
             let sent = values.is_empty() || events.send("state", &values.into_iter().collect()).await;
             let sent = sent && if let Some(shown) = shown { events.send("gate", &shown).await } else { true };
             if !sent {
-                return;
+                return Ok(());
             }
         }
     }

@@ -6,7 +6,7 @@ use crate::details::Details;
 use crate::http::{Answer, plain, respond, serve};
 use crate::log::Log;
 use crate::picture::VARIANTS;
-use crate::replay::{Play, Player, Recorded};
+use crate::replay::{Play, Recorded, play};
 use crate::site::Site;
 use crate::stream::{Chosen, Stream, send_all};
 use http_body_util::{BodyExt, Full, Limited};
@@ -162,10 +162,7 @@ impl Pages {
             }
             Content::Recorded(recorded) => {
                 let gate = gate.map(|gate| (gate, field));
-                match Player::new(recorded.clone(), variant, play_of(query), gate) {
-                    Ok(player) => drop(tokio::spawn(player.play(events))),
-                    Err(problem) => return plain(StatusCode::INTERNAL_SERVER_ERROR, problem.message()),
-                }
+                tokio::spawn(play(recorded.clone(), variant, play_of(query), gate, events));
             }
         }
         respond(StatusCode::OK, "text/event-stream", stream.boxed())

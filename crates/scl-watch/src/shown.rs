@@ -149,3 +149,50 @@ fn text_of(value: &Value) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{LONGEST_TEXT, MOST_POINTS, Message, Shown};
+    use scl::bytes::Bytes;
+    use scl::tap::ObservedKind;
+    use scl_value::MessageType;
+
+    fn shown(field: Option<&str>) -> Shown {
+        let json = || MessageType::new(Some("x.Y"), "json", None).unwrap();
+        Shown::new("a.b".to_owned(), (json(), json()), field.map(|field| field.parse().unwrap()))
+    }
+
+    fn message(number: u64, payload: impl Into<Bytes>) -> Message {
+        let (kind, sent_ns) = (ObservedKind::Message, number * 1_000_000);
+        Message { kind, sequence: number, call: 0, sent_ns, payload: payload.into() }
+    }
+
+    #[test]
+    fn of_a_long_message_the_beginning_is_shown_and_of_a_huge_one_its_length() {
+        let mut shown = shown(None);
+        let text_of = |shown: &mut Shown, payload: String| {
+            shown.learn(message(0, payload));
+            shown.take().unwrap()["text"].as_str().unwrap().to_owned()
+        };
+        let text = text_of(&mut shown, format!("[{}1]", "1, ".repeat(1 << 20)));
+        assert!(text.len() < LONGEST_TEXT + 10 && text.ends_with("\n…"), "{}", text.len());
+        let text = text_of(&mut shown, format!("[{}1]", "1,".repeat(32 << 20)));
+        assert!(text.len() < LONGEST_TEXT && text.contains("too long to be decoded"), "{text}");
+    }
+
+    #[test]
+    fn many_numbers_are_thinned_out_evenly() {
+        let mut shown = shown(Some("n"));
+        for number in 0..10_000 {
+            shown.learn(message(number, format!("{{\"n\": {number}}}")));
+        }
+        let value = shown.take().unwrap();
+        let times: Vec<f64> = value["points"].as_array().unwrap().iter().map(|it| it[0].as_f64().unwrap()).collect();
+        assert!((MOST_POINTS / 2..=MOST_POINTS).contains(&times.len()), "{}", times.len());
+        assert!(times[0] < 100.0 && times[times.len() - 1] > 9_900.0);
+        let distances: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let (shortest, longest) =
+            (distances.iter().copied().fold(f64::MAX, f64::min), distances.iter().copied().fold(0.0, f64::max));
+        assert!(longest < 3.0 * shortest, "{shortest} {longest}");
+    }
+}

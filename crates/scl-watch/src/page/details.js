@@ -31,9 +31,15 @@ function select({ gate, component }) {
     showComponent(known["component " + component] || { activity: "stopped", parameters: [], gates: [] });
   } else {
     at("message").textContent = "waiting for a message";
-    if (!at("call").hidden) act({ action: "template", gate }).then((done) => { at("request").value = done.text; });
+    if (!at("call").hidden) showTemplate(gate);
   }
   connect();
+}
+
+async function showTemplate(gate) {
+  at("request").value = "";
+  const template = await act({ action: "template", gate });
+  if (template.done && selected && selected.gate === gate && !at("request").value) at("request").value = template.text;
 }
 
 function deselect() {

@@ -2,7 +2,7 @@
 // only the picture, which the server has drawn and escaped, becomes elements.
 const history = new Map(); // the rates of each row, one for each half second
 const HISTORY = 120, TICK = 500, POINTS = 3000;
-let known = {}, parts = {}, drawn = "", source = null, zoom = null;
+let known = {}, parts = {}, drawn = "", source = null, zoom = null, isNew = false;
 
 function connect() {
   if (source) source.close();
@@ -14,7 +14,7 @@ function connect() {
   source.addEventListener("state", (event) => show(JSON.parse(event.data)));
   source.addEventListener("gate", (event) => showGate(JSON.parse(event.data)));
   source.addEventListener("log", (event) => showLog(JSON.parse(event.data)));
-  source.addEventListener("open", () => { known = {}; showProblems(); });
+  source.addEventListener("open", () => { isNew = true; });
   source.addEventListener("error", () => {
     at("problems").className = "away";
     at("problems").textContent = "no connection to scl watch";
@@ -22,6 +22,11 @@ function connect() {
 }
 
 function show(values) {
+  if (isNew) {
+    // The first values of a connection are all that there are.
+    known = {};
+    isNew = false;
+  }
   if (values.picture !== undefined) {
     drawPicture(values.picture);
     values = Object.assign({}, known, values);
