@@ -4,6 +4,8 @@
 
 #[cfg(feature = "bench")]
 mod bench;
+#[cfg(feature = "bridge")]
+mod bridge;
 #[cfg(feature = "observe")]
 mod call;
 mod check;
@@ -127,6 +129,8 @@ commands! {
     #[cfg(feature = "bench")]
     #[command(name = scl_bench::WORKER_COMMAND, hide = true)]
     BenchWorker(bench::WorkerArguments) => bench::run_worker;
+    #[cfg(feature = "bridge")]
+    Bridge(bridge::BridgeArguments) => bridge::bridge;
     #[cfg(feature = "observe")]
     Bw(meters::BwArguments) => meters::bw;
     #[cfg(feature = "observe")]

@@ -60,8 +60,8 @@ const COMMANDS: &[(&[&str], i32)] = &[
 ];
 
 /// Commands that are tried elsewhere, or print nothing to standard output.
-const OTHERS: [&str; 11] =
-    ["deploy", "gateway", "help", "new", "pub", "replay", "restart", "run", "set", "simulate", "stop"];
+const OTHERS: [&str; 12] =
+    ["bridge", "deploy", "gateway", "help", "new", "pub", "replay", "restart", "run", "set", "simulate", "stop"];
 
 const FULL: &str = "error: cannot write to standard output: No space left on device (os error 28)\n";
 

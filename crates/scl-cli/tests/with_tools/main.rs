@@ -4,6 +4,8 @@
 
 #[cfg(feature = "bench")]
 mod bench;
+#[cfg(feature = "bridge")]
+mod bridge;
 #[cfg(feature = "watch")]
 mod browser;
 #[cfg(feature = "watch")]
