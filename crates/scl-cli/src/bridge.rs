@@ -5,8 +5,9 @@ use crate::observed::SystemArgument;
 use clap::{Args, Subcommand};
 use scl::tap::{Observation, ObservedKind, TapEvent};
 use scl_observe::{ObservedGate, Selection, StopSignals, System, Taps, TapsEvent, block_on};
+use scl_record::format::{Part, Topic};
 use scl_terminal::{Problem, print_out};
-use scl_value::{MessageType, to_json};
+use scl_value::{GateTypes, to_json};
 use std::path::Path;
 use std::process::ExitCode;
 use zeromq::{PubSocket, Socket, SocketSend, ZmqMessage};
@@ -47,11 +48,10 @@ struct PlotjugglerArguments {
     system: SystemArgument,
 }
 
-/// The types of a gate: of its messages or requests, and of its replies.
-struct Types {
+/// A gate, and how its messages are published.
+struct Published {
     gate: ObservedGate,
-    message: MessageType,
-    reply: MessageType,
+    types: GateTypes,
 }
 
 /// The body of `scl bridge`.
@@ -71,37 +71,38 @@ async fn publish(arguments: &PlotjugglerArguments) -> Result<ExitCode, Problem> 
     })?;
     print_out(&format!("{address}\n"));
     let mut taps = Taps::follow_all(&system, move |gate| selection.includes(gate));
-    let mut types: Vec<Types> = Vec::new();
+    let mut gates: Vec<Published> = Vec::new();
     loop {
         let event = tokio::select! {
             () = stop.received() => break,
             event = taps.next() => event,
         };
-        for gate in &taps.gates()[types.len()..] {
-            types.push(Types::new(gate.clone()));
+        for gate in &taps.gates()[gates.len()..] {
+            gates.push(Published::new(gate.clone()));
         }
         if let TapsEvent::Event { gate, event: TapEvent::Observed(seen) } = event {
             // Fails only if no subscriber takes it.
-            _ = socket.send(types[gate].frames(&seen)).await;
+            _ = socket.send(gates[gate].frames(&seen)).await;
         }
     }
     Ok(ExitCode::SUCCESS)
 }
 
-impl Types {
+impl Published {
     fn new(gate: ObservedGate) -> Self {
-        let (message, reply) = MessageType::of_gate(gate.payload.types(), &gate.codec, gate.schema.as_deref());
-        Self { gate, message, reply }
+        let types = GateTypes::new(gate.payload.types(), &gate.codec, gate.schema.as_deref());
+        Self { gate, types }
     }
 
     /// Topic, message and time.
     fn frames(&self, seen: &Observation) -> ZmqMessage {
-        let (messages, part) = match seen.kind {
-            ObservedKind::Message => (&self.message, ""),
-            ObservedKind::Request => (&self.message, "/request"),
-            ObservedKind::Reply => (&self.reply, "/reply"),
+        let part = match seen.kind {
+            ObservedKind::Message => Part::Message,
+            ObservedKind::Request => Part::Request,
+            ObservedKind::Reply => Part::Reply,
         };
-        let topic = format!("/{}/{}{part}", self.gate.component, self.gate.gate);
+        let topic = Topic { component: self.gate.component.clone(), gate: self.gate.gate.clone(), part }.to_string();
+        let messages = self.types.of(part == Part::Reply);
         let text = to_json(&messages.for_json(messages.show(&seen.payload))).to_string();
         let mut frames = ZmqMessage::from(topic);
         frames.push_back(text.into());

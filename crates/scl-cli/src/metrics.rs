@@ -15,7 +15,7 @@ use std::process::ExitCode;
 /// `/metrics` until the command is stopped; systems that start later appear. Everything is read from the files that
 /// components write twice a second, when somebody asks.
 ///
-/// The figures contain no messages, but whoever reaches the address can read them.
+/// The figures contain no messages, but anyone who can reach the address can read them.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

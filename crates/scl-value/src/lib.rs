@@ -24,6 +24,7 @@ mod base64;
 mod condition;
 mod error;
 mod field_kind;
+mod gate_types;
 mod limits;
 mod message_type;
 mod path;
@@ -36,6 +37,7 @@ mod value;
 
 pub use condition::{Condition, ConditionError};
 pub use error::{DecodeError, Mismatch, TypeError};
+pub use gate_types::GateTypes;
 pub use message_type::MessageType;
 pub use path::{FieldPath, PathError};
 pub use text::{Documents, ReadError, Table, read_yaml, to_yaml};

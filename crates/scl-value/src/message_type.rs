@@ -59,20 +59,6 @@ impl MessageType {
         Ok(Self { form })
     }
 
-    /// The messages or requests of a gate, and its replies, by the names of the types in its payload. What cannot be
-    /// read is shown as bytes, with the reason.
-    pub fn of_gate<'t>(
-        mut names: impl Iterator<Item = &'t str>,
-        codec: &str,
-        descriptors: Option<&[u8]>,
-    ) -> (Self, Self) {
-        let read = |name: Option<&str>| {
-            Self::new(name, codec, descriptors).unwrap_or_else(|error| Self::opaque(error.to_string()))
-        };
-        let first = names.next();
-        (read(first), read(names.next().or(first)))
-    }
-
     /// Messages that are shown as bytes, and why.
     pub fn opaque(why: impl Into<String>) -> Self {
         Self { form: Form::Opaque { why: why.into() } }

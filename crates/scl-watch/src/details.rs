@@ -3,7 +3,7 @@
 use crate::shown::Shown;
 use scl::tap::TapEvent;
 use scl_observe::{ObservedGate, System, Taps, TapsEvent};
-use scl_value::{FieldPath, MessageType};
+use scl_value::{FieldPath, GateTypes};
 use serde_json::{Value as Json, json};
 use std::time::Duration;
 use tokio::time::{Instant, sleep_until};
@@ -69,7 +69,7 @@ impl Details {
 impl Open {
     /// `name` is the gate that the page asks for, which may be a peer of the observed one.
     fn new(system: &System, gate: ObservedGate, name: String, field: Option<FieldPath>) -> Self {
-        let types = MessageType::of_gate(gate.payload.types(), &gate.codec, gate.schema.as_deref());
+        let types = GateTypes::new(gate.payload.types(), &gate.codec, gate.schema.as_deref());
         let shown = Shown::new(name, types, field);
         Self { taps: Taps::open(system, vec![gate]), shown }
     }

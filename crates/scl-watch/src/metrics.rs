@@ -4,7 +4,7 @@ mod families;
 mod text;
 
 use crate::http::{Answer, plain, respond, serve};
-use families::{COMPONENT, CONNECTION, GATE, STATES, Seen};
+use families::{COMPONENT, CONNECTION, Figure, GATE, STATES, Seen};
 use http_body_util::{BodyExt, Full};
 use hyper::body::Incoming;
 use hyper::{Method, Request, StatusCode};
@@ -14,7 +14,7 @@ use std::io;
 use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::SystemTime;
-use text::{Kind, Text};
+use text::{Kind, Labels, Text};
 use tokio::net::TcpListener;
 
 /// What Prometheus asks for.
@@ -81,18 +81,16 @@ pub fn metrics(systems: &[System]) -> String {
         STATES.map(|state| ([it.labels(), vec![("state", state.into())]].concat(), f64::from(state == is)))
     });
     text.family("scl_component_state", Kind::Gauge, "1 for the state that the component is in.", states);
-    for figure in &COMPONENT {
-        let samples = seen.iter().filter_map(|it| Some((it.labels(), (figure.value)(it)?)));
-        text.family(figure.name, figure.kind, figure.help, samples);
-    }
-    for figure in &GATE {
-        let samples = seen.iter().flat_map(Seen::gates).filter_map(|(labels, it)| Some((labels, (figure.value)(it)?)));
-        text.family(figure.name, figure.kind, figure.help, samples);
-    }
-    for figure in &CONNECTION {
-        let connections = seen.iter().flat_map(Seen::connections);
-        let samples = connections.filter_map(|(labels, it)| Some((labels, (figure.value)(it)?)));
-        text.family(figure.name, figure.kind, figure.help, samples);
-    }
+    tell(&mut text, &COMPONENT, &seen.iter().map(|it| (it.labels(), it)).collect::<Vec<_>>());
+    tell(&mut text, &GATE, &seen.iter().flat_map(Seen::gates).collect::<Vec<_>>());
+    tell(&mut text, &CONNECTION, &seen.iter().flat_map(Seen::connections).collect::<Vec<_>>());
     text.finish()
+}
+
+/// Adds figures of things, each with its labels.
+fn tell<T>(text: &mut Text, figures: &[Figure<T>], things: &[(Labels<'_>, &T)]) {
+    for figure in figures {
+        let samples = things.iter().filter_map(|(labels, it)| Some((labels.clone(), (figure.value)(it)?)));
+        text.family(figure.name, figure.kind, figure.help, samples);
+    }
 }

@@ -12,7 +12,7 @@ use scl_plan::{GateKind, GatePlan, Plan, SystemPlan};
 use scl_record::format::Part;
 use scl_record::recording::{Index, MessagesFrom, RecordedChannel, Recording, TimedMessage};
 use scl_terminal::Problem;
-use scl_value::{FieldPath, MessageType};
+use scl_value::{FieldPath, GateTypes, MessageType};
 use serde_json::json;
 use std::collections::{BTreeMap, HashMap, VecDeque};
 use std::sync::Arc;
@@ -85,13 +85,13 @@ impl Recorded {
         self.channels.get(gate).map_or(&[], Vec::as_slice)
     }
 
-    fn types_of(&self, channels: &[usize]) -> (MessageType, MessageType) {
+    fn types_of(&self, channels: &[usize]) -> GateTypes {
         let of = |is_reply: bool| {
             let mut channels = channels.iter().map(|&channel| &self.index.channels()[channel]);
             let found = channels.find(|channel| (channel.topic.part == Part::Reply) == is_reply);
             found.map_or_else(|| MessageType::opaque("nothing of it was recorded"), RecordedChannel::message_type)
         };
-        (of(false), of(true))
+        GateTypes { message: of(false), reply: of(true) }
     }
 }
 

@@ -3,7 +3,7 @@
 
 use scl::bytes::Bytes;
 use scl::tap::{Observation, ObservedKind};
-use scl_value::{FieldPath, MessageType, Value, to_yaml};
+use scl_value::{FieldPath, GateTypes, MessageType, Value, to_yaml};
 use serde_json::{Value as Json, json};
 use std::collections::VecDeque;
 
@@ -31,14 +31,13 @@ pub(crate) struct Message {
 /// The messages of a gate.
 pub(crate) struct Shown {
     gate: String,
-    message: MessageType,
-    reply: MessageType,
+    types: GateTypes,
     /// The field that is plotted.
     field: Option<FieldPath>,
     last: Option<Message>,
     seen: u64,
     points: Vec<(f64, f64)>,
-    /// Of so many numbers, one becomes a point.
+    /// One number in this many becomes a point.
     thinned: u64,
     calls: VecDeque<Message>,
 }
@@ -51,19 +50,9 @@ impl From<Observation> for Message {
 }
 
 impl Shown {
-    /// Shows messages of these types, the latter for replies.
-    pub(crate) fn new(gate: String, (message, reply): (MessageType, MessageType), field: Option<FieldPath>) -> Self {
-        Self {
-            gate,
-            message,
-            reply,
-            field,
-            last: None,
-            seen: 0,
-            points: Vec::new(),
-            thinned: 1,
-            calls: VecDeque::new(),
-        }
+    /// Shows messages of these types.
+    pub(crate) fn new(gate: String, types: GateTypes, field: Option<FieldPath>) -> Self {
+        Self { gate, types, field, last: None, seen: 0, points: Vec::new(), thinned: 1, calls: VecDeque::new() }
     }
 
     /// Whether there is nothing to show.
@@ -118,11 +107,10 @@ impl Shown {
     }
 
     fn decode(&self, seen: &Message) -> Value {
-        let messages = if seen.kind == ObservedKind::Reply { &self.reply } else { &self.message };
         if seen.payload.len() > LONGEST_DECODED {
             return MessageType::opaque("it is too long to be decoded here").show(&seen.payload);
         }
-        messages.show(&seen.payload)
+        self.types.of(seen.kind == ObservedKind::Reply).show(&seen.payload)
     }
 }
 
@@ -155,11 +143,15 @@ mod tests {
     use super::{LONGEST_TEXT, MOST_POINTS, Message, Shown};
     use scl::bytes::Bytes;
     use scl::tap::ObservedKind;
-    use scl_value::MessageType;
+    use scl_value::{GateTypes, MessageType};
 
     fn shown(field: Option<&str>) -> Shown {
         let json = || MessageType::new(Some("x.Y"), "json", None).unwrap();
-        Shown::new("a.b".to_owned(), (json(), json()), field.map(|field| field.parse().unwrap()))
+        Shown::new(
+            "a.b".to_owned(),
+            GateTypes { message: json(), reply: json() },
+            field.map(|field| field.parse().unwrap()),
+        )
     }
 
     fn message(number: u64, payload: impl Into<Bytes>) -> Message {

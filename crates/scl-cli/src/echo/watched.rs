@@ -4,7 +4,7 @@ use scl::tap::{Observation, ObservedKind};
 use scl_observe::{ObservedGate, System};
 use scl_plan::Payload;
 use scl_terminal::print_err;
-use scl_value::{Condition, FieldPath, MessageType, Mismatch, Value};
+use scl_value::{Condition, FieldPath, GateTypes, MessageType, Mismatch, Value};
 use std::time::{Duration, Instant};
 
 /// Losses within this time are noted together: at a thousand messages a second, writing a note for each would cause the
@@ -15,9 +15,7 @@ const BETWEEN_NOTES: Duration = Duration::from_secs(1);
 pub(super) struct Watched {
     gate: ObservedGate,
     pub(super) name: String,
-    /// The type of the messages or requests.
-    message: MessageType,
-    reply: MessageType,
+    types: GateTypes,
     /// The sequence number of the next message if none is lost; `None` right after connecting.
     next: Option<u64>,
     was_connected: bool,
@@ -30,9 +28,9 @@ pub(super) struct Watched {
 
 impl Watched {
     pub(super) fn new(gate: ObservedGate) -> Self {
-        let (message, reply) = types_of(&gate);
+        let types = types_of(&gate);
         let name = gate.name();
-        Self { gate, name, message, reply, next: None, was_connected: false, lost: 0, unnoted: 0, noted: None }
+        Self { gate, name, types, next: None, was_connected: false, lost: 0, unnoted: 0, noted: None }
     }
 
     /// Whether it has requests and replies.
@@ -42,7 +40,7 @@ impl Watched {
 
     /// The types of its messages, or of its requests and replies.
     pub(super) fn types(&self) -> impl Iterator<Item = &MessageType> {
-        std::iter::once(&self.message).chain(self.exchanges().then_some(&self.reply))
+        std::iter::once(&self.types.message).chain(self.exchanges().then_some(&self.types.reply))
     }
 
     pub(super) fn check_field(&self, path: &FieldPath) -> Result<(), Mismatch> {
@@ -55,8 +53,8 @@ impl Watched {
 
     /// Returns the first error if `check` fails for all of the gate's types.
     fn check(&self, check: impl Fn(&MessageType) -> Result<(), Mismatch>) -> Result<(), Mismatch> {
-        check(&self.message).or_else(|error| match self.exchanges() {
-            true => check(&self.reply).map_err(|_| error),
+        check(&self.types.message).or_else(|error| match self.exchanges() {
+            true => check(&self.types.reply).map_err(|_| error),
             false => Err(error),
         })
     }
@@ -66,7 +64,7 @@ impl Watched {
     pub(super) fn connected(&mut self, system: &System) {
         if self.was_connected {
             if let Ok(gate) = system.gate(&self.name) {
-                (self.message, self.reply) = types_of(&gate);
+                self.types = types_of(&gate);
                 self.gate = gate;
             }
             print_err(&format!("note: `{}` is connected again\n", self.name));
@@ -109,14 +107,11 @@ impl Watched {
     }
 
     fn type_of(&self, seen: &Observation) -> &MessageType {
-        match seen.kind {
-            ObservedKind::Reply => &self.reply,
-            ObservedKind::Message | ObservedKind::Request => &self.message,
-        }
+        self.types.of(seen.kind == ObservedKind::Reply)
     }
 }
 
 /// Returns the types of a gate's messages or requests, and of its replies.
-fn types_of(gate: &ObservedGate) -> (MessageType, MessageType) {
-    MessageType::of_gate(gate.payload.types(), &gate.codec, gate.schema.as_deref())
+fn types_of(gate: &ObservedGate) -> GateTypes {
+    GateTypes::new(gate.payload.types(), &gate.codec, gate.schema.as_deref())
 }
