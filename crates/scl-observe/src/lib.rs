@@ -18,6 +18,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod bandwidth;
+mod commands;
 mod component;
 mod delay;
 mod distribution;
@@ -41,6 +42,7 @@ mod throughput;
 mod woken;
 
 pub use bandwidth::{BandwidthFigures, BandwidthMeter};
+pub use commands::Commands;
 pub use component::{Activity, Component};
 pub use delay::{DelayFigures, DelayMeter};
 pub use distribution::{Distribution, Spread};

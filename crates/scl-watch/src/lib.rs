@@ -4,8 +4,8 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod access;
+mod actions;
 mod board;
-mod commands;
 mod details;
 mod happenings;
 mod http;

@@ -1,6 +1,6 @@
 //! What a component prints: the last lines, and those that follow, as `scl log` shows them.
 
-use crate::commands::Commands;
+use scl_observe::Commands;
 use serde_json::{Value as Json, json};
 use std::mem::take;
 use std::process::Stdio;

@@ -1,7 +1,7 @@
 //! The server of the live picture: one page and its streams.
 
 use crate::access::{Access, parameter, random_text};
-use crate::commands::Commands;
+use crate::actions::Action;
 use crate::details::Details;
 use crate::http::{Answer, plain, respond, serve};
 use crate::log::Log;
@@ -13,7 +13,7 @@ use http_body_util::{BodyExt, Full, Limited};
 use hyper::body::Incoming;
 use hyper::header::CONTENT_SECURITY_POLICY;
 use hyper::{Method, Request, StatusCode};
-use scl_observe::System;
+use scl_observe::{Commands, System};
 use scl_plan::SystemPlan;
 use scl_record::recording::Recording;
 use scl_terminal::Problem;
@@ -177,9 +177,9 @@ async fn act(commands: &Commands, actions: &Semaphore, request: Request<Incoming
     let Ok(body) = Limited::new(request.into_body(), LONGEST_ACTION).collect().await else {
         return plain(StatusCode::PAYLOAD_TOO_LARGE, format!("an action has at most {LONGEST_ACTION} bytes\n"));
     };
-    match serde_json::from_slice(&body.to_bytes()) {
+    match serde_json::from_slice::<Action>(&body.to_bytes()) {
         Ok(action) => {
-            let done = commands.run(&action).await.to_string();
+            let done = action.run(commands).await.to_string();
             respond(StatusCode::OK, "application/json", Full::from(done).boxed())
         }
         Err(error) => plain(StatusCode::BAD_REQUEST, format!("not an action: {error}\n")),
