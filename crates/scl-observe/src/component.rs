@@ -23,6 +23,8 @@ pub struct Component {
     pub announcement: Option<Announcement>,
     /// Its latest figures; `None` if it writes none (`SCL_STATS=off`).
     pub stats: Option<ComponentStats>,
+    /// When it wrote them, by the clock of this machine.
+    pub last_write: Option<SystemTime>,
     /// The values of its parameters, by name and as texts like in the topology file.
     pub values: Vec<(String, String)>,
 }
@@ -31,8 +33,8 @@ impl Component {
     pub(crate) fn read(dir: &SystemDir, name: &str) -> Self {
         let state = dir.state(name);
         let announcement = Announcement::read(dir, name);
-        let stats = ComponentStats::read(dir, name);
-        let mut component = Self { name: name.to_owned(), state, announcement, stats, values: Vec::new() };
+        let (stats, last_write) = (ComponentStats::read(dir, name), ComponentStats::last_write(dir, name));
+        let mut component = Self { name: name.to_owned(), state, announcement, stats, last_write, values: Vec::new() };
         if component.plan().is_some_and(|plan| !plan.parameters.is_empty()) {
             component.values = scl::parameters::values(dir, name).unwrap_or_default();
         }
@@ -46,6 +48,7 @@ impl Component {
             state: ComponentState::Stopped,
             announcement: None,
             stats: None,
+            last_write: None,
             values: Vec::new(),
         }
     }
@@ -96,7 +99,7 @@ impl Component {
     /// hangs: its runtime does not run, or the process is stopped.
     pub fn silent_for(&self, now: SystemTime) -> Option<Duration> {
         let stats = self.stats.as_ref().filter(|_| self.is_running())?;
-        let age = now.duration_since(stats.written).ok()?;
+        let age = now.duration_since(self.last_write?).ok()?;
         (age > SHORTEST_SILENCE.max(stats.period * MISSED_PERIODS)).then_some(age)
     }
 

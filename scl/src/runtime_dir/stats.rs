@@ -132,6 +132,12 @@ impl ComponentStats {
     pub fn read(dir: &SystemDir, component: &str) -> Option<Self> {
         file::read(&dir.file_of(component, ".stats").ok()?)
     }
+
+    /// When a component wrote them last, by the clock of this machine. [`written`](Self::written) is by the component's
+    /// own, which is another in simulated time.
+    pub fn last_write(dir: &SystemDir, component: &str) -> Option<SystemTime> {
+        std::fs::metadata(dir.file_of(component, ".stats").ok()?).ok()?.modified().ok()
+    }
 }
 
 impl GateFigures {

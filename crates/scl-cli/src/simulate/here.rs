@@ -58,7 +58,7 @@ pub(crate) fn simulate_here(here: &HereArguments) -> Result<ExitCode, Vec<Proble
     }
     let SimulateArguments { programs, until, seed, speed, patience, most_turns, played, .. } = &here.arguments;
     let seed = here.with_seed.unwrap_or(*seed);
-    // Tools that look at it live in real time, and would take it for old.
+    // Tools that look at it live in real time, and would show other times.
     let start = speed.map_or(SIMULATION_START, |_| {
         Duration::from_secs(SystemTime::UNIX_EPOCH.elapsed().unwrap_or_default().as_secs())
     });

@@ -1,13 +1,16 @@
 //! Components of SCL in simulated time: async, blocking, and with several threads.
 
 use super::{errors, lines_of, of_components, plan, simulate, text};
-use crate::system::{ChildGuard, SpawnGuarded, System};
+use crate::system::{ChildGuard, SpawnGuarded, System, kill};
 use scl::bytes::Bytes;
+use scl::runtime_dir::{ComponentStats, RuntimeDir};
 use scl::untyped::Component;
+use scl_tests::wait_until;
+use serde_json::Value;
 use std::collections::HashMap;
 use std::fs;
-use std::io::Read;
-use std::process::{Command, Output};
+use std::io::{BufRead, BufReader, Read};
+use std::process::{Command, Output, Stdio};
 use std::sync::mpsc::channel;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -187,6 +190,37 @@ fn everything_is_the_same_in_each_run_whatever_the_machine_does() {
 /// A process that keeps a processor busy.
 fn spin() -> ChildGuard {
     Command::new("sh").args(["-c", "while :; do :; done"]).spawn_guarded()
+}
+
+/// The time of a simulation that is slower than the machine is soon far behind that of the tools that look at it.
+#[test]
+fn tools_see_that_programs_work_although_their_time_is_behind() {
+    if play() {
+        return;
+    }
+    let test = "simulate::components::tools_see_that_programs_work_although_their_time_is_behind";
+    let system = system(test, &["logger", "controller", "sensor"]);
+    let mut simulation = system.scl(&["simulate", "--speed", "0.5"]);
+    let mut simulation = simulation.stdout(Stdio::null()).stderr(Stdio::piped()).spawn_guarded();
+    let mut lines = BufReader::new(simulation.stderr.take().unwrap()).lines().map(Result::unwrap);
+    let folder =
+        lines.find_map(|line| Some(line.split_once("SCL_RUNTIME_DIR=")?.1.split_once(' ')?.0.to_owned())).unwrap();
+    thread::spawn(move || lines.count());
+
+    let runtime = RuntimeDir::locate(&|name| (name == "SCL_RUNTIME_DIR").then(|| folder.clone().into())).unwrap();
+    let behind = || {
+        let figures = ComponentStats::read(&runtime.existing_system("mill").ok()??, "logger")?;
+        figures.written.elapsed().ok()
+    };
+    wait_until("the time of the programs is behind", || behind().is_some_and(|by| by > Duration::from_secs(4)));
+    let listed = system.scl(&["list", "--format", "json"]).env("SCL_RUNTIME_DIR", &folder).output().unwrap();
+    let listed: Value = serde_json::from_slice(&listed.stdout).unwrap();
+    let logger = listed["components"].as_array().unwrap().iter().find(|it| it["name"] == "logger");
+    let logger = logger.unwrap_or_else(|| panic!("{listed}"));
+    assert!(logger["silent_for_s"].is_null(), "{logger}");
+    // It removes its folder.
+    kill("-TERM", simulation.id());
+    assert!(simulation.wait().is_ok());
 }
 
 #[test]
