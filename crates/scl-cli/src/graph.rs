@@ -85,7 +85,7 @@ pub(crate) fn graph(arguments: &GraphArguments) -> Result<ExitCode, Problem> {
                 Level::Components => Detail::Components,
                 Level::Gates => Detail::Gates,
             });
-            let diagram = diagram_of(&system, Options { detail, everyone: arguments.everyone, live: false });
+            let diagram = diagram_of(&system, Options { detail, everyone: arguments.everyone, ..Options::default() });
             draw(&diagram, &Layout::of(&diagram))
         }
     };

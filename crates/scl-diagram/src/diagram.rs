@@ -26,12 +26,14 @@ pub struct Frame {
     pub parent: Option<usize>,
 }
 
-/// A component.
+/// A component, or a stack of components of one kind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Block {
-    /// Its full name: `arm.planner`.
+    /// Its full name: `arm.planner`; of a stack, that of its first component.
     pub name: String,
-    /// The text in its head: the name within its group.
+    /// The full names of the other components of a stack.
+    pub others: Vec<String>,
+    /// The text in its head: the name within its group, or `wheel ×4`.
     pub title: String,
     /// Its gates; none if the picture shows components only.
     pub rows: Vec<Row>,
@@ -80,6 +82,13 @@ pub struct Edge {
     pub connections: Vec<(String, String)>,
     /// What flows through it; `None` in a picture of a topology.
     pub flow: Option<Flow>,
+}
+
+impl Block {
+    /// The full names of its components.
+    pub fn components(&self) -> impl Iterator<Item = &str> {
+        std::iter::once(&self.name).chain(&self.others).map(String::as_str)
+    }
 }
 
 impl Diagram {

@@ -4,6 +4,7 @@
 mod diagram;
 mod layout;
 mod live;
+mod stacks;
 mod svg;
 mod system;
 mod text;

@@ -1,7 +1,7 @@
 //! What a picture of a running system shows besides its parts.
 
-/// What a component is doing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What a component is doing, the worst last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum State {
     /// It does not run.
     Stopped,

@@ -124,10 +124,16 @@ fn write_block(out: &mut String, index: usize, block: &Block, placed: &Placed, f
     let area = placed.area;
     let (x, y, width, height) = (area.x, area.y, area.width, area.height);
     let live = block.state.map_or_else(String::new, |state| {
-        let name = escape(&block.name);
-        format!(" state-{}\" data-part=\"block {index}\" data-component=\"{name}\" tabindex=\"0", state.word())
+        let names = names_of(block);
+        let attribute = if block.others.is_empty() { "data-component" } else { "data-stack" };
+        format!(" state-{}\" data-part=\"block {index}\" {attribute}=\"{names}\" tabindex=\"0", state.word())
     });
-    write!(out, "<g class=\"block{live}\"><title>{}</title>", escape(&block.name))?;
+    write!(out, "<g class=\"block{live}\"><title>{}</title>", names_of(block))?;
+    let behind: &[f64] = if block.others.is_empty() { &[] } else { &[6.0, 3.0] };
+    for by in behind {
+        let (x, y) = (x + by, y + by);
+        write!(out, "<rect class=\"border\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" rx=\"5\"/>")?;
+    }
     write!(out, "<rect class=\"border\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" rx=\"5\"/>")?;
     let head = if block.rows.is_empty() { height } else { HEAD };
     let (middle, base) = (x + width / 2.0, y + head / 2.0 + 4.5);
@@ -142,14 +148,19 @@ fn write_block(out: &mut String, index: usize, block: &Block, placed: &Placed, f
     for (place, &row) in placed.rows.iter().enumerate().take(block.rows.len()) {
         let is_right = facing.is_right(End { block: index, row: Some(row) });
         let area = Rectangle { x, y: y + HEAD + ROW * place as f64, width, height: ROW };
-        write_row(out, &format!("{index} {row}"), &block.name, &block.rows[row], area, is_right)?;
+        write_row(out, &format!("{index} {row}"), block, &block.rows[row], area, is_right)?;
     }
     out.push_str("</g>\n");
     Ok(())
 }
 
+/// The names of its components.
+fn names_of(block: &Block) -> String {
+    escape(&block.components().collect::<Vec<_>>().join(" "))
+}
+
 /// Writes a row. Its name is on the side that faces its peers.
-fn write_row(out: &mut String, part: &str, block: &str, row: &Row, area: Rectangle, is_right: bool) -> fmt::Result {
+fn write_row(out: &mut String, part: &str, block: &Block, row: &Row, area: Rectangle, is_right: bool) -> fmt::Result {
     let (left, right, y) = (area.x + BESIDE_TEXT, area.x + area.width - BESIDE_TEXT, area.y + ROW / 2.0 + 4.0);
     let (name_at, other_at) = if is_right { (right, left) } else { (left, right) };
     let (name_class, other_class) = if is_right { ("gate right", "") } else { ("gate", " right") };
@@ -160,10 +171,14 @@ fn write_row(out: &mut String, part: &str, block: &str, row: &Row, area: Rectang
     let Some(figures) = &row.figures else {
         return write!(out, "{name_text}<text class=\"kind{other_class}\" x=\"{other_at}\" y=\"{y}\">{kind}</text>");
     };
-    let gate = format!("{}.{name}", escape(block));
     let bad = if figures.is_bad { " bad" } else { "" };
-    write!(out, "<g class=\"row{bad}\" data-part=\"row {part}\" data-gate=\"{gate}\" tabindex=\"0\">")?;
-    write!(out, "<title>{gate}: {kind}</title>")?;
+    write!(out, "<g class=\"row{bad}\" data-part=\"row {part}\" ")?;
+    if block.others.is_empty() {
+        let gate = format!("{}.{name}", escape(&block.name));
+        write!(out, "data-gate=\"{gate}\" tabindex=\"0\"><title>{gate}: {kind}</title>")?;
+    } else {
+        write!(out, "><title>{name}: {kind}</title>")?;
+    }
     let Rectangle { x, y: top, width, height } = area;
     write!(out, "<rect class=\"reach\" x=\"{x}\" y=\"{top}\" width=\"{width}\" height=\"{height}\"/>")?;
     // How full the queue is, as a line at the lower edge.

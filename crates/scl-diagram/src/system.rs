@@ -2,6 +2,7 @@
 
 use crate::diagram::{Block, Diagram, Edge, End, Frame, Row};
 use crate::live::{Figures, Flow, State};
+use crate::stacks::Stacks;
 use scl_plan::{GateKind, GatePlan, Payload, SystemPlan};
 use scl_terminal::shorten;
 use std::collections::{HashMap, HashSet};
@@ -29,6 +30,8 @@ pub struct Options {
     pub detail: Option<Detail>,
     /// Whether it shows gates that are connected with every other component, such as the log's.
     pub everyone: bool,
+    /// Whether three or more components of a kind, in the same group, are one block.
+    pub stacks: bool,
     /// Whether there is room for what a running system does.
     pub live: bool,
 }
@@ -36,8 +39,8 @@ pub struct Options {
 /// The diagram of a system.
 #[must_use]
 pub fn diagram_of(system: &SystemPlan, options: Options) -> Diagram {
-    let components = system.components.len();
-    let detail = options.detail.unwrap_or(match components {
+    let stacks = if options.stacks { Stacks::of(system) } else { Stacks::default() };
+    let detail = options.detail.unwrap_or(match stacks.blocks(system.components.len()) {
         0..=MOST_WITH_GATES => Detail::Gates,
         _ => Detail::Components,
     });
@@ -46,7 +49,21 @@ pub fn diagram_of(system: &SystemPlan, options: Options) -> Diagram {
     let mut diagram = Diagram { title: system.system.clone(), ..Diagram::default() };
     let mut frames = HashMap::new();
     let mut ends = HashMap::new();
+    let mut blocks_of_stacks = HashMap::new();
     for plan in &system.components {
+        let stack = stacks.stack_of(&plan.component);
+        if let Some(&index) = stack.and_then(|stack| blocks_of_stacks.get(&stack)) {
+            // It has the same gates as the first.
+            let block: &mut Block = &mut diagram.blocks[index];
+            block.others.push(plan.component.clone());
+            for gate in &plan.gates {
+                let row = block.rows.iter().position(|row| row.name == gate.name);
+                if row.is_some() || detail == Detail::Components && !is_hidden(&plan.component, gate, &hidden) {
+                    ends.insert((plan.component.as_str(), gate.name.as_str()), End { block: index, row });
+                }
+            }
+            continue;
+        }
         let (group, title) = plan.component.rsplit_once('.').unwrap_or(("", &plan.component));
         let frame = (!group.is_empty()).then(|| frame_of(&mut diagram.frames, &mut frames, group));
         let mut rows = Vec::new();
@@ -63,13 +80,15 @@ pub fn diagram_of(system: &SystemPlan, options: Options) -> Diagram {
             }
         }
         let state = options.live.then_some(State::Stopped);
-        diagram.blocks.push(Block { name: plan.component.clone(), title: title.to_owned(), rows, frame, state });
+        let title = stack.map_or(title, |stack| stacks.title(stack)).to_owned();
+        blocks_of_stacks.extend(stack.map(|stack| (stack, diagram.blocks.len())));
+        diagram.blocks.push(Block { name: plan.component.clone(), others: Vec::new(), title, rows, frame, state });
     }
     diagram.edges = edges(system, &ends);
     if options.live {
         diagram.edges.iter_mut().for_each(|edge| edge.flow = Some(Flow::NotConnected));
     }
-    if detail == Detail::Components {
+    if detail == Detail::Components || !blocks_of_stacks.is_empty() {
         diagram.edges = merged(diagram.edges);
     }
     diagram.notes = hubs

@@ -19,7 +19,7 @@ fn diagrams() -> impl Strategy<Value = Diagram> {
             let row = |row| Row { name: format!("gate_{row}"), kind: "pub".into(), types: "T".into(), figures: None };
             let rows = (0..rows).map(row);
             let frame = (frame as usize % (frames.len() + 1)).checked_sub(1);
-            Block { title: name.clone(), name, rows: rows.collect(), frame, state: None }
+            Block { title: name.clone(), name, others: Vec::new(), rows: rows.collect(), frame, state: None }
         });
         let blocks: Vec<Block> = blocks.collect();
         let end = |block: u32, row: u32| {

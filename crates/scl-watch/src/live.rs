@@ -95,11 +95,18 @@ pub(crate) fn enliven(
         snapshot.components.iter().map(|row| (row.name.as_str(), row.activity)).collect();
     let rows: HashMap<String, &GateRow> = snapshot.gates.iter().map(|row| (row.name(), row)).collect();
     for block in &mut diagram.blocks {
-        block.state = Some(state_of(states.get(block.name.as_str()).copied()));
-        for row in &mut block.rows {
-            let name = format!("{}.{}", block.name, row.name);
-            row.figures = Some(figures_of(plans, &block.name, rows.get(&name).copied(), troubles.of(&name), now));
-        }
+        // Of a stack, the worst.
+        let of_components = block.components().map(|component| state_of(states.get(component).copied()));
+        block.state = of_components.max();
+        let figures = |gate: &str| {
+            let of_component = |component: &str| {
+                let name = format!("{component}.{gate}");
+                figures_of(plans, component, rows.get(&name).copied(), troubles.of(&name), now)
+            };
+            block.components().map(of_component).reduce(together).unwrap_or_default()
+        };
+        let of_rows: Vec<Figures> = block.rows.iter().map(|row| figures(&row.name)).collect();
+        block.rows.iter_mut().zip(of_rows).for_each(|(row, figures)| row.figures = Some(figures));
     }
     for edge in &mut diagram.edges {
         edge.flow = Some(flow_of(edge, &rows, troubles, now));
@@ -144,6 +151,19 @@ pub(crate) fn figures_of(
         filled: if room <= 1 { 0.0 } else { (waiting as f64 / room as f64).min(1.0) },
         is_bad: counts.is_some_and(|counts| counts.is_dropping(now) || counts.is_missing(now)),
         trouble,
+    }
+}
+
+/// The figures of the same gate of two components: all messages, and the worst of the rest.
+fn together(one: Figures, other: Figures) -> Figures {
+    let per_second = one.per_second + other.per_second;
+    let is_worse = (other.is_bad && !one.is_bad) || one.trouble.is_empty();
+    Figures {
+        rate: short_rate(per_second),
+        per_second,
+        filled: one.filled.max(other.filled),
+        is_bad: one.is_bad || other.is_bad,
+        trouble: if is_worse { other.trouble } else { one.trouble },
     }
 }
 

@@ -7,10 +7,10 @@ use std::collections::BTreeMap;
 
 /// The ways to draw a system.
 pub(crate) const VARIANTS: [Options; 4] = [
-    Options { detail: None, everyone: false, live: true },
-    Options { detail: Some(Detail::Gates), everyone: false, live: true },
-    Options { detail: Some(Detail::Components), everyone: false, live: true },
-    Options { detail: Some(Detail::Gates), everyone: true, live: true },
+    Options { detail: None, everyone: false, stacks: true, live: true },
+    Options { detail: Some(Detail::Gates), everyone: false, stacks: false, live: true },
+    Options { detail: Some(Detail::Components), everyone: false, stacks: false, live: true },
+    Options { detail: Some(Detail::Gates), everyone: true, stacks: false, live: true },
 ];
 
 /// One way to draw a system. The layout is kept.

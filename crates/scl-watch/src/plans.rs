@@ -20,7 +20,11 @@ pub(crate) fn plans_of(system: &System, components: &[Component], file: Option<&
     let place =
         |plan: &Plan| file.and_then(|file| file.components.iter().position(|it| it.component == plan.component));
     plans.sort_by_key(|plan| (place(plan).unwrap_or(usize::MAX), plan.component.clone()));
-    SystemPlan { system: system.name().to_owned(), components: plans, kinds: Vec::new() }
+    SystemPlan {
+        system: system.name().to_owned(),
+        components: plans,
+        kinds: file.map_or_else(Vec::new, |file| file.kinds.clone()),
+    }
 }
 
 /// The plan of a component of which only the name is known.

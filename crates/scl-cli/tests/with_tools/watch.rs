@@ -135,3 +135,43 @@ fn a_recording_has_a_slider() {
     assert_ne!(at(&mut browser, "2"), at(&mut browser, "0.5"));
     assert_eq!(browser.run("return errors"), serde_json::json!([]));
 }
+
+/// Three wheels of a kind, what drives them, and a display.
+const WHEELS: &str = "
+system: rover
+schemas: [rover.proto]
+kinds:
+  - {name: wheel, gates: [setpoint: {sub: rover.Setpoint, queue: 1}]}
+components:
+  - {name: left, kind: wheel}
+  - {name: right, kind: wheel}
+  - {name: rear, kind: wheel}
+  - {name: drive, gates: [wheels: {pub: rover.Setpoint}, speed: {pub: rover.Measurement}]}
+  - {name: display, gates: [speed: {sub: rover.Measurement}]}
+connections:
+  - [drive.wheels, each wheel.setpoint]
+  - [drive.speed, display.speed]
+";
+
+#[needs("node", "npm", "chromium")]
+#[test]
+fn components_of_a_kind_are_a_stack_that_opens() {
+    let mut rover = Rover::of(WHEELS);
+    rover.play(&["left", "right", "rear", "drive", "display"], |_| {});
+    let (_watch, mut browser) = open(&rover);
+    browser.run(r#"await page.waitForSelector('.state-running[data-stack="left right rear"]')"#);
+    assert_eq!(browser.run("return await page.textContent('[data-stack] > .name')"), "wheel ×3");
+    // The messages of all: three times 50 a second.
+    browser
+        .run("while (!(parseFloat(await page.textContent('[data-stack] .rate')) > 75)) await page.waitForTimeout(50)");
+    assert_eq!(browser.run("return (await page.$$('.edge')).length"), 2);
+    browser.run(r##"await page.fill("#search", "rear")"##);
+    assert_eq!(browser.run("return (await page.$$('.block:not(.dim)')).length"), 1);
+
+    rover.kill("right");
+    browser.run("await page.waitForSelector('.state-dead[data-stack]')");
+    browser.run("await page.click('[data-stack] > .name')");
+    browser.run(r#"await page.waitForSelector('.state-dead[data-component="right"]')"#);
+    browser.run(r#"await page.waitForSelector('.state-running[data-component="left"]')"#);
+    assert_eq!(browser.run("return errors"), serde_json::json!([]));
+}

@@ -57,16 +57,22 @@ function drawPicture(text) {
   parts = {};
   for (const part of holder.querySelectorAll("[data-part]")) {
     parts[part.dataset.part] = part;
-    if (part.dataset.gate || part.dataset.component) {
+    const { gate, component, stack } = part.dataset;
+    if (gate || component || stack) {
+      const act = (event) => { event.stopPropagation(); if (stack) openStacks(); else select(part.dataset); };
       part.classList.toggle("selected", isSelected(part));
-      part.addEventListener("click", (event) => { event.stopPropagation(); select(part.dataset); });
-      part.addEventListener("keydown", (event) => {
-        if (event.key === "Enter") { event.stopPropagation(); select(part.dataset); }
-      });
+      part.addEventListener("click", act);
+      part.addEventListener("keydown", (event) => { if (event.key === "Enter") act(event); });
     }
   }
   resize();
   search();
+}
+
+// Shows each component of a kind, with its gates if the stacks have them.
+function openStacks() {
+  at("view").value = at("picture").querySelector(".row") ? "1" : "2";
+  at("view").dispatchEvent(new Event("change"));
 }
 
 function resize() {
@@ -147,7 +153,8 @@ setInterval(() => {
 function search() {
   const wanted = at("search").value.trim().toLowerCase();
   for (const block of at("picture").querySelectorAll(".block")) {
-    const texts = [block.dataset.component, ...[...block.querySelectorAll("[data-gate]")].map((it) => it.dataset.gate)];
+    const { component, stack } = block.dataset;
+    const texts = [component || stack, ...[...block.querySelectorAll("[data-gate]")].map((it) => it.dataset.gate)];
     block.classList.toggle("dim", wanted !== "" && !texts.some((text) => text.toLowerCase().includes(wanted)));
   }
 }
