@@ -1,6 +1,6 @@
 """Flies many times in simulated time, each time through other kills, and draws how well.
 
-    flights.py --seeds 1..400 -o pictures
+    flights.py --seeds 1..1000 -o pictures
 
 Each flight is noted in `flights.csv` beside the picture when it ends, so a run that was stopped goes on where it was;
 remove that file after a change to the aircraft. Build the aircraft first, with optimizations:
