@@ -29,7 +29,7 @@ ALL_TESTS = "--lib --bins --test '*'"
 NEED_MORE = "--features scl-cli/bench " + " ".join(
     f"-p {package}"
     for package in ["scl-c", "scl-cli", "scl-generate", "scl-tests"]
-    + ["any-language", "arcade", "ospecorr", "scl-bench", "scl-gateway", "scl-python", "tls-listener"]
+    + ["any-language", "arcade", "ospecorr", "scl-bench", "scl-foxglove", "scl-gateway", "scl-python", "tls-listener"]
 )
 
 

@@ -33,6 +33,7 @@ pub(crate) fn run_external(words: &[OsString], command_line: &CommandLine) -> Ex
 const PARTS: &[(&str, &str)] = &[
     #[cfg(not(feature = "bench"))]
     ("bench", "build `scl` with it, in the repository of SCL: `cargo build --release -p scl-cli --features bench`"),
+    ("foxglove", "install it: `cargo install scl-foxglove`; in the repository of SCL: `cargo build -p scl-foxglove`"),
     ("gateway", "install it: `cargo install scl-gateway`; in the repository of SCL: `cargo build -p scl-gateway`"),
 ];
 

@@ -86,8 +86,8 @@ use std::process::ExitCode;
 #[command(name = "scl", version, arg_required_else_help = true)]
 #[command(after_help = "Exit code: 0 fine (or only warnings), 1 errors or a failed component, 2 could not run.
 
-`scl x` runs the program `scl-x` beside `scl` or from PATH if there is no command `x`. One of them is `scl gateway`, which
-connects the components of several hosts.")]
+`scl x` runs the program `scl-x` beside `scl` or from PATH if there is no command `x`. Of SCL, these are `scl gateway`,
+which connects the components of several hosts, and `scl foxglove`, which shows a system to Foxglove and Lichtblick.")]
 struct CommandLine {
     #[command(subcommand)]
     command: Command,

@@ -15,6 +15,8 @@ mod client;
 #[cfg(all(feature = "run", feature = "generate", feature = "record"))]
 mod drive;
 mod editor;
+#[cfg(feature = "record")]
+mod foxglove;
 #[cfg(all(feature = "run", feature = "generate"))]
 mod languages;
 mod lsp;

@@ -6,7 +6,7 @@ use std::process::Command;
 
 /// Installs a package in this version if it is not there yet, and returns its folder `node_modules`.
 pub(crate) fn installed(package: &str, version: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{package}-{version}"));
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{package}-{version}").replace('/', "-"));
     // Tests that install it at the same time would leave half of each.
     let _lock = lock_file(&folder.with_extension("lock"));
     let modules = folder.join("node_modules");
